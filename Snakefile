@@ -13,8 +13,6 @@ include: "workflow/rules/common.smk"
 wildcard_constraints:
     variant=any_of(VARIANTS),
     scene=any_of(ALL),
-    sweep=any_of(SWEEPS),
-    theorem=any_of(paths.THEOREMS),
     extension="png|svg|pdf",
     number=r"\d{4}",
 
@@ -22,10 +20,13 @@ wildcard_constraints:
 include: "workflow/rules/data.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/study.smk"
-include: "workflow/rules/claims.smk"
-include: "workflow/rules/proofs.smk"
-include: "workflow/rules/families.smk"
-include: "workflow/rules/sweeps.smk"
+
+
+# Rules of extensions.
+for name in extensions():
+    if (EXTENSIONS / name / "rules.smk").is_file():
+
+        include: EXTENSIONS / name / "rules.smk"
 
 
 rule all:

@@ -53,32 +53,6 @@ def pickled(shared):
     return read
 
 
-@pytest.fixture(scope="session")
-def derived(pickled):
-    """The dataset of all derivations, which takes seconds to compute."""
-    from claim_data import made
-
-    from pseudorigid.proofs.derivations import derivations
-
-    return pickled("derivations", lambda: made(derivations))
-
-
-@pytest.fixture(scope="session")
-def flowing(pickled):
-    """The dataset of the flux, whose areas take seconds to compute."""
-    import claim_data
-
-    return pickled("flux", claim_data.flux_of_the_paper)
-
-
-@pytest.fixture(scope="session")
-def datasets(pickled, derived, flowing):
-    """All datasets that the checks of claims need, computed with little work."""
-    import claim_data
-
-    return pickled("claims", lambda: claim_data.datasets(derived, flowing))
-
-
 @pytest.fixture
 def tree(tmp_path):
     """The files of a fresh clone: sources, and figures that are newer than anything."""
@@ -122,15 +96,14 @@ def variants(shared, finished):
 
 
 @pytest.fixture(scope="session")
-def packed(shared, accepted):
-    """The archive of `accepted`."""
-    from pipeline import config
-    from pipeline.publication import archive
+def reported(shared, variants):
+    """A read-only copy with three small scenes, two of them also in a variant, and their report."""
 
-    def pack(folder):
-        archive.write(accepted.path, config.load(accepted.config), folder / "a.tar")
+    def make(folder):
+        tree = fresh_tree(folder, of_scenes("fig3", "fig6", "fig7", variants=VARIANTS), variants)
+        (folder / "said").write_text(tree.succeed("report"))
 
-    return shared("archive", pack) / "a.tar"
+    return Tree(shared("reported in a folder with spaces", make))
 
 
 # File of pseudorigid/dynamics -> code appended to it: other data, the same data, and a bug.

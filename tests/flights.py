@@ -1,6 +1,6 @@
 """Families of hard flights, and the error of the time to the next impact.
 
-The correct time is the first root that pseudorigid.proofs.reference_solver proves in ball
+The correct time is the first root that study.reference_solver proves in ball
 arithmetic. Where that solver cannot decide about a double root, or the time in doubles is another
 root, the mpmath solver of independent_solver.py decides. A slow test compares the two solvers.
 """
@@ -12,7 +12,7 @@ from independent_solver import condition, judge
 from mpmath import mpf
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.proofs.reference_solver import first_root
+from study.reference_solver import first_root
 
 # Largest relative error of tau over max(1, condition), see Verdict; measured 4.1e-16 at 102,000
 # states.

@@ -21,6 +21,7 @@ def assert_text_is_whole_and_apart(figure, margin=4, slack=0):
     with style.pinned():
         renderer = FigureCanvasAgg(figure).get_renderer()
         boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
+        boxes = [box for box in boxes if box[0]]
     wide, high = figure.bbox.size
     for text, extent in boxes:
         assert min(extent.x0, extent.y0) >= margin, text

@@ -107,7 +107,7 @@ def everything():
     scenes["fig2"]["impacts"] = [300 for _ in scenes["fig2"]["impacts"]]
     scenes["fig7"]["formats"] = ["png", "svg", "pdf"]
     with tempfile.TemporaryDirectory() as folder:
-        yield from paper_probe.figures(folder, config.check(document)["variants"])
+        yield from paper_probe.figures(folder, config.check(document))
         for file in Path(folder).rglob("*.nc"):
             yield file.name, digest(file.read_bytes())
     # What the switches themselves change, so that a test can tell that they were honoured.
@@ -137,14 +137,20 @@ def may_fuse(a, b):
 
 def compiled():
     """Yield (function, library calls and fused operations) of every compiled function."""
-    from pseudorigid.sweep import cell
+    from pipeline.declaration import extensions
+    from pseudorigid import classify_orbits
 
     dict(everything())
     impact.reflect(0.1, 0.1, 0.1, 0.2, impact.impact_coefficients(0.2))  # for the explorer
-    cell.cell(0.2, 6.25, 16, 1000)
+    classify_orbits(BALL, BALL.start(np.linspace(-0.9, 0.9, 16), ENERGY), 1000)
+    if "atlas" in extensions():
+        from extensions.atlas import cell
+
+        cell.cell(0.2, 6.25, 16, 1000)
     calls_the_library(1.0)
     may_fuse(np.ones(9), np.ones(9))
-    ours = [name for name in sys.modules if name.partition(".")[0] in ("pseudorigid", "__main__")]
+    packages = "pseudorigid", "extensions", "__main__"
+    ours = [name for name in sys.modules if name.partition(".")[0] in packages]
     for module in map(sys.modules.get, ours):
         for name, function in vars(module).items():
             if hasattr(function, "inspect_asm"):

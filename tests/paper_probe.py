@@ -15,14 +15,14 @@ from pathlib import Path
 from project import SHIPPED, make_here
 
 from pipeline import config
-from pipeline.config import build_specs, paths
+from pipeline.config import paths
+from pipeline.config.build_specs import build_specs
 
 
-def figures(folder, variants, names=()):
+def figures(folder, checked, names=()):
     """Yield (file name, hash) of the figures of these scenes of the paper, or of all."""
-    variants = {paths.PAPER: variants[paths.PAPER]}
-    specs = build_specs.of_variants(variants)
-    for scene, upstream in paths.figures(variants).values():
+    specs = build_specs(checked, [paths.PAPER])
+    for scene, upstream in paths.figures(checked.variants).values():
         if not names or scene in names:
             make_here(folder, specs, upstream[-1:])
             drawing = Path(folder, upstream[-1])
@@ -31,7 +31,7 @@ def figures(folder, variants, names=()):
 
 def paper(folder, names=()):
     """Yield (file name, hash) of the published figures of these scenes, or of all."""
-    yield from figures(folder, config.load(SHIPPED)["variants"], names)
+    yield from figures(folder, config.load(SHIPPED), names)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,9 @@ from pathlib import Path
 
 import yaml
 
+from pipeline.config import PAPER
+from pipeline.config.validation.document import KEYS
+from pipeline.records import machine_code
 from pseudorigid.kernel.compiled import locator
 
 ROOT = Path(__file__).parents[1]
@@ -25,22 +28,28 @@ PARTS = (
 PLANNED = """
 import sys
 from pipeline.checks.freshness import Freshness
-from pipeline.config import build_specs, figures, load
+from pipeline.config import figures, load
+from pipeline.config.build_specs import build_specs, with_dependencies
 from pipeline.records.sources import ROOT
-variants = load(ROOT / "config.yaml")["variants"]
-specs, published = build_specs.of_variants(variants), figures(variants, "paper")
+config = load(ROOT / "config.yaml")
+specs, published = build_specs(config, ["paper"]), figures(config.variants, "paper")
 drawings = [published[path][1][-1] for path in sys.argv[1:] or published]
-print(*Freshness(ROOT, specs).outdated(build_specs.with_dependencies(specs, drawings)))
+print(*Freshness(ROOT, specs).outdated(with_dependencies(specs, drawings)))
 """
 # The C library parses and writes a config ten times as fast.
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+MEANINGS = "src/pipeline/records/__pycache__"  # where hashes of sources are kept
+# Keys of config.yaml whose blocks are shipped.
+APART = [key for name, key in KEYS.items() if name != PAPER]
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 
 def shipped():
-    """A new document with the committed scenes."""
-    return yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER)
+    """A new document with the committed scenes, and the blocks that are shipped beside them."""
+    from pipeline.config.validation.reading import with_shipped
+
+    return with_shipped(yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER))
 
 
 def run(*command, **how):
@@ -94,13 +103,13 @@ class Tree:
         self.cold = False
         here, there = Path(locator.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
         there.mkdir(exist_ok=True)
-        for kept in here.glob("meanings-*.json"):
-            shutil.copy(kept, there)
-        for kept in here.glob("pseudorigid.*-*"):
-            module = kept.name.rpartition("-")[0]
-            subfolder = locator.subfolder.__wrapped__
+        for kept in (ROOT / MEANINGS).glob("meanings-*.json"):
+            (self.path / MEANINGS).mkdir(exist_ok=True)
+            shutil.copy(kept, self.path / MEANINGS)
+        for kept in here.glob("*.*-*"):
+            module, named = kept.name.rpartition("-")[0], machine_code.named.__wrapped__
             with suppress(ValueError):  # the module no longer exists
-                if subfolder(self.path / "src", module)[0] == kept.name:
+                if named(self.path / "src", module)[0] == kept.name:
                     shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)
 
     def command(self, *arguments):
@@ -167,10 +176,11 @@ class Tree:
 
     def make_here(self, *targets):
         """Make results with records in this process, whose code is that of this tree."""
-        from pipeline.config import build_specs, load
+        from pipeline.config import load
+        from pipeline.config.build_specs import build_specs
         from pipeline.records.record import recorded
 
-        make_here(self.path, build_specs.of_all(load(self.config)), targets, recorded)
+        make_here(self.path, build_specs(load(self.config)), targets, recorded)
 
     def copy(self, path):
         """Copy it with its results."""
@@ -221,7 +231,7 @@ def make_here(folder, specs, targets, around=nullcontext):
 
 def small(document):
     """Reduce a config to the paper's scenes with as little work as shows that they work."""
-    document |= {part: {} for part in ("variants", "sweeps", "claims", "families", "proofs")}
+    document |= {part: {} for part in ("variants", *APART)}
     for block in document["scenes"].values():
         if isinstance(block.get("impacts"), list):
             block["impacts"] = [30 for _ in block["impacts"]]
@@ -239,7 +249,8 @@ def of_scenes(*names, **parts):
     """A small config of some of the shipped scenes, drawn as png, with further parts."""
     document = small(shipped())
     scenes = {name: document["scenes"][name] | {"formats": ["png"]} for name in names}
-    return {"ball": document["ball"], "scenes": scenes} | parts
+    apart = {part: {} for part in APART}
+    return {"ball": document["ball"], "scenes": scenes} | apart | parts
 
 
 def wait_for(condition, seconds=60):

@@ -6,6 +6,8 @@ from importlib import import_module
 import numpy as np
 import xarray as xr
 
+from pipeline.config.schema.kinds import KINDS as DRAWN_BY
+
 VIEW = {"elevation": 40, "azimuth": 115}
 SPACE = {
     "x": {"limits": [-0.2, 0.6], "ticks": [-0.2, 0, 0.2, 0.4]},
@@ -121,7 +123,8 @@ DATA = {
 
 
 def module(kind):
-    return import_module(f"pseudorigid.figures.kinds.{kind}")
+    """The module that draws a kind of picture."""
+    return import_module(DRAWN_BY[kind].drawn_by.rpartition(".")[0])
 
 
 def draw(kind):

@@ -7,7 +7,6 @@ from typing import NamedTuple
 from pipeline import config
 from pipeline.checks.accept import accept
 from pipeline.checks.verify import verify
-from pipeline.publication import archive
 
 
 class Found(NamedTuple):
@@ -37,12 +36,3 @@ def accepting(tree):
     with redirect_stdout(StringIO()) as text:
         status = accept(tree.path, config.load(tree.config))
     return status, text.getvalue().splitlines()
-
-
-def against(tree, place):
-    """Return exit status, file -> state, and all lines of verify --against."""
-    with redirect_stdout(StringIO()) as text:
-        status = archive.compare(tree.path, config.load(tree.config), place)
-    lines = text.getvalue().splitlines()
-    rows = (line.split(maxsplit=1) for line in lines if "  " in line.strip() and line[0] != " ")
-    return status, dict(rows), lines

@@ -23,15 +23,18 @@ def compile_the_rest():
     """Call the ball's methods, a cell of a sweep, and the study."""
     import numpy as np
 
+    from pipeline.declaration import extensions
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.ensemble import ImpactMap
     from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-    from pseudorigid.study import figure_errors, states
-    from pseudorigid.study.methods import counted_methods
-    from pseudorigid.sweep import cell
+    from study import figure_errors, states
+    from study.methods import counted_methods
 
-    for count in (12, 100):
-        cell.cell(0.2, 6.25, count, 200)
+    if "atlas" in extensions():
+        from extensions.atlas import cell
+
+        for count in (12, 100):
+            cell.cell(0.2, 6.25, count, 200)
     state = states.BALL.start(np.linspace(-0.9, 0.9, 30), 0.01)
     for how in (None, (0.1, 1e-12)):
         ball = Ball(0.2, 0.04, ImpactMap(how))
@@ -51,10 +54,11 @@ def compile_the_rest():
 
 
 if __name__ == "__main__":
+    from pipeline.records.machine_code import SRC
+    from pipeline.records.syntax_hash import syntax_hash
     from pseudorigid.kernel.compiled import locator
-    from pseudorigid.kernel.compiled.syntax_hash import syntax_hash
 
-    files = sorted((locator.SRC / "pseudorigid").rglob("*.py"))
+    files = sorted(file for file in SRC.rglob("*.py") if b"@jit" in file.read_bytes())
     digest = hashlib.sha256(" ".join(map(syntax_hash, files)).encode()).hexdigest()
     done = Path(locator.folder(), f"by the tests {digest[:16]}")
     if not done.exists():

@@ -1,8 +1,8 @@
 # %% One scan of the atlas: the regular share of the section over the energy.
 import numpy as np
 
+from extensions.atlas.cell import cells
 from pseudorigid import Picture
-from pseudorigid.sweep.cell import cells
 
 energies = np.linspace(0.25, 20, 80)  # E/g^2
 picture = Picture([0, 20], [0, 1], ("$E/g^2$", "Regular share"), "Two balls; bars: 95 %")

@@ -1,8 +1,8 @@
 # %% One orbit in double precision, and the true orbit of the same start.
 import numpy as np
 
+from extensions.proofs import true_orbit
 from pseudorigid import Ball, Picture, orbit
-from pseudorigid.proofs import true_orbit
 
 ball = Ball(k=0.2, g=0.04)
 doubles = orbit(ball, ball.start(0.6, energy=0.01), impacts=160)

@@ -1,5 +1,11 @@
 """The workflow: it turns config.yaml into files and checks them."""
 
-import pseudorigid
+from .loading import load_from_text
 
-pseudorigid.load_from_text(__name__)
+load_from_text()
+
+from pseudorigid.kernel.compiled import naming  # noqa: E402  (loaded from its text)
+
+from .records import machine_code  # noqa: E402
+
+naming.subfolder = machine_code.subfolder

@@ -18,38 +18,22 @@ All functions read numbers by one rule:
 - A refused argument raises ValueError with one line: the name, the value, and what is allowed.
 """
 
-import hashlib
 import importlib
-import os
-import sys
-from collections.abc import Sequence
-from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from types import CodeType, ModuleType
 from typing import Any
 
 _MODULES = {
     "Ball": "dynamics.ball",
     "orbit": "dynamics.orbits",
-    "motion": "dynamics.motion",
     "symmetric_orbits": "dynamics.periodic",
+    "motion": "dynamics.motion",
     "trace_manifold": "dynamics.manifolds",
     "lyapunov_spectrum": "dynamics.lyapunov",
-    "rotation_number": "sweep.quantities",
-    "residue": "sweep.quantities",
-    "classify_orbits": "sweep.quantities",
-    "turnstile_flux": "sweep.quantities",
+    "rotation_number": "dynamics.quantities",
+    "residue": "dynamics.quantities",
+    "classify_orbits": "dynamics.quantities",
     "Picture": "figures.picture",
-    "prove_orbit": "proofs.theorems.requests",
-    "prove_curve": "proofs.theorems.requests",
 }
-
 __all__ = list(_MODULES)
-
-# The modules of this package are compiled from their text, which takes milliseconds. Python would
-# run a cached .pyc if the source has the size and the second that the .pyc states, and so miss an
-# edit of the same length within one second. No .pyc of this package is read or written.
-LOADED: "dict[str, set[str]]" = {}  # real path of a file -> sha256 of each text loaded from it
-_PACKAGES_FROM_TEXT: "set[str]" = set()
 
 
 def __getattr__(name: str) -> Any:
@@ -57,6 +41,8 @@ def __getattr__(name: str) -> Any:
         return getattr(importlib.import_module(f".{_MODULES[name]}", __name__), name)
     if name == "__version__":
         return _version()
+    if place := _moved().get(name):
+        raise ImportError(f"{name} has moved: from {place} import {name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -77,43 +63,10 @@ def _version() -> str:
     return metadata.version(__name__)
 
 
-def note_loaded(path: "str | os.PathLike[str]", data: bytes) -> None:
-    """Add the hash of a file's content, as this process read it, to LOADED."""
-    digest = hashlib.sha256(data).hexdigest()
-    LOADED.setdefault(os.path.realpath(path), set()).add(digest)
+def _moved() -> dict[str, str]:
+    """Return name -> the package that has it now, for names that were in this one."""
+    import tomllib
+    from importlib import resources
 
-
-def load_from_text(package: str) -> None:
-    """Load the modules of a package from their text from now on."""
-    _PACKAGES_FROM_TEXT.add(package)
-    if _Finder not in sys.meta_path:
-        sys.meta_path.insert(0, _Finder)
-
-
-class _Loader(SourceFileLoader):
-    """Compile a module from the text that its file has now."""
-
-    def get_code(self, fullname: str) -> CodeType:
-        path = self.get_filename(fullname)
-        data = self.get_data(path)
-        note_loaded(path, data)
-        code: CodeType = self.source_to_code(data, path)
-        return code
-
-
-class _Finder:
-    """Find the modules of packages that are loaded from their text."""
-
-    @staticmethod
-    def find_spec(
-        fullname: str, path: "Sequence[str] | None" = None, target: "ModuleType | None" = None
-    ) -> "ModuleSpec | None":
-        if fullname.partition(".")[0] not in _PACKAGES_FROM_TEXT:
-            return None
-        spec = PathFinder.find_spec(fullname, path, target)
-        if spec is not None and type(spec.loader) is SourceFileLoader:
-            spec.loader = _Loader(fullname, spec.loader.path)
-        return spec
-
-
-load_from_text(__name__)
+    text = resources.files(__name__).joinpath("moved.toml").read_text()
+    return tomllib.loads(text)

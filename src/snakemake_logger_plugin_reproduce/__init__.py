@@ -20,7 +20,7 @@ from pipeline.records.files import disk_is_full, identity
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
-from .cells import Cells
+from .parts import Parts, is_part
 
 WIDTH = 6  # characters of a scene's name
 
@@ -39,7 +39,7 @@ class LogHandler(LogHandlerBase):
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
-        self.cells: Cells | None = None
+        self.parts: Parts | None = None
         self.steps = "0 steps"  # how many are done
         logging.raiseExceptions = False  # snakemake's own log may be on a full disk
         threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -97,9 +97,9 @@ class LogHandler(LogHandlerBase):
         spec = plan().freshness.build_specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        if step.startswith("block") and len(words) > 1:  # blocks are many: cells are counted
-            self.cells = self.cells or Cells(plan().freshness.build_specs, plan().outdated)
-            line = self.cells.done(self.results[job])
+        if spec and is_part(spec) and len(words) > 1:  # they are many: they are counted
+            self.parts = self.parts or Parts(plan().freshness.build_specs, plan().outdated)
+            line = self.parts.done(self.results[job])
         if line:
             self.heartbeat.print(line.rstrip())
 

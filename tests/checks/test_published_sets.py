@@ -125,12 +125,12 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved, edited):
     assert found.notes == ["again.png: new: ./reproduce accept adds it to the manifest"]
     assert (found.status, found.findings) == (0, [])
     assert found.wrong == {}
-    assert found.lines[-1] == "11 of 12 figures identical; 1 note"
+    assert found.lines[-1] == "14 of 15 figures identical; 1 note"
     status, lines = accepting(moved)
     assert status == 0
     assert of_the_paper(lines) == [
         "again.png  new",
-        "paper_figures/SHA256SUMS and paper_figures/MANIFEST.json renewed: 12 figures",
+        "paper_figures/SHA256SUMS and paper_figures/MANIFEST.json renewed: 15 figures",
     ]
     assert verified(moved)[:4] == (0, {}, [], [])
 

@@ -25,7 +25,7 @@ CHANGED = "changed after it was made: run ./reproduce"
 def test_an_intact_tree_passes_with_its_results_and_without(moved):
     result = moved.run("verify")
     assert result.returncode == 0, result.stdout
-    assert result.stdout.splitlines()[-1] == "11 of 11 figures identical"
+    assert result.stdout.splitlines()[-1] == "14 of 14 figures identical"
     assert verified(moved)[:4] == (0, {}, [], [])
     shutil.rmtree(moved.path / "results")
     bare = moved.run("verify")
@@ -76,7 +76,8 @@ def test_source(moved, edited):
     results = ", ".join(f"results/paper/orbits_fig{number}.nc" for number in (2, 5, 8))
     words = f"{results}: made by other code than this tree's: {module} differs: run ./reproduce"
     assert found.findings[0] == words
-    assert found.notes == [f"fig2.png, fig5.png, fig8.png: source: {module} differs"]
+    figures = "fig2.png, fig2.svg, fig5.png, fig5.svg and 2 more"
+    assert found.notes == [f"{figures}: source: {module} differs"]
     moved.take(edited, "orbits_")
     again = verified(moved)
     assert (again.status, again.wrong, again.findings) == (0, {}, [])
@@ -106,7 +107,13 @@ def change_a_value(path, variable, index, by_ulps):
 @pytest.mark.parametrize(
     ("path", "variable", "index", "figures", "block"),
     [
-        ("results/paper/orbits_fig5.nc", "x", 17, {"fig5.png"}, "block 0 on (value 0 of "),
+        (
+            "results/paper/orbits_fig5.nc",
+            "x",
+            17,
+            {"fig5.png", "fig5.svg"},
+            "block 0 on (value 0 of ",
+        ),
         (MOTION, "strain", 1500, {"fig4.png", "fig4.svg"}, "block 1 on (value 1,024 of "),
     ],
 )
@@ -133,7 +140,7 @@ def test_a_truncated_artifact(moved, keep):
     path = moved.path / ORBITS
     path.write_bytes(path.read_bytes()[:keep])
     found = verified(moved)
-    assert set(found.wrong) == {"fig2.png"}
+    assert set(found.wrong) == {"fig2.png", "fig2.svg"}
     assert found.wrong["fig2.png"][0].startswith(f"data: {ORBITS}: ")
 
 

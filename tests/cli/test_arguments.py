@@ -3,41 +3,29 @@
 import os
 import re
 import sys
-from contextlib import chdir
 from importlib.metadata import version
-from unittest.mock import patch
+from importlib.util import find_spec
 
 import pytest
+from commands import answer, mistake
 from documents import complaint
-from project import ROOT, run
+from project import run
 
 from pipeline.cli import arguments
-from pipeline.cli.main import main
-from pipeline.config.validation import document
-from pseudorigid.proofs import THEOREMS
-
-
-def answer(capsys, *words):
-    """Return the exit status, stdout and stderr of a command that makes nothing."""
-    with chdir(ROOT), patch.dict(os.environ):
-        try:
-            status = main(list(words))
-        except SystemExit as end:
-            status = end.code
-    return status, *capsys.readouterr()
+from pipeline.commands import all_commands, module_of
 
 
 def test_help_has_a_line_for_each_command(capsys):
     for words in (["--help"], ["-h"], ["help"], ["fig3", "--help"]):
         status, out, err = answer(capsys, *words)
         assert (status, err) == (0, "")
-        for name, command in arguments.COMMANDS.items():
+        for name, command in all_commands().items():
             assert re.search(rf"^  {name} +{re.escape(command.line)}$", out, re.MULTILINE)
     assert len(out.splitlines()) <= 41
 
 
 def test_the_help_of_each_command_names_its_arguments(capsys):
-    for name, command in arguments.COMMANDS.items():
+    for name, command in all_commands().items():
         status, out, err = answer(capsys, name, "--help")
         assert (status, out, err) == answer(capsys, "help", name)
         assert (status, err) == (0, "")
@@ -46,15 +34,9 @@ def test_the_help_of_each_command_names_its_arguments(capsys):
         assert ("goes to snakemake" in " ".join(out.split())) == command.runs_snakemake
 
 
-def test_each_command_has_its_module_and_is_known_to_the_config():
-    for name, command in arguments.COMMANDS.items():
-        file = ROOT / "src/pipeline/cli/commands" / f"{command.module or name}.py"
-        assert file.is_file() or name == "help"
-    assert {*arguments.COMMANDS, "all"} == set(document.COMMANDS)
-
-
-def test_theorems_are_named_like_their_certificates():
-    assert all(theorem.certificate == f"{name}.toml" for name, theorem in THEOREMS.items())
+def test_each_command_has_its_module():
+    for name, command in all_commands().items():
+        assert name == "help" or find_spec(module_of(command, name, {})), name
 
 
 def test_the_version_is_ours_and_snakemakes(capsys):
@@ -74,39 +56,30 @@ MISTAKES = {
     "variant lower-energi": ": no variant lower-energi: did you mean lower-energy?",
     "variant lower-energy fig99": f": no figure fig99: did you mean {FIGURES}?",
     "compare paper douled fig2": ": no variant douled: did you mean doubled?",
-    "sweep plan": ": no sweep plan: did you mean plane?",
-    "sweep --version": " sweep: no argument --version: options of snakemake follow --",
     "list a=b": " list: no argument a=b",
     "verify --strikt": " verify: no argument --strikt: did you mean --strict?",
-    "prove horsshoe-outer": ": no theorem horsshoe-outer: did you mean horseshoe-outer?",
-    "prove --impact": " prove: no argument --impact: did you mean --impacts?",
-    "claims --check 3 --data=x": ": claims: --check was removed: all claims are judged",
-    "claims --data x": ": claims: --data was removed: the data of this tree are judged",
-    "archive --machine aarch64": ": archive: --machine was removed: archive on such a machine",
-    "report --against": " report: no argument --against: verify has it",
-    "fig3 --slurm": ": no argument --slurm: sweep has it",
-    "sweep --coers 1": " sweep: no argument --coers: did you mean --cores?",
+    "fig3 --strict": ": no argument --strict: verify has it",
+    "study --coers 1": " study: no argument --coers: did you mean --cores?",
     "fig3 --cores 0": ": argument -c/--cores: '0' is not allowed: expected 1 or more, or all",
     "-c0": ": argument -c/--cores: '0' is not allowed: expected 1 or more, or all",
     "report -c x": " report: argument -c/--cores: 'x' is not allowed: expected 1 or more, or all",
     "fig3 --dag": ": no argument --dag: options of snakemake follow --",
     "fig3 --foo": ": no argument --foo: options of snakemake follow --",
-    "claims -j 5": " claims: no argument -j: options of snakemake follow --",
+    "study --version": " study: no argument --version: options of snakemake follow --",
+    "study -j 5": " study: no argument -j: options of snakemake follow --",
 }
 
 
 @pytest.mark.parametrize("line", MISTAKES)
 def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line):
-    status, out, err = answer(capsys, *line.split())
-    assert (status, out, err.count("\n")) == (2, "", 1)
-    assert err.partition(" config.yaml has ")[0].rstrip() == f"reproduce{MISTAKES[line]}"
+    assert mistake(capsys, line) == MISTAKES[line]
 
 
 def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
-    args = arguments.read(["sweep", "--slurm", "line", "-c2", "small", "--", "-j", "5", "x"])
-    assert (args.sweep, args.slurm, args.cores) == (["line", "small"], True, "2")
+    args = arguments.read(["variant", "-c2", "low", "fig3", "--", "-j", "5", "x"])
+    assert (args.variant, args.figure, args.cores) == ("low", ["fig3"], "2")
     assert (args.options, args.makes_nothing) == (["-j", "5", "x"], False)
-    args = arguments.read(["claims", "--cores", "2", "-n"])
+    args = arguments.read(["study", "--cores", "2", "-n"])
     assert (args.cores, args.options, args.makes_nothing) == ("2", [], True)
     assert arguments.read(["fig3", "--", "--dag"]).makes_nothing
     args = arguments.read(["test", "-k", "verify", "--help"])
@@ -126,6 +99,6 @@ def test_help_without_a_venv_installs_nothing(tree, tmp_path):
 
 def test_no_scene_has_the_name_of_a_command():
     block = {"picture": "motion", "energy": 0.01, "period": 1, "type": "elliptic", "duration": 3}
-    for key in ("scenes", "proofs"):
+    for key in ("scenes", "study"):
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
         assert complaint(given).startswith(f"{key}: 'verify' is not allowed")

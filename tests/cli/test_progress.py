@@ -12,7 +12,8 @@ import snakemake_logger_plugin_reproduce as steps
 from pipeline.checks.freshness import Freshness
 from pipeline.cli import figures, packages
 from pipeline.cli.session import UsageError, one_line
-from pipeline.config import build_specs, load
+from pipeline.config import load
+from pipeline.config.build_specs import build_specs
 from pipeline.jobs import heartbeat, stage
 from pipeline.jobs.plan import Plan
 from pipeline.records.build_spec import BuildSpec
@@ -22,17 +23,12 @@ ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.pn
 
 def test_a_result_has_the_name_of_its_scene_and_step():
     checked = load(SHIPPED)
-    checked["variants"]["thin"] = {"fig4": checked["scenes"]["fig4"] | {"energy": 0.011}}
-    names = {path: (each.scene, each.step) for path, each in build_specs.of_all(checked).items()}
+    checked.variants["thin"] = {"fig4": checked.scenes["fig4"] | {"energy": 0.011}}
+    names = {path: (each.scene, each.step) for path, each in build_specs(checked).items()}
     assert names[ORBITS] == ("fig2", "orbits")
     assert names[DRAWING] == ("fig2", "drawing png")
     assert names["results/thin/figures/fig4.png"] == ("thin/fig4", "drawing png")
-    assert names["results/claims/last_curve_last_curve.nc"] == ("last_curve", "last_curve")
-    assert names["results/claims/derivations.nc"] == ("claims", "derivations")
-    assert names["results/claims/theorem_six-elliptic.nc"] == ("six-elliptic", "theorem")
-    assert names["results/sweep/plane_0012.nc"] == ("plane", "block 12")
-    assert names["results/sweep/plane.nc"] == ("plane", "data")
-    assert names["results/study/work.nc"] == ("work", "data")
+    assert names["results/study/work.nc"] == ("work_uniform", "work")
 
 
 def spec(path, step, config=None):
@@ -164,12 +160,12 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     assert handler.failed
 
 
-def test_blocks_of_a_sweep_are_reported_as_cells(handler, capsys, monkeypatch):
-    block = spec(ORBITS, "block 3", {"cells": [[0.2, 2.0]], "starts": 10, "impacts": 10})
+def test_parts_of_a_dataset_are_counted(handler, capsys, monkeypatch):
+    block = spec(ORBITS, "block 3")
     fresh = Freshness(ROOT, {ORBITS: block})
     monkeypatch.setattr(steps, "plan", lambda: Plan({}, fresh, {ORBITS}))
     emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
-    assert capsys.readouterr().err == "sweep: 1 of 1 cells\n"
+    assert capsys.readouterr().err == "fig2: 1 of 1 blocks\n"
 
 
 def test_only_errors_of_the_given_kind_are_one_line():

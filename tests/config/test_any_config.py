@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from project import SHIPPED, shipped
 
 from pipeline import config
-from pipeline.config import build_specs
+from pipeline.config.build_specs import build_specs
 
 
 @pytest.mark.slow
@@ -25,7 +25,7 @@ def test_any_config(tmp_path):
         except config.ConfigError as error:
             assert all(line.startswith("config.yaml: ") for line in str(error).splitlines())
             return
-        for result in build_specs.of_variants(checked["variants"], ["paper"]):
+        for result in build_specs(checked, ["paper"]):
             assert (tmp_path / result).resolve().is_relative_to(tmp_path / "results" / "paper")
 
     trial()

@@ -5,7 +5,7 @@ from project import ROOT, check_jsonschema
 from slowly import slowly
 
 from pipeline.config import json_schema
-from pipeline.config.reference import example
+from pipeline.config.reference import example, has_picture
 from pipeline.config.schema.kinds import KINDS
 
 
@@ -15,13 +15,9 @@ def check(text, folder):
     return check_jsonschema("--schemafile", ROOT / json_schema.FILE, folder / "config.yaml")
 
 
-def test_the_committed_schema_is_up_to_date():
-    assert (ROOT / json_schema.FILE).read_text() == json_schema.text()
-
-
 def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     text = (ROOT / "tests" / "scenes.yaml").read_text()
-    for kind in KINDS:
+    for kind in filter(lambda name: has_picture(KINDS[name]), KINDS):
         block = "".join(f"    {line}\n" for line in example(kind).splitlines())
         text = text.replace("scenes:\n", f"scenes:\n  another_{kind}:\n{block}", 1)
     status, output = check(text, tmp_path)
@@ -38,7 +34,7 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
             ("picture: portrait", "picture: portrayed", "portrayed"),
             ("impacts: 200000", "impacts: '200000'", "200000"),
             ("scenes:\n", "scenes:\n  -x: {picture: portrait}\n", "-x"),
-            ("sweeps:", "sweeps:\n  s: {k: [0.2], energy: [1], starts: 0}\nothers:", "others"),
+            ("\nscenes:", "\nothers: {}\nscenes:", "others"),
         ),
     ],
 )

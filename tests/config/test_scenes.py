@@ -12,7 +12,7 @@ def test_a_scene_is_completed_with_defaults():
     document = good()
     for field in ("sea", "view", "axes"):
         del document["scenes"]["a_portrait"][field]
-    scenes = config.check(document)["scenes"]
+    scenes = config.check(document).scenes
     assert list(scenes) == list(SCENES)
     given = document["scenes"]["a_portrait"]
     added = {"sea": [], "view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
@@ -41,7 +41,7 @@ def test_a_scene_is_completed_with_defaults():
 def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
     document = changed("scenes.a_portrait.starts", [start, 0.5])
     if words is None:
-        assert config.check(document)["scenes"]["a_portrait"]["starts"][0] == start
+        assert config.check(document).scenes["a_portrait"]["starts"][0] == start
     else:
         line = complaint(document)
         assert line.startswith("scenes.a_portrait.starts[0]")
@@ -69,16 +69,14 @@ def test_all_mistakes_of_a_file_are_reported_at_once():
         ("fig3", {"duration": 30, "axes": {}}, []),
         ("fig7", {"impacts": [9, 300_000, 9]}, ["impacts 300000 lies outside axes.impact.limits"]),
         ("fig7", {"impacts": 1000}, []),
-        ("twist", {"energies": [0.01, 0.07]}, ["energies 0.07 lies outside axes.energy.limits"]),
         ("fig6", {"window": {"x": [-0.1, 0.1], "xdot": [0, 0.001]}},
          ["window.x [-0.1, 0.1] is wider than axes.x.limits [0.21, 0.2116]"]),
     ],
 )  # fmt: skip
 def test_values_outside_the_axes_are_reported(scene, fields, lines):
     document = shipped()
-    blocks = document["scenes"] | document["proofs"]
-    kind = KINDS[blocks[scene]["picture"]]
-    block = {"ball": document["ball"]} | blocks[scene]
+    block = {"ball": document["ball"]} | document["scenes"][scene]
+    kind = KINDS[block["picture"]]
     assert not [*kind.hidden(block)]
     for line, start in zip(kind.hidden(block | fields), lines, strict=True):
         assert line.startswith(start)
@@ -101,7 +99,7 @@ BAD = [
     ("scenes.new", {"energy": 1}, ".picture: missing: expected one of"),
     ("a_portrait.method", {"scan": 0.1}, ".tolerance: missing: expected a number from 1e-15"),
     ("a_portrait.method", "scan", ": 'scan' is not allowed: expected a mapping with the keys scan "
-     "and tolerance, or {exact: true}"),
+     "and tolerance"),
     ("a_tangle.method", {"scan": 0.1, "tolerance": 1e-6},
      ".tolerance: 1e-06 is not allowed: expected a number from 1e-15 to 1e-12, for manifolds"),
     ("a_motion.picture", "movie", ": 'movie' is not allowed: expected one of"),

@@ -50,16 +50,16 @@ def test_a_file_that_is_no_config_is_refused(tmp_path, text, part):
 def test_a_number_with_an_exponent_needs_no_point(tmp_path):
     path = tmp_path / "config.yaml"
     path.write_text(json.dumps(good()).replace('"energy": 0.01', '"energy": 1e-2'))
-    assert config.load(path) == config.check(good())
+    assert config.load(path).scenes == config.check(good()).scenes
 
 
 def test_an_added_scene_changes_no_path():
     document = good()
-    before = paths.artifact_paths(config.check(document)["variants"])
+    before = paths.artifact_paths(config.check(document).variants)
     assert before["paper", "a_closeup", "periodic"] == "results/paper/periodic_a_closeup.nc"
     twin = {"a": document["scenes"]["a_closeup"]}
     document["scenes"] = twin | document["scenes"] | {"z": twin["a"]}
-    after = paths.artifact_paths(config.check(document)["variants"])
+    after = paths.artifact_paths(config.check(document).variants)
     assert after["paper", "a", "periodic"] == "results/paper/periodic_a.nc"
     assert before.items() <= after.items()
 

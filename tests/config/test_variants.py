@@ -1,13 +1,12 @@
 """Variants of the config: what they replace, what they keep, and what is refused."""
 
 import pytest
-import yaml
 from documents import complaints
 from project import shipped
 
 from pipeline import config
 from pipeline.config import paths
-from pipeline.config.reference import example
+from pipeline.config.schema.sets import SETS
 
 BASE = shipped()
 NO_SCENE_FITS = {"ball": {"g": 0.0995}}  # energies 0.001 and 0.01 are too high for it
@@ -15,12 +14,12 @@ NO_SCENE_FITS = {"ball": {"g": 0.0995}}  # energies 0.001 and 0.01 are too high 
 
 def with_variants(**variants):
     """Return all variants of the shipped document with these instead of its own."""
-    return config.check(shipped() | {"variants": variants})["variants"]
+    return config.check(shipped() | {"variants": variants}).variants
 
 
 def test_the_paper_comes_first_and_variants_are_complete():
     variants = with_variants(thin={"ball": {"k": 0.3}})
-    assert list(variants) == ["paper", "claims", "families", "proofs", "thin"]
+    assert list(variants) == [*SETS, "thin"]
     assert variants["thin"]["fig2"]["ball"] == {"k": 0.3, "g": 0.04}
     assert variants["thin"].keys() == variants["paper"].keys() == BASE["scenes"].keys()
 
@@ -66,27 +65,12 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
     assert ("axes" in with_variants(v=change)["v"][scene]) == kept
 
 
-def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
-    document = shipped()
-    document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
-    document["scenes"]["energy"] = document["families"]["energy"]
-    against_k = {"parameter": "k", "span": [0.1, 0.3], "step": 0.01}
-    document["scenes"]["against_k"] = document["scenes"]["energy"] | against_k
-    document |= {"variants": {"v": {"scale": 2}}, "claims": {}, "families": {}}
-    scenes = config.check(document)["variants"]["v"]
-    assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
-    assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
-    families = scenes["energy"]
-    assert (families["span"], families["step"]) == ([-0.0156, 0.2396], 0.002)
-    assert (scenes["against_k"]["span"], scenes["against_k"]["step"]) == ([0.1, 0.3], 0.01)
-
-
 @pytest.mark.parametrize(
     ("name", "block", "parts"),
     [
         ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
         ("-n", {"energy": 0.002}, ["variants: '-n'", "not begin with -"]),
-        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, claims, families"]),
+        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, study"]),
         ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
         ("v", {}, ["variants.v: {}"]),
         ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
@@ -118,13 +102,3 @@ def test_equal_stages_of_variants_are_computed_once():
     assert artifact_paths["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
     assert artifact_paths["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
     assert artifact_paths["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
-
-
-def test_a_dataset_is_shared_only_with_its_inputs():
-    """Shares of stable motion follow the families, whose levels are not among their own fields."""
-    scenes = {"map": yaml.safe_load(example("families"))}
-    finer = {"scenes": {"map": {"levels": 40}}}
-    document = {"ball": BASE["ball"], "scenes": scenes, "variants": {"finer": finer}}
-    artifact_paths = paths.artifact_paths(config.check(document)["variants"])
-    for stage in ("families", "shares"):
-        assert artifact_paths["finer", "map", stage] == f"results/finer/{stage}_map.nc"

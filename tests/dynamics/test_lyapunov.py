@@ -6,13 +6,13 @@ import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
+from extensions.claims.analyses.spread import stretches
 from pipeline.checks.compare import summaries
-from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, orbit
-from pseudorigid.analyses.spread import stretches
 from pseudorigid.dynamics import lyapunov
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
+from pseudorigid.figures.kinds import reports
 from pseudorigid.figures.kinds.exponents import draw
 
 
@@ -87,7 +87,7 @@ def test_the_largest_exponent_is_the_largest_by_value():
     assert np.array_equal(final_exponents(found), np.sort(last, axis=1)[:, ::-1])
 
     block = {"energy": 0.001, "ball": {"k": 0.2, "g": 0.04}}
-    numbers = KINDS["exponents"].numbers(block, found)
+    numbers = reports.exponents(block, found)
     ours = [float(text) for text in numbers["largest exponent"].split(", ")]
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
     line = summaries.exponents(found, found, ("one", "other"))[1]
@@ -115,7 +115,7 @@ def test_no_largest_exponent_is_minus_zero():
     found = scene_exponents(BALL, -0.00399999999999999, [0.3], 1000, 2)
     last = found["exponent"].values[-1, 0]
     assert last[0] < 0.0 < last.max() < 5e-5
-    numbers = KINDS["exponents"].numbers({}, found)
+    numbers = reports.exponents({}, found)
     assert numbers["largest exponent"] == "0.0000"
     assert "-0.0000" not in numbers["all three of an orbit, at the end"]
 

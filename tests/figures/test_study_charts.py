@@ -5,10 +5,14 @@ import pytest
 import xarray as xr
 from legible import assert_text_is_whole_and_apart
 
-from pseudorigid.figures import study
 from pseudorigid.figures.axes import panel
+from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
+
+
+def scene(states, cost):
+    return {"states": ("uniform", "grazing")[states], "cost": cost}
 
 
 def named(families=FAMILIES, names=None):
@@ -49,7 +53,9 @@ def moved(before, after):
 @pytest.mark.parametrize(("cost", "base"), [("evaluations", 100.0), ("seconds", 1e-5)])
 def test_work_is_drawn_where_its_numbers_are(cost, base):
     def drawn(states=1, **change):
-        return marks(study.work(work_data(**{"cost": base} | change), states, cost), FAMILIES[1])
+        return marks(
+            study.work(scene(states, cost), work_data(**{"cost": base} | change)), FAMILIES[1]
+        )
 
     before = drawn()
     decade = moved(before, drawn(cost=10 * base))
@@ -77,7 +83,7 @@ def test_failing_shares_are_heights():
         exponents = {"distance": ("distance", [0, 6, 12]), "depth": ("depth", [2, 8, 14])}
         near, touch = (("method", "side", "distance"), near), (("method", "side", "depth"), touch)
         data = xr.Dataset(named() | exponents | {"near": near, "touch": touch})
-        return marks(study.edges(data), FAMILIES[0])
+        return marks(study.edges({}, data), FAMILIES[0])
 
     few = np.full((2, 2, 3), 0.1)  # no panel has room for the key
     before = drawn(few, few)
@@ -92,8 +98,8 @@ def test_failing_shares_are_heights():
 
 
 def test_zeros_are_drawn_at_an_end_named_zero():
-    zeros = study.work(work_data(100.0, 0.0, 0.0, 0.0), 1, "evaluations")
-    tiny = marks(study.work(work_data(100.0, 1e-30), 1, "evaluations"), FAMILIES[1])
+    zeros = study.work(scene(1, "evaluations"), work_data(100.0, 0.0, 0.0, 0.0))
+    tiny = marks(study.work(scene(1, "evaluations"), work_data(100.0, 1e-30)), FAMILIES[1])
     assert np.min(tiny[:, 1]) == np.min(marks(zeros, FAMILIES[1])[:, 1])
     assert [text.get_text() for text in zeros.texts].count("0") >= 2
 
@@ -107,7 +113,7 @@ def test_scans_that_differ_in_their_step_have_one_entry():
     names = ["scan 0.5, 1e-12", "scan 0.1, 1e-12", "scan 0.01, 1e-12", "scan 0.1, 1e-06"]
     families = [f"{name.partition(',')[0]} + bisection" for name in names] + ["time stepping"]
     apart = {"apart": (("method", "impact"), np.full((5, 3), 1e-9)), "impact": [1, 2, 3]}
-    figure = study.separation(xr.Dataset(named(families, [*names, "engine 1e-03"]) | apart))
+    figure = study.separation({}, xr.Dataset(named(families, [*names, "engine 1e-03"]) | apart))
     texts = [text.get_text() for text in figure.texts]
     scans = ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$"]
     assert texts[-3:] == [*scans, "time stepping, $10^{-3}$"]
@@ -115,7 +121,7 @@ def test_scans_that_differ_in_their_step_have_one_entry():
 
 @pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
 def test_the_worst_right_root_is_named_if_it_is_drawn(wrong, drawn):
-    figure = study.work(work_data(100.0, wrong=wrong), 1, "evaluations")
+    figure = study.work(scene(1, "evaluations"), work_data(100.0, wrong=wrong))
     assert ("hollow: worst right root" in [text.get_text() for text in figure.texts]) == drawn
 
 
@@ -125,7 +131,7 @@ def test_the_key_stands_in_a_panel_without_failures_or_below_all():
         failing = {name: (("method", "side", dim), np.full((2, 2, 2), least))
                    for name, dim in (("near", "distance"), ("touch", "depth"))}  # fmt: skip
         failing["touch"][1][:, 1] = 0.0
-        figure = study.edges(xr.Dataset(named() | exponents | failing))
+        figure = study.edges({}, xr.Dataset(named() | exponents | failing))
         assert_text_is_whole_and_apart(figure, slack=4)  # letters stand close to labels
         (text,) = (text for text in figure.texts if text.get_text() == "certified march")
         return text.get_position()

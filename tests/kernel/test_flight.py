@@ -14,7 +14,7 @@ from project import ROOT, run
 from slowly import slowly
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.proofs.reference_solver import first_root
+from study.reference_solver import first_root
 
 # sha256 of the times in test_frozen_bits_of_many_flights
 FROZEN = "17974d2c018124caaa0b355ed33a3819b44222e6f11b4825fe09d60f1405d4c0"

@@ -10,19 +10,25 @@ import pytest
 from slowly import slowly
 
 import pseudorigid
-from pipeline.config.schema.stages import STAGES
-from pseudorigid import proofs
+import study
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.stages import METHODS, STAGES, upstream
+from pipeline.declaration import extensions
 
 STUDY_PACKAGES = {"heyoka", "pynamicalsys"}
-MODULES = [info.name for info in pkgutil.walk_packages(pseudorigid.__path__, "pseudorigid.")]
-STAGE_FUNCTIONS = {
-    ".".join(function)
-    for stage in STAGES.values()
-    for function in ((stage.module, stage.function), stage.exact)
-    if function
-}
+EXTENSIONS = [importlib.import_module(f"extensions.{name}") for name in extensions()]
+MODULES = [
+    info.name
+    for package in (pseudorigid, study, *EXTENSIONS)
+    for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+]
+DRAWN = [kind for kind in KINDS.values() if kind.model_fields["formats"].default]
+STAGE_FUNCTIONS = {STAGES[name].function for kind in DRAWN for name in upstream(kind.stages)}
+STAGE_FUNCTIONS |= {function for stages in METHODS.values() for function in stages.values()}
 PUBLIC = {
-    f"{package.__name__}.{name}" for package in (pseudorigid, proofs) for name in package.__all__
+    f"{package.__name__}.{name}"
+    for package in (pseudorigid, *EXTENSIONS)
+    for name in getattr(package, "__all__", ())
 }
 PARAMETERS = re.compile(r"^Parameters\n-+\n(.*?)(?=\n\n\w+\n-+\n|\Z)", re.MULTILINE | re.DOTALL)
 
@@ -37,7 +43,8 @@ def load(name):
 
 
 # Examples that take longest; the stages behind them have tests of their own.
-DEAR = {f"pseudorigid.{name}" for name in ("proofs.theorems.scenes", "study.bench", "sweep.shares")}
+DEAR = {"study.bench", "extensions.families.shares", "extensions.proofs.theorems.scenes"}
+DEAR &= {*MODULES}
 
 
 @pytest.mark.parametrize("name", [*(n for n in MODULES if n not in DEAR), *slowly(*sorted(DEAR))])
@@ -47,7 +54,10 @@ def test_examples_are_true(name):
 
 @pytest.mark.parametrize("path", sorted(STAGE_FUNCTIONS | PUBLIC))
 def test_stages_and_public_functions_are_documented(path):
-    """Public ones have parameters, which are the code's, and returned values; stages an example."""
+    """Public ones have parameters, which are the code's, and returned values.
+
+    Stages of pictures that a ball decides have an example.
+    """
     module, _, name = path.rpartition(".")
     function = getattr(load(module), name)
     if callable(function) and path in PUBLIC:
@@ -58,5 +68,5 @@ def test_stages_and_public_functions_are_documented(path):
         documented = ", ".join(rows).replace("*", "").split(", ")
         names = inspect.signature(function).parameters
         assert documented == [name for name in names if not name.startswith("_")]
-    if path in STAGE_FUNCTIONS:
+    if path in STAGE_FUNCTIONS and "ball" in inspect.signature(function).parameters:
         assert any(test.examples for test in doctest.DocTestFinder().find(function))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from project import ROOT
 
+from pipeline.declaration import extensions
 from pipeline.records import artifacts
 from pseudorigid import Ball, Picture
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -34,6 +35,10 @@ def test_the_page_shows_each_script_and_its_picture():
 def test_a_script_makes_its_picture(name, tmp_path, monkeypatch):
     script = FOLDER / f"{name}.py"
     lines = script.read_text(encoding="utf-8").splitlines()
+    if needed := set(re.findall(r"^from extensions\.(\w+)", "\n".join(lines), re.M)) - {
+        *extensions()
+    }:
+        pytest.skip(f"{name} needs the extension {needed}")
     assert len(lines) <= 15 and lines[0].startswith("# %% ")
     if name == "dataset":
         save_orbits_of_figure_2(tmp_path)

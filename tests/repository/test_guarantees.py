@@ -1,13 +1,13 @@
-"""CONTRIBUTING's table of guarantees names tests that exist."""
+"""The table of guarantees names tests that exist."""
 
 import re
 
 from project import ROOT
 
 TESTS = ROOT / "tests"
-TABLE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("| Guarantee |")[2]
+TABLE = (TESTS / "README.md").read_text(encoding="utf-8").partition("| Guarantee |")[2]
 ROWS = [line.strip("| ").split(" | ") for line in TABLE.splitlines()[2:] if line.startswith("|")]
-NAMED = re.compile(r"`(\w+/test_\w+\.py)(?:::(\w+))?`")
+NAMED = re.compile(r"`((?:\w+/)+test_\w+\.py)(?:::(\w+))?`")
 
 
 def test_each_row_names_tests_that_exist():
@@ -16,6 +16,8 @@ def test_each_row_names_tests_that_exist():
         named = NAMED.findall(tests)
         assert named, guarantee
         for file, test in named:
+            if file.startswith("extensions/") and not (TESTS / "extensions").is_dir():
+                continue
             text = (TESTS / file).read_text(encoding="utf-8")
             assert f"\ndef {test}(" in text if test else "\ndef test_" in text, (file, test)
             slow = "mark.slow" in text or "slowly(" in text

@@ -1,4 +1,4 @@
-"""Imports point downwards, without circles, and processes load little."""
+"""Imports point downwards, without circles; the core names no extension; processes load little."""
 
 import ast
 import graphlib
@@ -9,20 +9,37 @@ import tomllib
 
 import grimp
 import pytest
+import yaml
 from project import ROOT, SHIPPED, run
 
-# Each part of a package may import those to its right, and the pipeline all of the science.
+from pipeline.commands import COMMANDS
+from pipeline.config.schema.fields import BallBlock
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.sets import PAPER, SETS, STUDY
+from pipeline.config.schema.stages import STAGES
+from pipeline.declaration import extensions, files
+
+# Each package may import those to its right, and each part of one the parts to its right.
+ORDER = ("extensions", "pipeline", "study", "pseudorigid")
 LAYERS = {
-    "pseudorigid": ("study", "figures", "sweep", "analyses", "proofs", "dynamics", "kernel"),
-    "pipeline": ("cli", "jobs", "publication", "checks", "explorer", "config", "records"),
+    "pseudorigid": ("figures", "dynamics", "kernel"),
+    "pipeline": (
+        *("cli", "jobs", "checks", "config", "commands", "records"),
+        *("loading", "declaration"),
+    ),
 }
 LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(LAYERS[package])}
 
 
+@pytest.fixture(scope="module")
+def built():
+    """The graph of imports, also of those in functions."""
+    return grimp.build_graph(*ORDER, cache_dir=None)
+
+
 @pytest.fixture
-def graph():
+def graph(built):
     """Module -> the modules that it imports anywhere."""
-    built = grimp.build_graph(*LAYERS, cache_dir=None)
     return {name: set(built.find_modules_directly_imported_by(name)) for name in built.modules}
 
 
@@ -55,10 +72,9 @@ def violations(graph):
     for name, targets in graph.items():
         for target in targets:
             part, imported = (".".join(path.split(".")[:2]) for path in (name, target))
-            if part.startswith("pseudorigid") and imported.startswith("pipeline"):
-                yield f"{name} imports {target}: the science must not import the pipeline"
-            elif part.split(".")[0] == imported.split(".")[0] and (
-                LEVEL.get(imported, 99) < LEVEL.get(part, -1)
+            package, other = (ORDER.index(path.split(".")[0]) for path in (name, target))
+            if other < package or (
+                other == package and LEVEL.get(imported, 99) < LEVEL.get(part, -1)
             ):
                 yield f"{name} imports {target}: upwards"
     for parent in {name.rpartition(".")[0] for name in graph} - {""}:
@@ -78,7 +94,7 @@ def test_the_source_follows_the_rules(graph):
     ("module", "imported"),
     [
         ("pseudorigid.kernel.arithmetic", "pseudorigid.kernel.compiled"),
-        ("pipeline.cli.commands.verify", "pipeline.publication.archive"),  # in a function
+        ("study.measured", "study.methods.taylor"),  # in a function
     ],
 )
 def test_known_imports_are_seen(graph, module, imported):
@@ -104,8 +120,12 @@ FAULTS = {
         "pseudorigid.dynamics.up imports pseudorigid.figures.canvas.style: upwards",
     ),
     "out of the science": (
-        {"pseudorigid.study.out": {"pipeline.config"}},
-        "pseudorigid.study.out imports pipeline.config: the science ",
+        {"study.out": {"pipeline.config"}},
+        "study.out imports pipeline.config: upwards",
+    ),
+    "into an extension": (
+        {"pipeline.config.out": {"extensions.one"}},
+        "pipeline.config.out imports extensions.one: upwards",
     ),
     "a part without a layer": (
         {"pipeline.tools.one": set()},
@@ -123,11 +143,115 @@ def test_a_planted_fault_is_found(graph, fault):
     assert any(violation.startswith(line) for violation in found), found
 
 
+def guarded(source):
+    """Yield (line, extension) of imports below `if "NAME" in extensions():`."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.If) and (
+            found := re.fullmatch(r"'(\w+)' in extensions\(\)", ast.unparse(node.test))
+        ):
+            for part in node.body:
+                for inner in ast.walk(part):
+                    if isinstance(inner, ast.Import | ast.ImportFrom):
+                        yield inner.lineno, found[1]
+
+
+def needing(built, name, other):
+    """Modules by which an extension is entered where another one may be absent."""
+    declared = extensions()[name]
+    commands = declared.commands.values()
+    entered = {c.module for c in commands if c.module and other not in c.needs}
+    entered |= {module for _, _, module in declared.options.values()}
+    entered |= {declared.report, declared.benchmark}
+    entered |= {f"extensions.{name}.{module}" for module in ("extension", "kinds")}
+    return {module for module in entered if module in built.modules}
+
+
+def unguarded(built):
+    """Yield a line for each import between extensions that no declaration allows."""
+    for name, declared in extensions().items():
+        inside = [m for m in built.modules if m.startswith(f"extensions.{name}.")]
+        for module in inside:
+            for imported in built.find_modules_directly_imported_by(module):
+                package, _, rest = imported.partition(".")
+                other = rest.partition(".")[0]
+                if package != "extensions" or other in ("", name, *declared.needs):
+                    continue
+                source = (ROOT / "src" / module.replace(".", "/")).with_suffix(".py").read_text()
+                details = built.get_import_details(importer=module, imported=imported)
+                lines = {(each["line_number"], other) for each in details}
+                if lines and lines <= {*guarded(source)}:
+                    continue
+                allowed = any(other in command.needs for command in declared.commands.values())
+                for entry in needing(built, name, other):
+                    if entry == module or built.chain_exists(importer=entry, imported=module):
+                        allowed = False
+                if not allowed:
+                    yield f"{module} imports {imported}, which {name} does not need"
+
+
+def test_an_extension_imports_those_that_it_declares(built):
+    assert list(unguarded(built)) == []
+
+
+def test_an_import_of_an_extension_that_is_not_needed_is_found(built):
+    for name, declared in extensions().items():
+        for other in extensions().keys() - {name, *declared.needs}:
+            planted = {
+                "importer": f"extensions.{name}.extension",
+                "imported": f"extensions.{other}.extension",
+            }
+            built.add_import(**planted)
+            (line,) = unguarded(built)
+            assert line.startswith("{importer} imports {imported}, ".format(**planted))
+            built.remove_import(**planted)
+    source = 'if "a" in extensions():\n    import b.c\nimport d\n'
+    assert [*guarded(source)] == [(2, "a")]
+
+
+# Names of extensions' stages, kinds and scenes that are also words of the language or the field.
+WORDS = {"escape", "exact", "families", "jumps", "line", "plane", "rotation", "shares", "spread"}
+WORDS |= {"verdicts"}
+
+
+def names_of_extensions():
+    """Names that extensions declare and the core does not."""
+    found, core = set(extensions()), {*COMMANDS, *BallBlock.model_fields}
+    for extension in extensions().values():
+        for declared in ("stages", "sets", "commands", "blocks", "methods"):
+            found |= getattr(extension, declared).keys()
+        found |= {each.key for each in extension.sets.values()}
+    for file in files("scenes.yaml"):
+        for key, block in yaml.safe_load(file.read_text()).items():
+            found |= {key, *block}
+    for name, stage in STAGES.items():
+        core |= set() if stage.function.startswith("extensions.") else {name}
+    for name, kind in KINDS.items():
+        if kind.__module__.startswith("extensions."):
+            found.add(name)
+        else:
+            core |= {name, *kind.model_fields}
+    core |= {SETS[name].key for name in (PAPER, STUDY)} | {"variants"}
+    return found - core - {""}
+
+
+def test_the_core_has_no_name_of_an_extension():
+    names = "|".join(sorted(names_of_extensions() - WORDS))
+    core = [ROOT / "Snakefile", *(ROOT / "workflow").rglob("*.*")]
+    core += [file for package in ORDER[1:] for file in (ROOT / "src" / package).rglob("*.py")]
+    found = [
+        f"{file.relative_to(ROOT)}: {line.strip()}"
+        for file in core
+        for line in file.read_text().splitlines()
+        if names and re.search(rf"(?<![\w-])({names})(?![\w-])", line)
+    ]
+    assert found == []
+
+
 # Where packages that are not in the lock are imported, and the file in requirements/ that has them.
 ADDED = {
-    "src/pseudorigid/study/methods/taylor.py": "study",
-    "src/pseudorigid/study/methods/pynamicalsys_lyapunov.py": "study",
-    "src/pipeline/publication/article/typesetting.py": "article",
+    "src/study/methods/taylor.py": "study",
+    "src/study/methods/pynamicalsys_lyapunov.py": "study",
+    "src/extensions/publication/article/typesetting.py": "article",
 }
 # Modules whose package has another name.
 PACKAGES = {"PIL": "pillow", "flint": "python-flint", "minify": "tdewolff-minify"}
@@ -163,13 +287,9 @@ def test_every_imported_package_is_in_the_lock_of_the_commands_that_reach_it():
 
 def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    imported = {"study": set(), "": set()}
-    for file, source in SOURCES.items():
-        if file.startswith("src/pseudorigid/"):
-            imported[ADDED.get(file, "")] |= set(packages_of(source))
-    assert imported[""] == set(project["dependencies"])
-    extra = project["optional-dependencies"]["study"]
-    assert imported["study"] - imported[""] == set(extra)
+    sources = [text for file, text in SOURCES.items() if file.startswith("src/pseudorigid/")]
+    imported = {package for source in sources for package in packages_of(source)}
+    assert imported == set(project["dependencies"])
 
 
 def test_an_import_in_a_function_is_seen():
@@ -177,9 +297,14 @@ def test_an_import_in_a_function_is_seen():
     assert {*packages_of(source)} == {"scipy", "pyyaml"}
 
 
-LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "pseudorigid.study")
+LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "study")
 OURS = ("pseudorigid", "pipeline.", "numba", "matplotlib")
-RECORDS = ["pipeline.records", "pipeline.records.artifacts", "pipeline.records.files"]
+# The package names folders of machine code when it is imported.
+PIPELINE = [f"pipeline.{name}" for name in ("loading", "records")]
+PIPELINE += [f"pipeline.records.{name}" for name in ("artifacts", "files", "import_closure")]
+PIPELINE += [f"pipeline.records.{name}" for name in ("machine_code", "syntax_hash")]
+COMPILED = ["pseudorigid", "pseudorigid.kernel", "pseudorigid.kernel.compiled"]
+COMPILED += ["pseudorigid.kernel.compiled.naming"]
 
 
 @pytest.mark.parametrize(
@@ -188,7 +313,7 @@ RECORDS = ["pipeline.records", "pipeline.records.artifacts", "pipeline.records.f
         (f"import pipeline.cli.running, pipeline.config as c; c.load({str(SHIPPED)!r})",
          LIBRARIES, []),
         ("import pipeline.cli.commands.list", LIBRARIES, []),
-        ("import pipeline.records.artifacts", OURS, [*RECORDS, "pseudorigid"]),
+        ("import pipeline.records.artifacts", OURS, PIPELINE + COMPILED),
     ],
     ids=["start of a run", "list", "artifacts"],
 )  # fmt: skip

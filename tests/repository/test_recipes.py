@@ -1,8 +1,8 @@
-"""The recipes of CONTRIBUTING, in a copy: a kind or a stage needs three files and a rule."""
+"""The recipes of CONTRIBUTING, in a copy: a kind, a stage, and an extension in one folder."""
 
 import numpy as np
 import pytest
-from project import fresh_tree
+from project import APART, fresh_tree
 from runs import rows
 
 from pipeline.records.artifacts import load
@@ -42,11 +42,6 @@ class Returns(OfOrbits):
 
     axes: dict[Literal["x", "next"], Axis] = None
     """Limits and ticks."""
-
-    @staticmethod
-    def numbers(block, orbits, flights):
-        """Return how many orbits there are."""
-        return {"orbits": f"{orbits.sizes['orbit']}"}
 ''',
     "src/pseudorigid/dynamics/flights.py": '''
 """Mean time of flight of orbits."""
@@ -65,8 +60,14 @@ def mean_flights(ball, energy, orbits):
 ''',
 }
 ROW = """
-STAGES["flights"] = Stage(f"{_DYNAMICS}.flights", "mean_flights", (), ("orbits",), False)
+STAGES["flights"] = Stage(f"{_DYNAMICS}.flights.mean_flights", inputs=("orbits",))
 """
+REPORT = '''
+
+def returns(block, orbits, flights):
+    """Give how many orbits there are."""
+    return {"orbits": f"{orbits.sizes['orbit']}"}
+'''
 RULES = {
     "data": '''
 
@@ -89,7 +90,7 @@ use rule draw_portrait as draw_returns with:
         flights=dataset("flights"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("returns"),
+        **of_kind("returns"),
 ''',
 }
 SCENE = {"picture": "returns", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
@@ -97,6 +98,7 @@ DOCUMENT = {
     "ball": {"k": 0.2, "g": 0.04},
     "scenes": {"map": SCENE},
     "variants": {"low": {"energy": 0.0017}},
+    **{part: {} for part in APART},
 }
 CAPTION = """
 [kinds.returns]
@@ -123,6 +125,7 @@ def copy(tmp_path):
         assert not (tree.path / name).exists()
         (tree.path / name).write_text(text.lstrip())
     tree.append("pipeline/config/schema/stages.py", ROW)
+    tree.append("pseudorigid/figures/kinds/reports.py", REPORT)
     for name, text in RULES.items():
         with (tree.path / "workflow" / "rules" / f"{name}.smk").open("a") as file:
             file.write(text)
@@ -131,7 +134,7 @@ def copy(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_kind_and_a_stage_are_three_files_and_a_rule_each(copy):
+def test_a_kind_and_a_stage(copy):
     """They have data, a figure, caption, number, refusals, docs, variant and a line of verify."""
     assert rows(copy.succeed("report")) == {"paper_figures/map.png": "recomputed"}
     report = (copy.path / "results" / "report" / "report.html").read_text()
@@ -169,3 +172,93 @@ def test_a_kind_and_a_stage_are_three_files_and_a_rule_each(copy):
     assert "map.png  identical\n" in result.stdout
     copy.append("pseudorigid/dynamics/flights.py")
     assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
+
+
+def of_an_extension(text):
+    """Code of the core as it stands in the folder of an extension."""
+    for part in ("axes", "canvas"):
+        text = text.replace(f"from ..{part}", f"from pseudorigid.figures.{part}")
+    for module in ("fields", "scene"):
+        text = text.replace(f"from ..{module}", f"from pipeline.config.schema.{module}")
+    return text.replace("from .variables", "from pseudorigid.dynamics.variables").lstrip()
+
+
+EXTENSION = '''
+"""What returns add to the pipeline."""
+
+from pipeline.declaration import Extension, SceneSet, SnakemakeCommand, Stage
+
+EXTENSION = Extension(
+    stages={"flights": Stage("extensions.returns.flights.mean_flights", inputs=("orbits",))},
+    sets={
+        "returns": SceneSet(
+            "more_figures/returns", "./reproduce returns", "Returns", key="returns"
+        )
+    },
+    commands={
+        "returns": SnakemakeCommand("draw returns, in more_figures/returns/", scenes="returns"),
+    },
+)
+'''
+SHIPPED = """
+returns:
+  twice: {picture: returns, energy: 0.01, starts: [0.1, 0.6], impacts: 50}
+"""
+KIND, PICTURE, FLIGHTS = (
+    FILES[f"src/{name}.py"]
+    for name in (
+        "pipeline/config/schema/kinds/returns",
+        "pseudorigid/figures/kinds/returns",
+        "pseudorigid/dynamics/flights",
+    )
+)
+FOLDER = {
+    "__init__.py": '"""Returns of orbits."""',
+    "extension.py": EXTENSION,
+    "flights.py": FLIGHTS,
+    "kinds.py": KIND,
+    "figures/__init__.py": '"""Pictures of returns."""',
+    "figures/returns.py": PICTURE,
+    "figures/reports.py": f'"""What they report."""{REPORT}',
+    "rules.smk": "".join(RULES.values()).replace("pseudorigid.dynamics", "extensions.returns"),
+    "scenes.yaml": SHIPPED,
+    "captions.toml": CAPTION,
+    "examples.yaml": EXAMPLE,
+    "datasets.toml": "[small.flights]\n",
+}
+
+
+@pytest.mark.slow
+def test_an_extension_is_one_folder(tmp_path):
+    """It has a stage, a kind, a command and a published picture, in each list and each check."""
+    paper = {"picture": "portrait", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
+    parts = {part: {} for part in APART}
+    document = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"map": paper}} | parts
+    tree = fresh_tree(tmp_path / "one more", document)
+    folder = tree.path / "src/extensions/returns"
+    (folder / "figures").mkdir(parents=True)
+    for name, text in FOLDER.items():
+        (folder / name).write_text(of_an_extension(text))
+    published = "more_figures/returns/twice.png"
+    assert "\n  returns " in tree.succeed("help")
+    assert rows(tree.succeed()) == {"paper_figures/map.png": "recomputed"}
+    assert rows(tree.succeed("returns")) == {published: "recomputed"}
+    assert rows(tree.succeed("returns")) == {published: "current"}
+    assert load(tree.path / "results/returns/flights_twice.nc")["mean"].size == 2
+    assert published in tree.succeed("list")
+    tree.succeed("accept")
+    result = tree.run("verify")
+    assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
+    assert "twice.png  identical\n" in result.stdout
+    (tree.path / published).write_bytes(b"damaged")
+    assert tree.run("verify").returncode == 1
+    tree.succeed("report")
+    assert "Positions of 2 orbits" in (tree.path / "results/report/report.html").read_text()
+    (tree.path / "docs").mkdir()
+    for module in ("config.reference", "checks.report.figures_page"):
+        result = tree.python("-P", "-m", f"pipeline.{module}")
+        assert result.returncode == 0, result.stderr
+    assert "### picture: returns\n" in (tree.path / "docs" / "config.md").read_text()
+    tree.edit("map", impacts=40)
+    (folder / "extension.py").unlink()
+    assert "returns" not in tree.succeed("help")

@@ -49,8 +49,7 @@ def fails(name):
     except ImportError: return True
 print(doctest.testfile("{page}", module_relative=False).failed)
 modules = pkgutil.walk_packages(pseudorigid.__path__, "pseudorigid.")
-wheels = "study.bench", "study.methods.taylor", "study.methods.pynamicalsys_lyapunov"
-print([n for _, n, _ in modules if not n.endswith(wheels) and fails(n)])
+print([n for _, n, _ in modules if fails(n)])
 """
 
 
@@ -91,4 +90,6 @@ def test_the_wheel_works_without_the_repository(tmp_path):
     assert path.startswith(str(site)) and pipeline == "None"
     assert version == pseudorigid.__version__ == wheel.name.split("-")[1]
     assert f"its multiplier is {float(multiplier):.4f}" in snippet
-    assert python(EXAMPLES.format(page=ROOT / "docs" / "api.md")).split() == ["0", "[]"]
+    page = tmp_path / "api.md"
+    page.write_text((ROOT / "docs" / "api.md").read_text().partition("\n## Functions of ext")[0])
+    assert python(EXAMPLES.format(page=page)).split() == ["0", "[]"]

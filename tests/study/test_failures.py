@@ -5,9 +5,9 @@ import pytest
 from independent_solver import exact_map, judge
 from mpmath import mpf
 
-from pseudorigid.proofs import reference_solver as proved
-from pseudorigid.study import failures, states
-from pseudorigid.study.methods.counted_methods import OURS, engine_method, scan_method
+from study import failures, states
+from study import reference_solver as proved
+from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
 SCAN = scan_method(0.5, 1e-12)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pipeline.config.schema import study as parts
+from pipeline.config.studied import STUDIED, paper_scenes
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.study import figure_errors
-from pseudorigid.study.methods.counted_methods import ENGINES, OURS, SCANS
+from study import figure_errors
+from study.methods.counted_methods import ENGINES, OURS, SCANS
 
 BALL = {"k": 0.2, "g": 0.04}
 AXIS = {"limits": [-0.4, 0.6], "ticks": [-0.4, 0, 0.25]}
@@ -36,12 +36,12 @@ def errors():
 
 
 def test_the_kinds_with_a_measure_are_studied():
-    assert set(parts.STUDIED) == set(figure_errors.MEASURES)
+    assert set(STUDIED) == set(figure_errors.MEASURES)
 
 
 def test_a_scene_without_axes_is_left_out():
     bare = {key: value for key, value in PORTRAIT.items() if key != "axes"}
-    block = parts.block("needs", {"one": PORTRAIT, "two": bare})
+    block = paper_scenes({"one": PORTRAIT, "two": bare}, {})[0]
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 
 

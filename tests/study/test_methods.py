@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pseudorigid import lyapunov_spectrum
-from pseudorigid.study import states
-from pseudorigid.study.methods import counted_methods, scipy_events
-from pseudorigid.study.methods.counted_methods import OURS, engine_method, scan_method
+from study import states
+from study.methods import counted_methods, scipy_events
+from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
 
@@ -36,7 +36,7 @@ METHODS = [
 
 def taylor_method(direction):
     pytest.importorskip("heyoka")
-    from pseudorigid.study.methods import taylor
+    from study.methods import taylor
 
     return taylor.taylor_method(1e-15, list(taylor.DIRECTIONS)[direction])
 
@@ -78,7 +78,7 @@ def test_solve_ivp_sees_short_flights(solver):
 @pytest.mark.slow  # it compiles a package whose numbers are in no figure
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
-    from pseudorigid.study.methods import pynamicalsys_lyapunov
+    from study.methods import pynamicalsys_lyapunov
 
     start, impacts = states.chaotic(), 20_000
     found = np.sort(pynamicalsys_lyapunov.spectrum(BALL, start, impacts))[::-1]

@@ -1,38 +1,41 @@
 """The parts of the study, its charts, and its table of speed."""
 
 import re
+from importlib import import_module
 
 import pytest
+from project import shipped
 
-from pipeline.config.schema import study as parts
-from pipeline.records import sources
-from pseudorigid.figures import study
+from pipeline.config import check
+from pipeline.config.build_specs import build_specs
+from pipeline.declaration import extensions
 
 
 @pytest.mark.slow
 def test_the_table_of_ratios_has_every_row(monkeypatch):
     for package in ("heyoka", "pynamicalsys"):
         pytest.importorskip(package)
-    from pseudorigid.study import bench
+    from study import bench
 
-    for name, smaller in (("IMPACTS", 1000), ("CELLS", (1, 2)), ("MANY", 10.0)):
+    for name, smaller in (("IMPACTS", 1000), ("MANY", 10.0)):
         monkeypatch.setattr(bench, name, smaller)
-    lines = bench.run(repetitions=1)
-    rows = [re.split(r"  +", line) for line in lines[1:13]]
-    labels = [(label, bench.BASES[base]) for label, _, base, _ in bench.ROWS]
+    more = tuple(import_module(e.benchmark) for e in extensions().values() if e.benchmark)
+    for module in more:
+        monkeypatch.setattr(module, "CELLS", (1, 2))
+    lines = bench.run(1, more)
+    labels = [
+        (label, module.BASES.get(base) or bench.BASES[base])
+        for module in (bench, *more)
+        for label, _, base, _ in module.ROWS
+    ]
+    rows = [re.split(r"  +", line) for line in lines[1 : len(labels) + 1]]
     assert [(row[0], row[3]) for row in rows] == labels
     assert all(float(row[2]) > 0 for row in rows)
     assert "numba" in lines[-1] and "processor" in lines[-1]
 
 
-def test_every_chart_has_data_and_a_function():
-    for data, function, _ in parts.CHARTS.values():
-        assert data in (*parts.FIXED, *parts.MEASURED)
-        assert callable(getattr(study, function))
-
-
 def test_the_figures_of_the_paper_need_nothing_of_the_study():
-    for program in ("stage", "draw", "sweep"):
-        assert not any(
-            "/study" in file for file in sources.source_files(f"pipeline.jobs.{program}")
-        )
+    specs = build_specs(check(shipped()), ["paper"])
+    assert not any(
+        file.startswith("src/study/") for spec in specs.values() for file in spec.sources
+    )

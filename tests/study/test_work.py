@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from independent_solver import judge
 
-from pseudorigid.study import states, work
-from pseudorigid.study.methods.counted_methods import METHODS, OURS, scan_method
+from study import states, work
+from study.methods.counted_methods import METHODS, OURS, scan_method
 
 COUNT = 60
 SETS = (states.uniform, states.grazing)

@@ -21,7 +21,8 @@ from pipeline.checks.freshness import Freshness
 from pipeline.cli import figures, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
-from pipeline.config import build_specs, load
+from pipeline.config import load
+from pipeline.config.build_specs import build_specs
 
 DRAWING = "results/paper/figures/fig3.png"
 # Settings in a user's shell do not reach a run; numba would refuse its ones.
@@ -83,9 +84,10 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(edited, accepted):
     output = (edited.path / "output").read_text()
     log = "results/paper/logs/manifolds_fig5.nc.log"
     reason = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
-    step, row = [line for line in output.splitlines() if re.match("fig5.*not made", line)]
-    assert step.endswith(reason) and row.endswith("not made")
-    assert f"\npaper_figures/fig5.png: {reason}\n" in output
+    step, *table = [line for line in output.splitlines() if re.match("fig5.*not made", line)]
+    assert step.endswith(reason)
+    assert len(table) == 2 and all(row.endswith("not made") for row in table)
+    assert f"\npaper_figures/fig5.png, paper_figures/fig5.svg: {reason}\n" in output
     assert "Traceback" not in output and "Traceback" in (edited.path / log).read_text()
     (named,) = re.findall(r"^reproduce: snakemake's log: (.*)$", output, re.MULTILINE)
     assert (edited.path / named).is_file()
@@ -204,7 +206,7 @@ def test_a_file_in_the_place_of_a_folder_is_named(tmp_path, monkeypatch, place):
     monkeypatch.setattr(running, "ROOT", tmp_path)
     (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / place).touch()
-    specs = build_specs.of_variants(load(SHIPPED)["variants"])
+    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
         running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
 
@@ -213,7 +215,7 @@ def test_a_run_on_a_full_disk_says_so_before_it_starts(tmp_path, monkeypatch):
     monkeypatch.setattr(running, "ROOT", tmp_path)
     free = types.SimpleNamespace(total=10**9, free=300_000)
     monkeypatch.setattr("shutil.disk_usage", lambda path: free)
-    specs = build_specs.of_variants(load(SHIPPED)["variants"])
+    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=r"^the disk is full, 0\.3 MB are left$"):
         running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
 

@@ -114,17 +114,20 @@ def test_a_line_of_code_in_the_kernel_outdates_the_datasets(done):
 # Module of BOOKKEEPING -> an edit that changes what it does; packages without code have none.
 PLANTED = {
     "pipeline": ("", ""),
+    "pipeline.declaration": ("def lacking", "_P = 1\n\n\ndef lacking"),
     "pipeline.jobs": ("", ""),
     "pipeline.jobs.dispatch": ("pseudorigid: {spec", "planted: {spec"),
     "pipeline.jobs.server": ("the job was killed", "planted"),
+    "pipeline.loading": ("        note_loaded(path, data)\n", ""),
     "pipeline.records": ("", ""),
     "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
-    "pipeline.records.sources": ("= meanings.syntax_hash(path)", "= 'planted'"),
-    "pseudorigid": ("_PACKAGES_FROM_TEXT.add(package)", "pass"),
-    "pseudorigid.kernel.compiled.import_closure": ("    syntax_hash.keep()\n", ""),
-    "pseudorigid.kernel.compiled.syntax_hash": ("SCHEME = 1 ", "SCHEME = 99 "),
+    "pipeline.records.sources": ("return meanings.syntax_hash(path)", "return 'planted'"),
+    "pipeline.records.import_closure": ("    syntax_hash.keep()\n", ""),
+    "pipeline.records.machine_code": ("[:16]", "[:17]"),
+    "pipeline.records.syntax_hash": ("SCHEME = 1 ", "SCHEME = 99 "),
+    "pseudorigid": ("has moved:", "planted:"),
 }
 
 

@@ -2,7 +2,10 @@
 import sys
 from functools import cache
 
-from pipeline.config import ConfigError, build_specs, paths
+from pipeline.config import ConfigError, paths
+from pipeline.config.build_specs import with_dependencies
+from pipeline.declaration import FOLDER as EXTENSIONS
+from pipeline.declaration import extensions
 from pipeline.jobs.plan import plan
 from pipeline.records.files import FileError
 from pipeline.records.record import log_path, record_path
@@ -23,9 +26,8 @@ try:
 except (ConfigError, FileError) as error:
     sys.exit(str(error))
 
-SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config["variants"]
-SWEEPS = PLAN.config["sweeps"]
-ALL = {name: scene for scenes in VARIANTS.values() for name, scene in scenes.items()}
+SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config.variants
+ALL = {name for scenes in VARIANTS.values() for name in scenes}
 DATASETS = paths.artifact_paths(VARIANTS)
 # Seconds on one core. The longest jobs begin first, so that none of them is left over at the end,
 # when the other cores are idle.
@@ -44,9 +46,13 @@ def dataset(stage):
     return file
 
 
-def of_figures(stage):
-    """Return the datasets of a stage of the paper's figures whose errors the study measures."""
-    return [file for name, _, file in SPECS["results/study/needs.nc"].given if name == stage]
+def inputs_of(result):
+    """Return an input function: all datasets that a result is made from."""
+
+    def files(wildcards):
+        return SPECS[result.format(**wildcards)].inputs
+
+    return files
 
 
 def reason(result):
@@ -73,7 +79,7 @@ def priorities():
         dependency: seconds
         for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
         if path in SPECS
-        for dependency in build_specs.with_dependencies(SPECS, [path])
+        for dependency in with_dependencies(SPECS, [path])
     }
 
 
@@ -85,9 +91,16 @@ def priority(wildcards, rulename):
 
 def any_of(names):
     """Return a pattern for these names, which matches nothing if there are none."""
-    return "|".join(names) or "(?!)"
+    return "|".join(sorted(names)) or "(?!)"
 
 
 def of_kind(kind):
-    """Return a pattern for the scenes of a kind of picture."""
-    return any_of(name for name, scene in ALL.items() if scene["picture"] == kind)
+    """Return patterns for the scenes of a kind of picture, and for the variants that have them."""
+    found = [
+        (variant, name)
+        for variant, scenes in VARIANTS.items()
+        for name, scene in scenes.items()
+        if scene["picture"] == kind
+    ]
+    variants, names = zip(*found) if found else ((), ())
+    return {"variant": any_of(dict.fromkeys(variants)), "scene": any_of(dict.fromkeys(names))}

@@ -19,7 +19,7 @@ rule orbits:
         log_path("results/{variant}/orbits_{scene}.nc"),
     priority: priority
     conda:
-        "../envs/python.yaml"
+        ROOT / "workflow" / "envs" / "python.yaml"  # also for rules of extensions
     params:
         python=sys.executable,
         make=ROOT / "workflow" / "scripts" / "make.py",

@@ -11,7 +11,7 @@ use rule orbits as draw_portrait with:
     log:
         log_path("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("portrait"),
+        **of_kind("portrait"),
 
 
 use rule draw_portrait as draw_motion with:
@@ -20,7 +20,7 @@ use rule draw_portrait as draw_motion with:
         motion=dataset("motion"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("motion"),
+        **of_kind("motion"),
 
 
 use rule draw_portrait as draw_tangle with:
@@ -31,7 +31,7 @@ use rule draw_portrait as draw_tangle with:
         periodic=dataset("periodic"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("tangle"),
+        **of_kind("tangle"),
 
 
 use rule draw_portrait as draw_closeup with:
@@ -40,7 +40,7 @@ use rule draw_portrait as draw_closeup with:
         manifolds=dataset("manifolds"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("closeup"),
+        **of_kind("closeup"),
 
 
 use rule draw_portrait as draw_exponents with:
@@ -49,4 +49,4 @@ use rule draw_portrait as draw_exponents with:
         lyapunov=dataset("lyapunov"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        scene=of_kind("exponents"),
+        **of_kind("exponents"),

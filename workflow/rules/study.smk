@@ -1,16 +1,15 @@
 # The study of speed against accuracy (`./reproduce study`): one rule for each dataset, then one for
-# each kind of chart. Names that end with _all are measurements, which differ between machines.
+# each kind of chart. Stages that end with _all are measurements, which differ between machines.
 SECONDS |= {
-    "results/study/verdicts.nc": 190,
     "results/study/needs.nc": 90,
     "results/study/work_all.nc": 80,
-    "results/study/orbits.nc": 35,
+    "results/study/drift.nc": 35,
     "results/study/edges_all.nc": 20,
 }
 
 
-use rule orbits as study_work with:
-    """pseudorigid.study.work.counted"""
+use rule orbits as work with:
+    """study.stages.work"""
     input:
         why=reason("results/study/work.nc"),
     output:
@@ -19,8 +18,8 @@ use rule orbits as study_work with:
         log_path("results/study/work.nc"),
 
 
-use rule orbits as study_edges with:
-    """pseudorigid.study.failures.edges"""
+use rule orbits as edges with:
+    """study.stages.edges"""
     input:
         why=reason("results/study/edges.nc"),
     output:
@@ -29,21 +28,20 @@ use rule orbits as study_edges with:
         log_path("results/study/edges.nc"),
 
 
-use rule orbits as study_orbits with:
-    """pseudorigid.study.failures.orbits"""
+use rule orbits as drift with:
+    """study.stages.drift"""
     input:
-        why=reason("results/study/orbits.nc"),
+        why=reason("results/study/drift.nc"),
     output:
-        **made("results/study/orbits.nc"),
+        **made("results/study/drift.nc"),
     log:
-        log_path("results/study/orbits.nc"),
+        log_path("results/study/drift.nc"),
 
 
-use rule orbits as study_needs with:
-    """pseudorigid.study.figure_errors.figure_errors"""
+use rule orbits as needs with:
+    """study.stages.needs"""
     input:
-        periodic=of_figures("periodic"),
-        manifolds=of_figures("manifolds"),
+        datasets=inputs_of("results/study/needs.nc"),
         why=reason("results/study/needs.nc"),
     output:
         **made("results/study/needs.nc"),
@@ -51,20 +49,8 @@ use rule orbits as study_needs with:
         log_path("results/study/needs.nc"),
 
 
-use rule orbits as study_verdicts with:
-    """pseudorigid.study.verdicts.verdicts"""
-    input:
-        why=reason("results/study/verdicts.nc"),
-    output:
-        **made("results/study/verdicts.nc"),
-    log:
-        log_path("results/study/verdicts.nc"),
-    # It uses all cores, or measures seconds: no other job runs beside it.
-    threads: lambda wildcards: workflow.cores
-
-
-use rule orbits as study_work_all with:
-    """pseudorigid.study.work.measured"""
+use rule orbits as work_all with:
+    """study.measured.work_all"""
     input:
         why=reason("results/study/work_all.nc"),
     output:
@@ -75,8 +61,8 @@ use rule orbits as study_work_all with:
     threads: lambda wildcards: workflow.cores
 
 
-use rule orbits as study_edges_all with:
-    """pseudorigid.study.failures.edges"""
+use rule orbits as edges_all with:
+    """study.measured.edges_all"""
     input:
         why=reason("results/study/edges_all.nc"),
     output:
@@ -85,8 +71,8 @@ use rule orbits as study_edges_all with:
         log_path("results/study/edges_all.nc"),
 
 
-use rule orbits as study_missed_all with:
-    """pseudorigid.study.failures.missed"""
+use rule orbits as missed_all with:
+    """study.measured.missed_all"""
     input:
         why=reason("results/study/missed_all.nc"),
     output:
@@ -95,77 +81,64 @@ use rule orbits as study_missed_all with:
         log_path("results/study/missed_all.nc"),
 
 
-use rule orbits as draw_study_work with:
-    """pseudorigid.figures.study.work"""
+use rule draw_portrait as draw_work with:
+    """study.charts.work"""
     input:
-        work="results/study/work.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
-    output:
-        **made("results/study/figures/{chart}.{extension}"),
-    log:
-        log_path("results/study/figures/{chart}.{extension}"),
+        work=dataset("work"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="work_(uniform|grazing)",
+        **of_kind("work"),
 
 
-use rule draw_study_work as draw_study_work_all with:
-    """pseudorigid.figures.study.work"""
+use rule draw_portrait as draw_measured_work with:
+    """study.charts.work"""
     input:
-        work_all="results/study/work_all.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        work_all=dataset("work_all"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="(work_all|seconds)_(uniform|grazing)",
+        **of_kind("measured_work"),
 
 
-use rule draw_study_work as draw_study_edges with:
-    """pseudorigid.figures.study.edges"""
+use rule draw_portrait as draw_edges with:
+    """study.charts.edges"""
     input:
-        edges="results/study/edges.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        edges=dataset("edges"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="edges",
+        **of_kind("edges"),
 
 
-use rule draw_study_work as draw_study_edges_all with:
-    """pseudorigid.figures.study.edges"""
+use rule draw_portrait as draw_measured_edges with:
+    """study.charts.edges"""
     input:
-        edges_all="results/study/edges_all.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        edges_all=dataset("edges_all"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="edges_all",
+        **of_kind("measured_edges"),
 
 
-use rule draw_study_work as draw_study_energy with:
-    """pseudorigid.figures.study.energy"""
+use rule draw_portrait as draw_energy with:
+    """study.charts.energy"""
     input:
-        orbits="results/study/orbits.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        drift=dataset("drift"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="energy",
+        **of_kind("energy"),
 
 
-use rule draw_study_work as draw_study_separation with:
-    """pseudorigid.figures.study.separation"""
+use rule draw_portrait as draw_separation with:
+    """study.charts.separation"""
     input:
-        orbits="results/study/orbits.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        drift=dataset("drift"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="apart",
+        **of_kind("separation"),
 
 
-use rule draw_study_work as draw_study_figure_errors with:
-    """pseudorigid.figures.study.figure_errors"""
+use rule draw_portrait as draw_figure_errors with:
+    """study.charts.figure_errors"""
     input:
-        needs="results/study/needs.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
+        needs=dataset("needs"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
-        chart="needs",
-
-
-use rule draw_study_work as draw_study_verdicts with:
-    """pseudorigid.figures.study.verdicts"""
-    input:
-        verdicts="results/study/verdicts.nc",
-        why=reason("results/study/figures/{chart}.{extension}"),
-    wildcard_constraints:
-        chart="verdicts",
+        **of_kind("figure_errors"),

@@ -1,8 +1,8 @@
 """Make the published files as they are now the committed ones."""
 
 from pathlib import Path
-from typing import Any
 
+from ..config import Config
 from ..records.files import read_bytes, write_whole
 from . import manifest
 from .difference import UPSTREAM
@@ -10,7 +10,7 @@ from .published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 
 
-def accept(root: Path, checked: dict[str, Any]) -> int:
+def accept(root: Path, checked: Config) -> int:
     """Renew the manifests of the paper and of the other published sets that were made.
 
     Measured charts are published too, without a checksum. Returns the exit status, 1 if a result

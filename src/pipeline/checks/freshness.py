@@ -22,7 +22,7 @@ _MADE = {
     "source": "made by other code than this tree's:",
     "environment": "made with",
 }
-_MOST_CAUSES = 4  # in a line: the blocks of a sweep may differ each in another way
+_MOST_CAUSES = 4  # in a line: many results may differ each in another way
 
 
 class Freshness:

@@ -1,33 +1,22 @@
 """The sets of published files that must keep their bytes: what makes them, and their checksums.
 
-They are the figures of the paper, the pictures of claims, families and proofs, the study's charts
-whose data are the same on every machine, and the atlas.
+They are the figures of the paper, the study's charts whose data are the same on every machine, and
+the pictures of extensions.
 """
 
 import re
 from collections.abc import Collection, Iterable, Mapping
 from functools import cache
-from itertools import product, starmap
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pseudorigid.sweep import grid
-
-from ..config import PAPER, build_specs, paths
-from ..config.schema import study as parts
-from ..config.schema.published import FOLDERS
+from ..config import PAPER, Config, paths
+from ..config.build_specs import build_specs, with_dependencies
+from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
 from ..records.files import file_hash, read_text
 from ..records.record import git
 
-COMMANDS = {
-    PAPER: "./reproduce",
-    "claims": "./reproduce claims",
-    "families": "./reproduce families",
-    "proofs": "./reproduce prove --pictures",
-    "study": "./reproduce study",
-    "sweep": "./reproduce atlas",
-}
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"
 IDENTICAL = "identical to the committed one"
@@ -57,7 +46,7 @@ class PublishedSet(NamedTuple):
     @property
     def folder(self) -> str:
         """The folder of the published files."""
-        return FOLDERS[self.group]
+        return PUBLISHED[self.group]
 
     @property
     def results(self) -> str:
@@ -67,7 +56,7 @@ class PublishedSet(NamedTuple):
     @property
     def command(self) -> str:
         """The command that makes the files."""
-        return COMMANDS[self.group]
+        return SETS[self.group].command
 
     @property
     def on_request(self) -> bool:
@@ -77,7 +66,7 @@ class PublishedSet(NamedTuple):
     @property
     def texts(self) -> tuple[str, ...]:
         """Other files that the command writes."""
-        return (paths.LEDGER, paths.LEDGER_DATA) if self.group == "claims" else ()
+        return SETS[self.group].texts
 
     def sources(self, scene: str) -> list[str]:
         """Return the project's files that decide a scene's figures."""
@@ -99,56 +88,30 @@ class PublishedSet(NamedTuple):
         return unlisted_files(root, self.folder, {*self.drawn, *self.measured})
 
 
-def committed_sets(checked: dict[str, Any]) -> list[PublishedSet]:
+def committed_sets(config: Config) -> list[PublishedSet]:
     """Return all published sets of a checked config."""
-    variants = checked["variants"]
-    sets = [_figures(variants, name) for name in paths.PUBLISHED if variants[name]]
-    return [*sets, _study(variants), _atlas(checked["sweeps"])]
+    return [_published(config, name) for name in PUBLISHED if config.variants[name]]
 
 
-def _set(
-    group: str, config: _Blocks, data: _Data, specs: dict[str, BuildSpec], *measured: str
-) -> PublishedSet:
-    """Return the set with the drawings among these results."""
-    drawn = {Path(path).name: path for path, spec in specs.items() if spec.program == "draw"}
-    shown = {name: path for name, path in drawn.items() if Path(name).suffix[1:] in paths.SHOWN}
-    return PublishedSet(group, shown, config, data, specs, measured)
-
-
-def _figures(variants: paths.Variants, variant: str) -> PublishedSet:
-    """Return the figures of the paper, or the pictures of claims, families or proofs."""
-    scenes = variants[variant]
-    config = {scene: paths.drawing(block) for scene, block in scenes.items()}
+def _published(config: Config, group: str) -> PublishedSet:
+    """Return the published pictures of a set; those of measurements are listed apart."""
+    drawn = {n: block for n, block in config.variants[group].items() if block["formats"]}
+    measured = tuple(f"{name}.png" for name, block in drawn.items() if paths.is_measured(block))
+    scenes = {name: block for name, block in drawn.items() if not paths.is_measured(block)}
+    drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block["formats"]]
+    specs = build_specs(config, [group])
     data: _Data = {scene: {} for scene in scenes}
-    for (name, scene, stage), path in paths.artifact_paths(variants).items():
-        if name == variant:
+    for (name, scene, stage), path in paths.artifact_paths(config.variants).items():
+        if name == group and scene in data:
             data[scene][stage] = path
-    return _set(variant, config, data, build_specs.of_variants(variants, [variant]))
-
-
-def _study(variants: paths.Variants) -> PublishedSet:
-    """Return the study's charts of what is computed; charts of times are listed as measured."""
-    specs = build_specs.of_study(variants)
-    charts = {name: part for name, (part, *_) in parts.CHARTS.items() if part in parts.FIXED}
-    fixed = {*map(parts.data, parts.FIXED), *starmap(parts.drawn, product(charts, parts.FORMATS))}
-    config = {n: parts.drawing(n) | specs[parts.data(p)].config for n, p in charts.items()}
-    data = {name: {part: parts.data(part)} for name, part in charts.items()}
-    others = (name for name in parts.CHARTS if name not in charts)
-    measured = map(".".join, product(others, parts.FORMATS))
-    specs = {path: spec for path, spec in specs.items() if path in fixed}
-    return _set("study", config, data, specs, *measured)
-
-
-def _atlas(sweeps: dict[str, Any]) -> PublishedSet:
-    """Return the pictures of the sweeps. A picture of chains is a scene of its own."""
-    config = {name: grid.whole(sweep) for name, sweep in sweeps.items()}
-    data = {name: {"sweep": paths.sweep_dataset(name)} for name in sweeps}
-    for name, sweep in sweeps.items():
-        if "chains" in sweep:
-            scene = Path(paths.chains_picture(name)).stem
-            config[scene] = grid.whole(sweep) | {"chains": sweep["chains"]}
-            data[scene] = data[name] | {"chains": paths.chains_dataset(name)}
-    return _set("sweep", config, data, build_specs.of_sweeps(sweeps))
+    return PublishedSet(
+        group,
+        {Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
+        {scene: paths.drawing(block) for scene, block in scenes.items()},
+        data,
+        {path: specs[path] for path in with_dependencies(specs, drawings)},
+        measured,
+    )
 
 
 # -- checksum lists --------------------------------------------------------------------------------
@@ -185,7 +148,7 @@ def committed_state(root: Path, path: str) -> str:
 @cache
 def edited_lists(root: Path) -> list[str]:
     """Return the checksum lists and manifests that differ from the last commit, if git says so."""
-    files = [f"{folder}/{name}" for folder in FOLDERS.values() for name in (SUMS, MANIFEST)]
+    files = [f"{folder}/{name}" for folder in PUBLISHED.values() for name in (SUMS, MANIFEST)]
     names = git("diff", "--name-only", "--relative", "-z", "HEAD", "--", *files, root=root) or b""
     return names.decode().split("\0")[:-1]
 

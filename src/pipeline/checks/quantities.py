@@ -2,11 +2,13 @@
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ..config import paths
 from ..config.schema.kinds import KINDS
+from ..declaration import imported
 from ..records.artifacts import load
 
 # scene -> quantity -> the paper's value
@@ -24,10 +26,17 @@ def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> 
     own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
     data = {stage: load(root / file) for stage, file in own.items()}
     try:
-        return KINDS[block["picture"]].numbers(block, **data)
+        return reported(block, data)
     except (LookupError, TypeError, AttributeError, ArithmeticError):
         wrong = ", ".join(own.values())
         raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
+
+
+def reported(block: dict[str, Any], data: dict[str, Any]) -> dict[str, str]:
+    """Return what a picture reports, from the datasets by their stages."""
+    kind = KINDS[block["picture"]]
+    quantities: dict[str, str] = imported(kind.reported_by)(block, **data) if kind.headline else {}
+    return quantities
 
 
 def printed(scene: str, quantity: str) -> str:

@@ -8,8 +8,8 @@ is a note.
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
+from ..config import Config
 from ..records.files import file_hash, obstacle
 from ..records.record import failure
 from . import manifest
@@ -121,7 +121,7 @@ class Findings:
         yield f"{identical} of {total} figures identical{''.join(others)}"
 
 
-def verify(root: Path, checked: dict[str, Any], committed: bool = False) -> list[Findings]:
+def verify(root: Path, checked: Config, committed: bool = False) -> list[Findings]:
     """Compare each published set of a tree with its committed state; sets without one are left.
 
     With `committed`, a figure of the paper may be there without having been computed here.

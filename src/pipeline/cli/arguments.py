@@ -7,11 +7,15 @@ import argparse
 import re
 import sys
 from collections.abc import Iterable
-from functools import partial
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
+from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
+from ..declaration import Command, extensions, lacking
 from ..records.names import suggestion
+
+if TYPE_CHECKING:  # it needs packages
+    from ..config import Config
 
 ROOT = Path(__file__).resolve().parents[3]
 USAGE_STATUS = 2
@@ -24,163 +28,6 @@ _PRINTS = {
 }
 
 
-class Command:
-    """A command: its line in the list of commands, its arguments and its module in `commands`.
-
-    Each argument is a name with the keyword arguments of argparse's add_argument.
-    """
-
-    def __init__(
-        self,
-        line: str,
-        *arguments: tuple[str, dict[str, Any]],
-        module: str | None = None,
-        details: str = "",
-        runs_snakemake: bool = False,
-    ) -> None:
-        self.line, self.arguments, self.module = line, arguments, module
-        self.details, self.runs_snakemake = details, runs_snakemake
-
-
-# Such a command also reads -n and --cores, and what follows -- goes to snakemake.
-SnakemakeCommand = partial(Command, runs_snakemake=True, module="figures")
-
-
-def _names(name: str, text: str) -> tuple[str, dict[str, Any]]:
-    return name, {"nargs": "*", "help": text}
-
-
-def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[str, Any]]:
-    return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
-
-
-def _switch(name: str, text: str) -> tuple[str, dict[str, Any]]:
-    return name, {"action": "store_true", "help": text}
-
-
-# Required arguments that argparse treats as optional: without one, the command itself lists the
-# possible names.
-REQUIRED = ("variant", "a", "b")
-_FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
-_SWEEPS = (
-    _names("sweep", "sweeps of config.yaml; without a name, all"),
-    _switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
-)
-COMMANDS = {
-    "list": Command("every figure, chart and dataset that can be made, and the state of its file"),
-    "variant": SnakemakeCommand(
-        "make the figures of a variant of config.yaml, in results/NAME/figures/",
-        _name("variant", "a variant of config.yaml", "NAME"),
-        _names("figure", _FIGURES),
-    ),
-    "compare": SnakemakeCommand(
-        "show what differs between two variants, figure by figure",
-        _name("a", "a variant of config.yaml, or paper"),
-        _name("b", "another one"),
-        _names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
-        module="compare",
-    ),
-    "sweep": SnakemakeCommand("compute grids over k and E/g^2, in results/sweep/", *_SWEEPS),
-    "atlas": SnakemakeCommand("draw these grids, in more_figures/atlas/", *_SWEEPS),
-    "study": SnakemakeCommand(
-        "compare speed and accuracy with other methods, in more_figures/study/",
-        details=" Installs the packages of the other methods first (once).",
-    ),
-    "claims": SnakemakeCommand(
-        "check every statement of the paper: CLAIMS.md, more_figures/claims/",
-        module="claims",
-        details=" Makes missing results first, including the sweeps.",
-    ),
-    "families": SnakemakeCommand(
-        "follow periodic orbits from birth to end: more_figures/families/",
-        details=" Takes minutes; a killed search continues.",
-    ),
-    "prove": SnakemakeCommand(
-        "check the theorems from their certificates",
-        _names("theorem", "theorems; without a name, all"),
-        _switch("--again", "check them all, also those that did not change"),
-        _switch("--search", "search for new certificates first"),
-        _switch("--impacts", "prove the impacts behind the figures instead"),
-        _switch("--pictures", "draw the pictures, in more_figures/proofs/"),
-        module="prove",
-        details=" Checks what changed since it was checked here, and prints a line for each "
-        "theorem. The exit status is 1 if one is not proved.",
-    ),
-    "report": SnakemakeCommand(
-        "write one HTML page: figures, numbers beside the paper's, corrections, run times",
-        module="report",
-    ),
-    "explore": Command(
-        "write a page that computes orbits in a browser, with the same bits, and open it",
-        _switch("--no-open", "only write results/explorer.html"),
-    ),
-    "archive": Command(
-        "write one tar with the figures, the data and what they were made from",
-        ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
-        _switch("--with-packages", "add the sources and the locked packages: runs offline"),
-        ("--python", {"metavar": "X.Y", "help": "of these packages; by default the present one"}),
-        details=" The same results give the same bytes. All results must be current.",
-    ),
-    "article": Command(
-        "set the replication article, results/article.pdf, from current results",
-        details=" Installs the typesetter first (once).",
-    ),
-    "site": SnakemakeCommand(
-        "write one folder to mail or serve: report, explorer and article, in results/site/",
-        module="site",
-        details=" All published files must be the committed ones. Installs the typesetter first "
-        "(once).",
-    ),
-    "verify": Command(
-        "check whether everything is as committed, and if not, show what differs",
-        (
-            "--against",
-            {
-                "metavar": "PLACE",
-                "help": "compare file by file with an archive, or with a folder that holds an "
-                "unpacked archive or another tree",
-            },
-        ),
-        _switch("--strict", "exit with status 1 for notes too"),
-        _switch("--committed", "compare committed files alone: nothing has to be computed here"),
-        details=" The layers are config, source, environment, data, drawing and file. The exit "
-        "status is 1 for other bytes, for results that this tree did not make, and for figures of "
-        "the paper that were not computed here; other differences are notes.",
-    ),
-    "accept": Command(
-        "make the present figures the committed ones",
-        details=" Includes other published pictures that were made, and prints what changed.",
-    ),
-    "clean": Command(
-        "delete generated results; committed files stay",
-        _names("folder", "variants, or other folders of results/; without a name, all"),
-        _switch("--yes", "do not ask"),
-    ),
-    "benchmark": Command(
-        "measure speeds and print a table of their ratios",
-        module="program",
-        details=" Installs the packages of the study first (once).",
-    ),
-    "test": Command(
-        "run the test suite (arguments go to pytest)",
-        module="program",
-        details=" Installs the packages of the tests first (once).",
-    ),
-    "help": Command(
-        "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")
-    ),
-}
-DEFAULT_COMMAND = SnakemakeCommand(
-    "Draw the paper's figures from config.yaml into paper_figures/, unless they are current.",
-    _names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
-    _switch("--version", "print the versions of this project and of snakemake"),
-)
-# Command and option that an earlier version had -> what to do instead.
-_REMOVED = {
-    ("archive", "--machine"): "archive on such a machine",
-    ("claims", "--check"): "all claims are judged",
-    ("claims", "--data"): "the data of this tree are judged",
-}
 _OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
 _SNAKEMAKE = "What follows -- goes to snakemake as it is: ./reproduce fig3 -- --dag"
 
@@ -200,13 +47,19 @@ class Arguments(argparse.Namespace):
         return self.dry_run or not _PRINTS.isdisjoint(self.options)
 
     @property
-    def checked(self) -> dict[str, Any]:
+    def checked(self) -> "Config":
         """The checked config.yaml."""
         if "config" not in self:
             from ..config import load  # needs packages
 
             self.config = load(ROOT / "config.yaml")
         return self.config
+
+
+def _removed(word: str | None, option: str) -> str | None:
+    """Return what to do instead of an option that an earlier version had."""
+    named = (word or "", option)
+    return next((e.removed[named] for e in extensions().values() if named in e.removed), None)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -220,17 +73,20 @@ class _Parser(argparse.ArgumentParser):
 def read(arguments: list[str]) -> Arguments:
     """Parse a command line; raises SystemExit after help and after a mistake."""
     first, *rest = arguments or [""]
-    word = first if first in COMMANDS else None
+    if needed := lacking(first):
+        _refuse(f"{first} needs the extension {needed}, which is not in src/extensions")
+    commands = all_commands()
+    word = first if first in commands else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
     for option in (argument.partition("=")[0] for argument in rest):
-        if word and (word, option) in _REMOVED:
-            _refuse(f"{word}: {option} was removed: {_REMOVED[word, option]}")
-    own, options = _split(COMMANDS.get(word or "", DEFAULT_COMMAND), rest if word else arguments)
+        if words := _removed(word, option):
+            _refuse(f"{word}: {option} was removed: {words}")
+    own, options = _split(commands.get(word or "", DEFAULT_COMMAND), rest if word else arguments)
     args = _parser(word).parse_args(own, Arguments())
     if word == "help":
-        if args.word not in (None, *COMMANDS):
-            _refuse(f"no command {args.word}{hint(args.word, COMMANDS)}")
+        if args.word not in (None, *commands):
+            _refuse(f"no command {args.word}{hint(args.word, commands)}")
         return read(["--help"] if args.word is None else [args.word, "--help"])
     if not word and args.version:
         print(_versions())
@@ -250,7 +106,7 @@ def explain(parser: argparse.ArgumentParser, message: str) -> str:
     if first.startswith("-"):
         first = first.partition("=")[0]
     known = [name for action in parser._actions for name in action.option_strings]
-    owners = [name for name, command in COMMANDS.items() if first in dict(command.arguments)]
+    owners = [name for name in all_commands() if first in dict(_arguments(name))]
     after = ": options of snakemake follow --" if "--cores" in known and first[0] == "-" else ""
     after = f": {owners[0]} has it" if owners and first[0] == "-" else after
     return f"no argument {first}{hint(first, known) or after}"
@@ -289,8 +145,15 @@ def _number_of_cores(text: str) -> str:
     raise argparse.ArgumentTypeError(f"{text!r} is not allowed: expected 1 or more, or all")
 
 
+def _arguments(name: str | None) -> list[tuple[str, dict[str, Any]]]:
+    """Return the arguments of a command with those that extensions add to it."""
+    command = all_commands().get(name or "", DEFAULT_COMMAND)
+    return [*command.arguments, *(option[:2] for option in options_of(name))]
+
+
 def _parser(name: str | None) -> _Parser:
-    command = COMMANDS.get(name or "", DEFAULT_COMMAND)
+    commands = all_commands()
+    command = commands.get(name or "", DEFAULT_COMMAND)
     if name:
         line = f"{command.line[0].upper()}{command.line[1:]}.{command.details}"
         parser = _Parser(f"./reproduce {name}", description=line, allow_abbrev=False)
@@ -299,11 +162,11 @@ def _parser(name: str | None) -> _Parser:
         unchanged = argparse.RawDescriptionHelpFormatter
         parser = _Parser("./reproduce", formatter_class=unchanged, allow_abbrev=False)
         parser.description = command.line
-        width = max(map(len, COMMANDS))
-        lines = [f"  {word:{width}}  {COMMANDS[word].line}" for word in COMMANDS]
+        width = max(map(len, commands))
+        lines = [f"  {word:{width}}  {commands[word].line}" for word in commands]
         details = "./reproduce COMMAND --help shows a command's arguments."
         parser.epilog = "\n".join(["commands:", *lines, "", details, _OFFLINE, _SNAKEMAKE])
-    for key, how in command.arguments:
+    for key, how in _arguments(name):
         parser.add_argument(key, **how)
     if command.runs_snakemake:
         text = "print what would be made, and make nothing"

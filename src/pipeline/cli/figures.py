@@ -10,10 +10,10 @@ from typing import Any
 
 from ..checks.freshness import MISSING, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
-from ..config import build_specs, paths, unknown
-from ..config.build_specs import with_dependencies
+from ..config import Config, paths, unknown
+from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.kinds import KINDS
-from ..config.schema.published import FOLDERS, PUBLISHED
+from ..config.schema.sets import PUBLISHED
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
 from ..records.record import failure, record_path
@@ -32,22 +32,20 @@ def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None
             raise CommandLineError(unknown(kind, name, known))
 
 
-def of_scenes(checked: dict[str, Any], variant: str, names: Sequence[str] = ()) -> Wanted:
+def of_scenes(checked: Config, variant: str, names: Sequence[str] = ()) -> Wanted:
     """Return the files of the named scenes of a variant, of all without names.
 
     They include a file of each scene that the variant leaves out.
     """
-    files = {
-        p: (s, made[-1]) for p, (s, made) in paths.figures(checked["variants"], variant).items()
-    }
-    for scene in checked["left_out"].get(variant, ()):
+    files = {p: (s, made[-1]) for p, (s, made) in paths.figures(checked.variants, variant).items()}
+    for scene in checked.left_out.get(variant, ()):
         files[paths.drawn(scene, "png", variant)] = scene, paths.drawn(scene, "png", variant)
     require_known("figure", names, [*dict.fromkeys(scene for scene, _ in files.values())])
     return {path: drawn for path, (scene, drawn) in files.items() if not names or scene in names}
 
 
 def make(
-    checked: dict[str, Any],
+    checked: Config,
     group: str,
     wanted: Wanted,
     args: Arguments,
@@ -57,18 +55,18 @@ def make(
     """Make and publish files, print a table of them, and return the exit status.
 
     A figure whose periodic orbit does not exist is left out, and the others are made; the status is
-    1 only if it should have been published. `group` is a variant, "study" or "sweep". Further
+    1 only if it should have been published. `group` is a set of scenes or a variant. Further
     results to make are `data`, which the table leaves out, as it does files that were current if it
     is `brief`. `args` say what snakemake does.
     """
-    variants, folder = checked["variants"], FOLDERS.get(group)
-    reasons = checked["left_out"].get(group, {})
+    variants, folder = checked.variants, PUBLISHED.get(group)
+    reasons = checked.left_out.get(group, {})
     left_out = {path: PurePath(path).stem for path in wanted if PurePath(path).stem in reasons}
     wanted = {path: drawing for path, drawing in wanted.items() if path not in left_out}
     results = [*wanted.values(), *data]
-    specs = build_specs.of_variants(variants)
+    specs = build_specs(checked, [group])
     if set(results) - set(specs):
-        specs = build_specs.of_all(checked)
+        specs = build_specs(checked)
     before = {drawing: identity(drawing) for drawing in wanted.values()}
 
     def blocks(drawings: Iterable[str]) -> dict[str, Any]:

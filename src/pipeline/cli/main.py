@@ -5,6 +5,7 @@ import os
 import sys
 from pathlib import Path
 
+from ..commands import DEFAULT_COMMAND, all_commands, module_of
 from . import arguments
 
 
@@ -42,12 +43,11 @@ def _run(words: list[str]) -> int:
         return 1
     os.chdir(ROOT)
     set_environment()
-    command = arguments.COMMANDS.get(args.word, arguments.DEFAULT_COMMAND)
-    name = command.module or args.word
+    command = all_commands().get(args.word, DEFAULT_COMMAND)
     try:
         if not _is_utf8(ROOT):
             raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
-        module = importlib.import_module(f".commands.{name}", __package__)
+        module = importlib.import_module(module_of(command, args.word, vars(args)))
         return int(module.run(args))
     except ConfigError as error:
         print(error, file=sys.stderr)

@@ -4,9 +4,9 @@ Mistakes in the file raise one `ConfigError`, with a line for each mistake that 
 value and what is allowed. Every command imports this package, so importing it must be fast.
 """
 
-from .paths import PAPER, PUBLISHED, figures
+from .paths import PAPER, PUBLISHED, Config, figures
 from .validation.document import check
 from .validation.reading import load
 from .validation.words import ConfigError, unknown
 
-__all__ = ["PAPER", "PUBLISHED", "ConfigError", "check", "figures", "load", "unknown"]
+__all__ = ["PAPER", "PUBLISHED", "Config", "ConfigError", "check", "figures", "load", "unknown"]

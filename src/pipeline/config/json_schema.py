@@ -85,7 +85,10 @@ def _meanings(model: type[Block]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for base in model.__mro__[model.__mro__.index(Block) - 1 :: -1]:
-        (tree,) = ast.parse(dedent(inspect.getsource(base))).body
+        try:
+            (tree,) = ast.parse(dedent(inspect.getsource(base))).body
+        except OSError:  # a class that was made by a function
+            continue
         assert isinstance(tree, ast.ClassDef)
         for field, text in pairwise(tree.body):
             match field, text:

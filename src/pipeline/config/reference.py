@@ -4,23 +4,29 @@ Run `.venv/bin/python -m pipeline.config.reference` to renew it.
 """
 
 from collections.abc import Iterable
+from importlib import import_module
 from pathlib import Path
 from textwrap import dedent, fill
+from typing import Any
 
 import jinja2
 
+from ..declaration import files
 from ..records.files import write_whole
 from ..records.sources import ROOT
 from .json_schema import Described
 from .schema import fields
 from .schema.fields import Block, fields_of
 from .schema.kinds import KINDS
-from .schema.scene import Scene
+from .schema.method import METHOD_BLOCKS
+from .schema.scene import Picture, Scene
+from .schema.sets import PAPER, SETS
 from .schema.stages import STAGES, upstream
-from .schema.sweep import Span, Sweep
-from .schema.variant import Prove, Variant
+from .schema.variant import Variant
+from .validation.document import BLOCKS
+from .validation.reading import with_shipped
 
-EXAMPLES = Path(__file__).parent / "schema" / "kinds" / "examples.yaml"
+EXAMPLES = (Path(__file__).parent / "schema" / "kinds" / "examples.yaml", *files("examples.yaml"))
 
 
 def page() -> str:
@@ -29,22 +35,58 @@ def page() -> str:
     template = jinja2.Template(
         text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
-    declared = (Prove, Scene, Span, Sweep, Variant, example, listed, own_fields, quoted, upstream)
+    declared: tuple[Any, ...] = (Scene, Variant, example, has_picture, key_of, listed)
+    declared += (mappings, own_fields, quoted, upstream)
     names = {each.__name__: each for each in declared}
-    return str(template.render(names, KINDS=KINDS, STAGES=STAGES, fields=fields))
+    tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
+    sets = {each.key: each for name, each in SETS.items() if each.key and name != PAPER}
+    return str(template.render(names | tables, SETS=sets, fields=fields))
 
 
 def example(name: str) -> str:
     """Return the example of a kind of picture as YAML, a block of `scenes:`."""
-    _, _, text = EXAMPLES.read_text(encoding="utf-8").partition(f"\n{name}:\n")
-    return dedent(text.partition("\n\n")[0]).rstrip()
+    for file in EXAMPLES:
+        _, _, text = f"\n{file.read_text(encoding='utf-8')}".partition(f"\n{name}:\n")
+        if text:
+            return dedent(text.partition("\n\n")[0]).rstrip()
+    raise LookupError(f"{name}: no example")
 
 
-def own_fields(kind: type[Scene]) -> list[str]:
+def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
+    """Return the blocks that only this kind has as values, by the fields."""
+    module = import_module(kind.__module__)
+    return {
+        name.lower(): value
+        for name, value in vars(module).items()
+        if isinstance(value, type)
+        and issubclass(value, Block)
+        and not issubclass(value, Picture)
+        and value.__module__ == kind.__module__
+    }
+
+
+def own_fields(kind: type[Picture]) -> list[str]:
     """Return the fields of a kind of picture that not every scene has, or that differ from it."""
-    of_scene = {key: field.annotation for key, field in Scene.model_fields.items()}
+    base = Scene if issubclass(kind, Scene) else Picture
+    of_scene = {key: field.annotation for key, field in base.model_fields.items()}
     own = fields_of(kind).items()
     return [k for k, field in own if k not in of_scene or field.annotation != of_scene[k]]
+
+
+def has_picture(kind: type[Picture]) -> bool:
+    """Return whether scenes of a kind are drawn."""
+    return bool(kind.model_fields["formats"].default)
+
+
+def key_of(name: str) -> str:
+    """Return the key of config.yaml whose shipped block has scenes of a kind, or `scenes`."""
+    shipped = with_shipped({})
+    assert isinstance(shipped, dict)
+    kinds = {each.key: each.kind for each in SETS.values()}
+    for key in kinds.keys() & shipped.keys():
+        if name in {scene.get("picture", kinds[key]) for scene in shipped[key].values()}:
+            return key
+    return "scenes"
 
 
 def listed(model: type[Block], keys: Iterable[str] = ()) -> str:

@@ -9,10 +9,11 @@ leaves it as it is.
 import os
 import time
 from functools import cache, partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..checks.freshness import MISSING, Freshness
-from ..config import build_specs, load
+from ..config import Config, load
+from ..config.build_specs import build_specs
 from ..records.files import write_whole
 from ..records.record import beside, record_path
 from ..records.sources import ROOT
@@ -23,7 +24,7 @@ why_path = partial(beside, "why", "txt")  # of the reason why a result is outdat
 class Plan(NamedTuple):
     """The checked config, the freshness of all results, and the outdated results of this run."""
 
-    config: dict[str, Any]
+    config: Config
     freshness: Freshness
     outdated: set[str]  # grows while snakemake asks for inputs
 
@@ -54,7 +55,7 @@ class Plan(NamedTuple):
 def plan() -> Plan:
     """Return the plan for config.yaml, the same during a process; raises ConfigError."""
     config = load(ROOT / "config.yaml")
-    return Plan(config, Freshness(ROOT, build_specs.of_all(config)), set())
+    return Plan(config, Freshness(ROOT, build_specs(config)), set())
 
 
 def _write_reason(path: str, reason: str) -> None:

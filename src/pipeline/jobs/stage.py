@@ -4,11 +4,12 @@ import inspect
 import sys
 import time
 from collections.abc import Callable
-from importlib import import_module
+from typing import Any
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 
+from ..declaration import imported
 from ..records import artifacts
 from ..records.build_spec import BuildSpec
 
@@ -27,10 +28,8 @@ def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
 
 
 def make(spec: BuildSpec) -> None:
-    """Compute with the module and function that the specification names."""
-    block, (module, name) = spec.config, spec.given
-    function = getattr(import_module(module), name)
-    method, ball = block.get("method", {}), Ball(**block["ball"])
+    """Compute with the function that the specification names."""
+    block, function = spec.config, imported(spec.function)
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
     taken = inspect.signature(function).parameters
     if "progress" in taken:
@@ -38,11 +37,17 @@ def make(spec: BuildSpec) -> None:
     if "folder" in taken:  # keeps finished parts, so that a killed run goes on
         fields["folder"] = f"{spec.result}.part"
     inputs = [artifacts.load(path) for path in spec.inputs]
+    attributes: dict[str, Any] = {"stage": spec.step, "title": artifacts.title_of(function)}
+    if "ball" not in block:
+        energies = {"energy": block["energy"]} if "energy" in block else {}
+        dataset = function(*inputs, **fields, **energies)
+        artifacts.save(dataset, spec.result, block, **(attributes | dataset.attrs))
+        return
+    method, ball = block.get("method", {}), Ball(**block["ball"])
     if "scan" in method:
         ball = Ball(ball.k, ball.g, map=ImpactMap((method["scan"], method["tolerance"])))
     dataset = function(ball, block["energy"], *inputs, **fields)
     if "scan" in method:
         dataset.attrs |= {"impacts": ball.map.impacts, "impacts_missed": ball.map.missed}
-    attributes = {"stage": spec.step, "k": ball.k, "g": ball.g, "energy": float(block["energy"])}
-    title = artifacts.title_of(function)
-    artifacts.save(dataset, spec.result, block, **attributes, title=title)
+    attributes |= {"k": ball.k, "g": ball.g, "energy": float(block["energy"])}
+    artifacts.save(dataset, spec.result, block, **attributes)

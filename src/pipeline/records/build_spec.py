@@ -11,6 +11,6 @@ class BuildSpec(NamedTuple):
     step: str
     config: dict[str, Any]  # the block of the config that it depends on
     program: str  # the module of `pipeline.jobs` that makes it
-    given: Any  # a further argument of the program, such as the module that draws a picture
+    function: str  # module.function that computes the dataset or draws the picture
     sources: list[str]  # the project's files that decide its bytes
     inputs: list[str]  # the results that it is made from

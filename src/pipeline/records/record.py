@@ -17,8 +17,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-import pseudorigid
-
+from ..loading import LOADED
 from .build_spec import BuildSpec
 from .files import file_hash, read_text, write_whole
 from .sources import ROOT, syntax_hash
@@ -99,8 +98,7 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        of_scene = type(error) is ValueError and spec.program in ("stage", "draw")
-        if getattr(error, "lasting", of_scene):
+        if getattr(error, "lasting", type(error) is ValueError):
             require_unchanged(source_hashes | record["inputs"])
             _write(refusal_path(spec.result), record, {"sha256": None, "refused": str(error)})
         raise
@@ -120,14 +118,14 @@ def require_unchanged(hashes: Mapping[str, str | None]) -> None:
     `hashes` maps a path, relative to the current folder, to its SHA-256, or None for no file.
     """
     for path, digest in hashes.items():
-        loaded = pseudorigid.LOADED.get(os.path.realpath(path), set())
+        loaded = LOADED.get(os.path.realpath(path), set())
         if file_hash(path) != digest or loaded - {digest}:
             raise ChangedError(f"{path} changed during the run; run ./reproduce again")
 
 
 def require_loaded_unchanged() -> None:
     """Raise ChangedError if a file of this tree has changed since this process loaded it."""
-    for path, digests in pseudorigid.LOADED.items():
+    for path, digests in LOADED.items():
         for digest in digests if Path(path).is_relative_to(ROOT) else ():
             require_unchanged({os.path.relpath(path, ROOT): digest})
 

@@ -7,8 +7,9 @@ it.
 import os
 from pathlib import Path
 
-from pseudorigid.kernel.compiled import import_closure as imports
-from pseudorigid.kernel.compiled import syntax_hash as meanings
+from ..declaration import extensions
+from . import import_closure as imports
+from . import syntax_hash as meanings
 
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
@@ -16,22 +17,21 @@ ROOT = SRC.parent
 # whole files, hash, load modules and report failures. Tests plant a change in each.
 BOOKKEEPING = (
     "pipeline",
+    "pipeline.declaration",
     "pipeline.jobs",
     "pipeline.jobs.dispatch",
     "pipeline.jobs.server",
+    "pipeline.loading",
     "pipeline.records",
     "pipeline.records.build_spec",
     "pipeline.records.files",
+    "pipeline.records.import_closure",
+    "pipeline.records.machine_code",
     "pipeline.records.record",
     "pipeline.records.sources",
+    "pipeline.records.syntax_hash",
     "pseudorigid",
-    "pseudorigid.kernel.compiled.import_closure",
-    "pseudorigid.kernel.compiled.syntax_hash",
 )
-# Module -> pattern of the data files that it reads.
-_READS = {
-    "src/pseudorigid/proofs/theorems/statements.py": "src/pseudorigid/proofs/certificates/*.toml"
-}
 
 
 def source_files(*modules: str) -> list[str]:
@@ -41,12 +41,13 @@ def source_files(*modules: str) -> list[str]:
     """
     closure = imports.import_closure(SRC, *modules, leave_out=BOOKKEEPING)
     files = [os.path.relpath(file, ROOT) for file in closure]
-    for module in set(files) & set(_READS):
-        files += sorted(os.path.relpath(file, ROOT) for file in ROOT.glob(_READS[module]))
+    for extension in extensions().values():
+        for module in extension.reads.keys() & {*files}:
+            found = ROOT.glob(extension.reads[module])
+            files += sorted(os.path.relpath(file, ROOT) for file in found)
     return files
 
 
 def syntax_hash(path: str | os.PathLike[str]) -> str | None:
     """Hash of a source file's syntax, without comments and docstrings; None if there is no file."""
-    digest: str | None = meanings.syntax_hash(path)
-    return digest
+    return meanings.syntax_hash(path)

@@ -1,6 +1,6 @@
 """Growth of tangent vectors, and winding around a centre, along many orbits of one ball.
 
-Only this module calls the compiled map for a sweep. Lengths are in g R, so that g = 1.
+Lengths are in g R, so that g = 1.
 """
 
 import math

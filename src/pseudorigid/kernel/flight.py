@@ -12,7 +12,7 @@ While the ball flies, f < 0. From a point t before the first root, f lies below 
 
 A step to the root of the parabola, or to S if that is nearer, cannot pass the first root of f. The
 march ends where f' > 0 and a bound of f'' shows that f rises until its root, which is then the
-first root and the only one within reach. docs/method.md has the proofs.
+first root and the only one within reach. docs/method.md proves both.
 """
 
 import math

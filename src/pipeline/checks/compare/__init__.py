@@ -9,8 +9,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from ...config import paths
-from ...config.build_specs import of_variants
+from ...config import Config, paths
+from ...config.build_specs import build_specs
 from ...config.schema.fields import YamlMapping
 from ...config.schema.kinds import KINDS
 from ...records.artifacts import load
@@ -20,11 +20,11 @@ from ..freshness import CURRENT, Freshness
 from . import cycles, picture, summaries
 
 
-def compare(root: Path, checked: YamlMapping, names: Sequence[str], scenes: Sequence[str]) -> None:
+def compare(root: Path, checked: Config, names: Sequence[str], scenes: Sequence[str]) -> None:
     """Print what differs between two variants and save their figures side by side."""
-    variants, left_out = checked["variants"], checked["left_out"]
+    variants, left_out = checked.variants, checked.left_out
     files = paths.artifact_paths(variants)
-    freshness = Freshness(root, of_variants(variants, names))
+    freshness = Freshness(root, build_specs(checked, names))
     print(" | ".join(names))
     print(f"(a periodic orbit further than {cycles.REACH:g} section radii away counts as another)")
     for scene in scenes:

@@ -1,7 +1,6 @@
 """Two figures side by side, on the same axes."""
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,8 @@ from pseudorigid.figures.canvas import render
 
 from ...config.paths import drawing
 from ...config.schema.fields import YamlMapping
+from ...config.schema.kinds import KINDS
+from ...declaration import imported
 from ...records.files import replacing
 
 _HEAD = 75  # pixels
@@ -32,7 +33,7 @@ def on_same_axes(
     They keep their own axes if the kind of picture has none in the config, or if one of the
     pictures would shrink to a spot.
     """
-    draw = import_module(f"pseudorigid.figures.kinds.{blocks[0]['picture']}").draw
+    draw = imported(KINDS[blocks[0]["picture"]].drawn_by)
     found: list[dict[str, Any]] = [{}, {}]
     figures = [
         draw(drawing(block) | {"completed": axes}, *datasets)

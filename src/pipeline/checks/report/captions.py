@@ -1,4 +1,4 @@
-"""Captions of all pictures, from captions.toml, for the report and docs/figures.md."""
+"""Captions of all pictures, from files captions.toml, for the report and docs/figures.md."""
 
 import tomllib
 from pathlib import Path
@@ -7,8 +7,12 @@ from typing import Any, NamedTuple
 import jinja2
 
 from ...config.schema.kinds import KINDS
+from ...declaration import files
 
-CAPTIONS = tomllib.loads(Path(__file__).with_name("captions.toml").read_text(encoding="utf-8"))
+CAPTIONS: dict[str, dict[str, dict[str, str]]] = {"kinds": {}, "scenes": {}}
+for _file in (Path(__file__).with_name("captions.toml"), *files("captions.toml")):
+    for _part, _texts in tomllib.loads(_file.read_text(encoding="utf-8")).items():
+        CAPTIONS[_part] |= _texts
 
 
 class Caption(NamedTuple):
@@ -20,17 +24,11 @@ class Caption(NamedTuple):
     see: str
 
 
-def caption_of(name: str, block: dict[str, Any] | None = None) -> Caption:
-    """Return the caption of a complete scene or sweep, or of a chart, which has no block."""
-    block = block or {}
-    if "picture" in block:
-        kind = block["picture"]
-        texts = {"title": KINDS[kind].__doc__} | CAPTIONS["kinds"][kind]
-    elif "k" in block:
-        kind = "chains" if "chains" in block else "line" if len(block["k"]) == 1 else "plane"
-        texts = CAPTIONS["sweeps"][kind]
-    else:
-        texts = CAPTIONS["charts"][name]
+def caption_of(name: str, block: dict[str, Any]) -> Caption:
+    """Return the caption of a complete scene."""
+    kind = block["picture"]
+    texts = CAPTIONS["scenes"].get(name) or CAPTIONS["kinds"].get(kind, {})
+    texts = {"title": str(KINDS[kind].__doc__), "shows": "", "see": ""} | texts
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
     return Caption(shown_name, *(_filled(texts[part], block) for part in ("title", "shows", "see")))

@@ -11,22 +11,23 @@ from textwrap import fill
 import jinja2
 
 from ...config import load
-from ...config.schema import study
+from ...config.schema.sets import SETS
 from ...records.files import write_whole
 from ...records.sources import ROOT
 from .. import manifest, published_sets
-from .captions import CAPTIONS, caption_of
+from .captions import caption_of
 
 
 def page() -> str:
     """Return the text of docs/figures.md."""
-    sections = []
-    sets = published_sets.committed_sets(load(ROOT / "config.yaml"))
-    for heading, published_set in zip(CAPTIONS["headings"], sets, strict=True):
+    sections, config = [], load(ROOT / "config.yaml")
+    for published_set in published_sets.committed_sets(config):
         scenes = manifest.read(ROOT, published_set.folder)["scenes"]
-        names = study.CHARTS if published_set.folder == study.FOLDER else scenes
-        captions = [(name, caption_of(name, scenes.get(name, {}).get("config"))) for name in names]
-        sections.append((heading, published_set, captions))
+        blocks = {name: scene["config"] for name, scene in scenes.items()}
+        for file in published_set.measured:
+            blocks[Path(file).stem] = config.variants[published_set.group][Path(file).stem]
+        captions = [(name, caption_of(name, block)) for name, block in blocks.items()]
+        sections.append((SETS[published_set.group].heading, published_set, captions))
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
     environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
     wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)

@@ -11,10 +11,11 @@ _PATH = re.compile(r"(?<![\w./])\w[\w.-]*(?:/[\w.-]*\w)+")
 
 
 class Links:
-    """Links of a report in results/report/, or in the folder of ./reproduce site."""
+    """Links of a report in results/report/, or in another folder of results."""
 
-    def __init__(self, root: Path, pictures: dict[str, str], in_site: bool) -> None:
-        self.root, self.pictures, self.in_site = root, pictures, in_site
+    def __init__(self, root: Path, in_site: bool) -> None:
+        self.root, self.in_site = root, in_site
+        self.pictures: dict[str, str] = {}  # published file -> its place on the page
 
     def of(self, text: str) -> Markup:
         """Return a text in which paths are links that may be broken after a slash or underscore."""

@@ -6,31 +6,29 @@ Its bytes depend on the results alone, except for the seconds and the commit in 
 import base64
 import hashlib
 import io
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import jinja2
 from PIL import Image
 
-from ...config import PAPER, PUBLISHED, build_specs, paths
+from ...config import PAPER, PUBLISHED, Config, paths
+from ...config.build_specs import build_specs
 from ...config.schema.kinds import KINDS
-from ...explorer.data import address
-from ...records.files import read_bytes, read_text
+from ...declaration import extensions
+from ...records.files import read_bytes
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
-from .. import claims
-from ..claims.schema import CORRECTED, FALSE, Verdict
 from ..freshness import CURRENT, Freshness
 from ..published_sets import IDENTICAL, committed_sets, committed_state
 from ..quantities import measured, printed
 from ..verify import Findings, inspect
 from .captions import caption_of
 from .links import Links
+from .part import Part
 
-# Of ./reproduce site, beside the report: name in the menu -> file.
-_ARTICLE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
@@ -38,60 +36,43 @@ _TEMPLATES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
-# What filters the table of statements; without it, the whole table is shown.
-_SCRIPT = Path(__file__).with_name("filter.js").read_text(encoding="utf-8")
 _THUMBNAIL_STEP = 5  # pixels of a picture per pixel of its thumbnail
 Picture = dict[str, Any]  # what the template shows of a picture
 
 
-def render(root: Path, checked: dict[str, Any], *, in_site: bool = False) -> str:
+def render(root: Path, config: Config, beside: Mapping[str, str] | None = None) -> str:
     """Return the page of the tree at `root`.
 
-    In the folder of ./reproduce site the explorer and the article lie beside it. Raises ValueError,
-    which names the file, if a result cannot be read.
+    `beside` maps names in the menu to files in the page's folder, if it stands beside them. Raises
+    ValueError, which names the file, if a result cannot be read.
     """
-    page = _Page(root, checked)
+    links = Links(root, in_site=beside is not None)
+    modules = [e.report for e in extensions().values() if e.report]
+    parts = [import_module(name).part(config, root, links) for name in modules]
+    page = _Page(root, config, parts)
     figures = page.variant(PAPER)
-    variants = {name: page.variant(name) for name in page.variants if name not in PUBLISHED}
+    variants = {name: page.variant(name) for name in config.own_variants}
     made = {name: shown for name, shown in variants.items() if any(p["image"] for p in shown)}
-    verdicts = page.claims()
     on_request = page.on_request()
     shown = [figures, *variants.values(), *(pictures for _, pictures in on_request)]
-    links = Links(root, {p["published"]: p["id"] for group in shown for p in group}, in_site)
+    links.pictures |= {p["published"]: p["id"] for group in shown for p in group}
     return _TEMPLATES.get_template("page.html").render(
         linked=links.of,
         figures=figures,
         variants=made,
         unmade=[name for name in variants if name not in made],
         more=on_request,
-        claims=verdicts,
-        corrected=(FALSE, CORRECTED),
+        parts=parts,
         results=list(page.provenance()),
-        counts=_counts(verdicts),
-        policy=_source_of(_SCRIPT),
-        script=_SCRIPT,
-        explorer="explorer.html" if in_site else "../explorer.html",
-        article=_ARTICLE if in_site else {},
+        policy=" ".join(_source_of(part.script) for part in parts if part.script) or "'none'",
+        beside=beside or {},
     )
-
-
-def _counts(verdicts: list[Verdict]) -> list[tuple[str, int]]:
-    """Return each verdict that occurs, in the order of the table, and how often it does."""
-    return list(Counter(row.verdict for row in verdicts).items())
 
 
 def _source_of(script: str) -> str:
     """Return what a content security policy calls a script."""
     digest = hashlib.sha256(script.encode()).digest()
-    return f"sha256-{base64.b64encode(digest).decode()}"
-
-
-def _described(identifier: str, variant: str, name: str, block: dict[str, Any] | None) -> Picture:
-    """Return a picture's caption and its place in the explorer, without an image."""
-    scene = block if block and "picture" in block else None
-    picture: Picture = caption_of(name, block)._asdict()
-    picture |= {"id": identifier, "image": None, "rows": [], "headline": None, "published": ""}
-    return picture | {"explorer": address(variant, name, scene) if scene else None}
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
 
 
 def _image(file: Path) -> Picture:
@@ -110,39 +91,48 @@ def _thumbnail(file: Path) -> str:
 
 
 class _Page:
-    def __init__(self, root: Path, checked: dict[str, Any]) -> None:
-        self.root, self.variants, self.left_out = root, checked["variants"], checked["left_out"]
+    def __init__(self, root: Path, config: Config, parts: Iterable[Part]) -> None:
+        self.root, self.variants, self.left_out = root, config.variants, config.left_out
+        self.parts = [*parts]
         self.artifact_paths = paths.artifact_paths(self.variants)
-        self.sets = [inspect(root, each) for each in committed_sets(checked)]
-        specs = build_specs.of_variants(self.variants)
-        self.freshness = Freshness(root, specs)
+        self.sets = [inspect(root, each) for each in committed_sets(config)]
+        self.freshness = Freshness(root, build_specs(config))
         self.shown: dict[str, None] = {}  # every result behind the page, in order
+
+    def _described(
+        self, identifier: str, variant: str, name: str, block: dict[str, Any], published: str = ""
+    ) -> Picture:
+        """Return a picture's caption and the notes of extensions, without an image."""
+        picture: Picture = caption_of(name, block)._asdict()
+        picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
+        notes = [part.note(variant, name, block, published) for part in self.parts]
+        return picture | {"published": published, "notes": [*filter(None, notes)]}
 
     def variant(self, name: str) -> list[Picture]:
         """Return the pictures of a variant; those that are not current have no image."""
         pictures = []
         for scene, block in self.variants[name].items():
             drawing = paths.drawn(scene, "png", name)
-            picture = _described(f"{name}-{scene}", name, scene, block)
+            published = _published(name, drawing)
+            picture = self._described(f"{name}-{scene}", name, scene, block, published)
             if (state := self.freshness.state(drawing)) != CURRENT:
                 pictures.append(picture | {"missing": state})
             else:
                 data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
                 numbers = self._measured(name, scene) | {"file": _file(self.root, name, drawing)}
-                numbers["published"] = _published(name, drawing)
                 pictures.append(picture | self._made(drawing, data) | numbers)
         for scene, reason in self.left_out.get(name, {}).items():
-            picture = _described(f"{name}-{scene}", name, scene, self.variants[PAPER][scene])
+            picture = self._described(f"{name}-{scene}", name, scene, self.variants[PAPER][scene])
             pictures.append(picture | {"missing": reason})
         return pictures
 
     def on_request(self) -> list[tuple[str, list[Picture]]]:
-        """Return the command and the pictures of claims, families, proofs, study and atlas."""
+        """Return the command and the pictures of each set that is drawn on request."""
         sets = []
         for findings in self.sets[1:]:
             published_set = findings.published_set
-            files = (*published_set.drawn, *published_set.measured)
-            pictures = [self._on_request(findings, name) for name in files if name.endswith(".png")]
+            names = [name for name in published_set.drawn if name.endswith(".png")]
+            pictures = [self._on_request(findings, n) for n in (*names, *published_set.measured)]
             sets.append((published_set.command, [each for each in pictures if each]))
         return sets
 
@@ -151,14 +141,13 @@ class _Page:
         published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
         scene, variant = Path(name).stem, published_set.group
-        block = published_set.config.get(scene)
-        picture = _described(published.replace("/", "-"), variant, scene, block)
+        block = self.variants[variant][scene]
+        identifier = published.replace("/", "-")
+        picture = self._described(identifier, variant, scene, block, published)
         if drawing and drawing not in findings.stale:
-            numbers = self._measured(variant, scene) if variant in self.variants else {}
+            numbers = self._measured(variant, scene) if KINDS[block["picture"]].headline else {}
             made = self._made(drawing, published_set.data[scene].values())
-            return (
-                picture | made | numbers | {"rows": [], "file": published, "published": published}
-            )
+            return picture | made | numbers | {"rows": [], "file": published}
         if not (self.root / published).is_file():
             return None
         if drawing and committed_state(self.root, published) != IDENTICAL:
@@ -166,24 +155,16 @@ class _Page:
             return picture | {"missing": missing}
         origin = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
         entry = committed["scenes"].get(scene) if committed else None
-        if block and not (entry and entry["config"] == block):
+        if drawing and not (entry and entry["config"] == published_set.config[scene]):
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
             origin += "; made from other values than config.yaml's"
         file = f"{published}: the committed one ({origin}), not made by this tree"
-        return picture | _image(self.root / published) | {"file": file, "published": published}
+        return picture | _image(self.root / published) | {"file": file}
 
     def _made(self, drawing: str, data: Iterable[str]) -> Picture:
         """Return the image of a current drawing, and list it with its data as shown."""
         self.shown |= dict.fromkeys([*data, drawing])
         return _image(self.root / drawing)
-
-    def claims(self) -> list[Verdict]:
-        """Return the rows of CLAIMS.json in the order of CLAIMS.md, or none."""
-        try:
-            verdicts = claims.read_json(read_text(self.root / paths.LEDGER_DATA))
-        except (OSError, ValueError):
-            return []
-        return [row for rows in claims.by_verdict(verdicts).values() for row in rows]
 
     def provenance(self) -> Iterator[dict[str, Any]]:
         """Yield path, packages and record of each result shown."""

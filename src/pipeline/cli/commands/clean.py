@@ -6,8 +6,9 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from ...config import ConfigError, build_specs
-from ...config.paths import ARTICLE, EXPLORER
+from ...config import ConfigError
+from ...config.build_specs import build_specs
+from ...declaration import extensions
 from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
@@ -25,15 +26,8 @@ _OTHER_FILES = (
     "*/*/.*.part",
     "*/*.nc.part/*",
     "report/*.html",
-    "article/numbers.json",
-    "site/*.html",
-    "site/article.pdf",
-    "site/paper/*.nc",
-    ".site.*/*",
-    ".site.*/*/*",
-    "archive/pseudorigid.tar",
-    "archive/pseudorigid-python*.tar",
     "compare/*/*.png",
+    *(pattern for extension in extensions().values() for pattern in extension.generated),
 )
 
 
@@ -82,9 +76,8 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
     committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
     candidates = {file for pattern in _OTHER_FILES for file in RESULTS.glob(pattern)}
-    candidates |= set() if args.folder else {ROOT / EXPLORER, ROOT / ARTICLE}
     with suppress(ConfigError):  # records alone then say which files are results
-        specs = build_specs.of_all(args.checked)
+        specs = build_specs(args.checked)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
         # A record may be forged: its path is only compared with the two possible ones.
@@ -99,7 +92,10 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
         if file.is_file()
         and _is_inside(file)
         and str(file.relative_to(ROOT)) not in committed
-        and (file.parent == RESULTS or file.relative_to(RESULTS).parts[0] in names)
+        and (
+            file.relative_to(RESULTS).parts[0] in names
+            or (file.parent == RESULTS and not args.folder)
+        )
     ]
 
 

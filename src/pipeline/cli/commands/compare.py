@@ -9,13 +9,12 @@ from ..session import CommandLineError, interruptible, locked, one_line
 
 def run(args: Arguments) -> int:
     """Make the missing results of two variants and print what differs."""
-    variants, hidden = args.checked["variants"], set(config.PUBLISHED) - {config.PAPER}
-    known = [name for name in variants if name not in hidden]
+    known = [config.PAPER, *args.checked.own_variants]
     names = [name for name in (args.a, args.b) if name is not None]
     figures.require_known("variant", names, known)
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(known)}")
-    scenes, status = args.figure or list(args.checked["scenes"]), 0
+    scenes, status = args.figure or list(args.checked.scenes), 0
     with locked():
         for name in names:
             files = figures.of_scenes(args.checked, name, scenes)

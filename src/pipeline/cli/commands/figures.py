@@ -1,18 +1,17 @@
-"""./reproduce [FIGURE ...], variant, families, study, sweep, atlas: make files by snakemake."""
+"""./reproduce [FIGURE ...], variant, and commands that make a set of scenes, by snakemake."""
 
 import os
-import shutil
-from itertools import product
 from pathlib import PurePath
 
 from ... import config
-from ...config import build_specs, paths
-from ...config.schema import study
+from ...commands import DEFAULT_COMMAND, all_commands
+from ...config import paths
+from ...config.build_specs import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
-from ..arguments import COMMANDS, Arguments, hint
+from ..arguments import Arguments, hint
 from ..packages import add_packages
-from ..session import CommandLineError, UsageError, locked
+from ..session import CommandLineError, locked
 
 # Set of scenes -> its files, and further results.
 Selected = dict[str, tuple[figures.Wanted, list[str]]]
@@ -20,7 +19,9 @@ Selected = dict[str, tuple[figures.Wanted, list[str]]]
 
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
-    selected, status = _SELECT.get(args.word, _named)(args), 0
+    command, status = all_commands().get(args.word or "", DEFAULT_COMMAND), 0
+    select = _of_set if command.scenes else _variant if args.word else _named
+    selected = select(args)
     with locked():
         for group, (files, data) in selected.items():
             status = figures.make(args.checked, group, files, args, data) or status
@@ -37,7 +38,7 @@ def _named(args: Arguments) -> Selected:
 
 def _find(args: Arguments, names: list[str]) -> dict[str, figures.Wanted]:
     """Return the published files, by their sets of scenes, and other results with these names."""
-    variants = args.checked["variants"]
+    variants = args.checked.variants
     published = {group: figures.of_scenes(args.checked, group) for group in config.PUBLISHED}
     selected: dict[str, figures.Wanted] = {}
     others: figures.Wanted = {}
@@ -56,15 +57,17 @@ def _find(args: Arguments, names: list[str]) -> dict[str, figures.Wanted]:
             selected.setdefault(group, {})[path] = published[group][path]
         if found:
             continue
-        results = build_specs.of_all(args.checked)
+        results = build_specs(args.checked)
         if not files & set(results):
             if "/" in name:
                 known_files = [*results, *published[config.PAPER]]
                 raise CommandLineError(f"no such file is made: {name}{hint(name, known_files)}")
-            if name in COMMANDS:
+            if name in all_commands():
                 raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
             scenes = [scene for group in published for scene in variants[group]]
-            meant = hint(name, [*scenes, *COMMANDS]) or ": the figures are " + ", ".join(scenes)
+            meant = hint(name, [*scenes, *all_commands()]) or ": the figures are " + ", ".join(
+                scenes
+            )
             raise CommandLineError(f"no command or figure {name}{meant}")
         others |= {path: path for path in sorted(files & set(results))}
     if others:
@@ -74,7 +77,7 @@ def _find(args: Arguments, names: list[str]) -> dict[str, figures.Wanted]:
 
 def _variant(args: Arguments) -> Selected:
     """Select all figures of a variant, or the named ones."""
-    variants = [name for name in args.checked["variants"] if name not in config.PUBLISHED]
+    variants = args.checked.own_variants
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
@@ -82,50 +85,11 @@ def _variant(args: Arguments) -> Selected:
     return {args.variant: (figures.of_scenes(args.checked, args.variant, args.figure), [])}
 
 
-def _families(args: Arguments) -> Selected:
-    """Select the pictures of families."""
-    return {"families": (figures.of_scenes(args.checked, "families"), [])}
-
-
-def _study(args: Arguments) -> Selected:
-    """Select the study's data, its charts, and the published ones of computed data.
-
-    Charts of measured times stay in results/ until `accept`.
-    """
-    if not args.makes_nothing:
-        add_packages("study")
-    files = {}
-    for chart, extension in product(study.CHARTS, study.FORMATS):
-        fixed = study.CHARTS[chart][0] in study.FIXED
-        drawn = study.drawn(chart, extension)
-        files[study.published(chart, extension) if fixed else drawn] = drawn
-    return {"study": (files, [*map(study.data, (*study.FIXED, *study.MEASURED))])}
-
-
-def _sweep(args: Arguments) -> Selected:
-    """Select the datasets of all sweeps or of the named ones; `atlas` selects pictures too."""
-    sweeps = args.checked["sweeps"]
-    figures.require_known("sweep", args.sweep, list(sweeps))
-    if not sweeps:
-        raise UsageError("config.yaml: sweeps: missing, or empty")
-    if args.slurm:
-        if shutil.which("sbatch") is None:
-            raise UsageError("--slurm: there is no sbatch on this machine")
-        args.options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *args.options]
-        add_packages("slurm")
-    files = {}
-    for name in args.sweep or sweeps:
-        files[paths.sweep_dataset(name)] = paths.sweep_dataset(name)
-        for drawing in paths.sweep_pictures(name, sweeps[name]) if args.word == "atlas" else ():
-            files[paths.atlas_published(drawing)] = drawing
-    return {"sweep": (files, [])}
-
-
-# Command -> what it selects; others select by names.
-_SELECT = {
-    "variant": _variant,
-    "families": _families,
-    "study": _study,
-    "sweep": _sweep,
-    "atlas": _sweep,
-}
+def _of_set(args: Arguments) -> Selected:
+    """Select all pictures of the command's set of scenes, and data without a picture."""
+    command = all_commands()[str(args.word)]
+    if command.packages and not args.makes_nothing:
+        add_packages(command.packages)
+    files = figures.of_scenes(args.checked, command.scenes)
+    data = paths.data_only(args.checked.variants, command.scenes).values()
+    return {command.scenes: (files, [path for each in data for path in each])}

@@ -1,18 +1,13 @@
 """./reproduce list: show what can be made and the state of each file."""
 
 from collections.abc import Iterator, Sequence
-from itertools import product
 from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
-from ...checks.published_sets import (
-    ChecksumError,
-    PublishedSet,
-    committed_sets,
-    committed_state,
-)
-from ...config import PUBLISHED, build_specs, paths
-from ...config.schema import study as parts
+from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
+from ...config import paths
+from ...config.build_specs import build_specs
+from ...config.schema.sets import SETS
 from ...records.differences import columns, differing_block
 from ...records.sources import ROOT
 from ..arguments import Arguments
@@ -20,23 +15,23 @@ from ..arguments import Arguments
 
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
-    variants, sweeps = args.checked["variants"], args.checked["sweeps"]
-    freshness = Freshness(ROOT, build_specs.of_all(args.checked))
+    variants = args.checked.variants
+    freshness = Freshness(ROOT, build_specs(args.checked))
     for published_set in committed_sets(args.checked):
         _print(published_set.command, [*_published(freshness, published_set)])
-    charts = [chart for chart, (part, *_) in parts.CHARTS.items() if part in parts.MEASURED]
-    measured = [parts.drawn(*each) for each in product(charts, parts.FORMATS)]
-    for command, results in (
-        ("./reproduce study, measured", measured),
-        ("./reproduce sweep", [*map(paths.sweep_dataset, sweeps)]),
-    ):
-        _print(command, [(PurePath(path).stem, path, freshness.state(path)) for path in results])
+    for group, scenes in SETS.items():
+        apart = [s for s, block in variants[group].items() if paths.is_measured(block)]
+        measured = [paths.drawn(s, "png", group) for s in apart if variants[group][s]["formats"]]
+        data = [path for found in paths.data_only(variants, group).values() for path in found]
+        for kind, results in (("measured", measured), ("data", data)):
+            rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]
+            _print(f"{scenes.command}, {kind}", rows)
     rows = []
-    for name in (name for name in variants if name not in PUBLISHED):
+    for name in args.checked.own_variants:
         files: dict[str, list[str]] = {}
         for _, upstream in paths.figures(variants, name).values():
             files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
-        for scene, reason in args.checked["left_out"][name].items():
+        for scene, reason in args.checked.left_out[name].items():
             files.setdefault(reason, []).append(f"{scene}.png")
         rows += [(name, state, " ".join(files[state])) for state in files]
     _print("./reproduce variant NAME", rows)

@@ -6,7 +6,6 @@ from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
 from ..session import interruptible, locked, one_line
-from . import explore
 
 PAGE = "results/report/report.html"
 
@@ -22,6 +21,5 @@ def run(args: Arguments) -> int:
 
         with interruptible(), one_line():
             write_whole(ROOT / PAGE, page.render(ROOT, args.checked))
-            explore.write(args.checked)  # which the report links to
     print(f"\n{PAGE}  {(ROOT / PAGE).stat().st_size / 1e6:.1f} MB: open it in a browser")
     return status

@@ -117,7 +117,7 @@ def _install(*names: str, again: bool = False) -> None:
             _check(_run([PYTHON, "-I", "-m", "ensurepip"]))
     settings = wheels.pip_settings(pip)
     options = ["--require-hashes", "--no-build-isolation"]
-    ours = ROOT / wheels.FOLDER  # of an archive with packages, which has only the locked ones
+    ours = ROOT / wheels.FOLDER  # of a tar with packages, which has only the locked ones
     folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
     if folder:
         wheels.refuse_damaged(Path(folder))

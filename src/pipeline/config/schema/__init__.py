@@ -1,1 +1,1 @@
-"""Declarations: fields, kinds of picture, stages, variants, sweeps, and parts of the study."""
+"""Declarations: fields, kinds of picture, stages, sets of scenes and variants."""

@@ -99,37 +99,6 @@ class PartOfBall(Block):
     g: Gravity = ABSENT
 
 
-class Scan(Block):
-    """a mapping with the keys scan and tolerance"""
-
-    scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
-    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected. A
-    smaller step misses fewer impacts and takes longer; a ball whose impact is missed falls through
-    the floor. 0.1 is a typical choice."""
-    tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
-    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding, and
-    scenes with manifolds allow no more."""
-
-
-class Exact(Block):
-    """a mapping with the key exact"""
-
-    exact: Annotated[Literal[True], allowed("true, or no method at all")]
-    """Compute the true orbit of each start, so that every number is a rounded true value. This
-    takes effect in portraits and in backdrops of other pictures; other stages compute as usual."""
-
-
-def _if_exact(value: Any) -> str:
-    return TAGS[not (isinstance(value, dict) and "exact" in value)]
-
-
-Method = Annotated[
-    Annotated[Exact, _FIRST] | Annotated[Scan, _SECOND],
-    Discriminator(_if_exact),
-    allowed("a mapping with the keys scan and tolerance, or {exact: true}"),
-]
-
-
 class Axis(Block):
     """a mapping with the keys limits and ticks"""
 
@@ -245,3 +214,4 @@ Formats = Annotated[
     Predicate(distinct),
     Predicate(lambda given: "png" in given),
 ]
+NoFormats = Annotated[list[str], allowed("an empty list: there is no picture", max_length=0)]

@@ -1,56 +1,67 @@
-"""Scenes of config.yaml, and the groups of fields that kinds of picture are made of.
+"""Pictures and scenes of config.yaml, and the groups of fields that kinds are made of.
 
 A kind of picture is one class in `kinds`, derived from these. Checks that need more than one field
 stand with the group. They compare numbers as the decimals that were written.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal
 
 from annotated_types import Predicate
 
 from . import fields
 from .fields import ABSENT, YamlMapping, allowed
+from .method import Method
 
-if TYPE_CHECKING:  # importing xarray takes longer than checking a config
-    import xarray
-
-Dataset: TypeAlias = "xarray.Dataset"
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
 # 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.
 LONGEST_FLIGHT = 1_000_000
+
+
+class CompletionError(Exception):
+    """A shorthand that cannot be written out: its place in the block, value and what is allowed."""
+
+    def __init__(self, place: tuple[str | int, ...], value: Any, allowed: str) -> None:
+        super().__init__(allowed)
+        self.place, self.value, self.allowed = place, value, allowed
+
+
 SectionAxes = dict[Literal["x", "xdot", "udot"], fields.Axis]
 
 
-class Scene(fields.Block):
+class Picture(fields.Block):
     """a mapping that begins with picture"""
 
     # Stages that compute the data, in the order in which the kind's `draw` takes their datasets.
     stages: ClassVar[tuple[str, ...]]
+    # Function draw(block, *datasets), by default `draw` in the module of the kind's name.
+    drawn_by: ClassVar[str] = ""
+    # Function (block, **datasets) -> quantity -> value as text, in the module `reports` beside it.
+    reported_by: ClassVar[str] = ""
+    # Fields that decide nothing that is drawn.
+    undrawn: ClassVar[tuple[str, ...]] = ("formats",)
     # Axis -> the field whose values lie along it.
     along: ClassVar[dict[str, str]] = {}
     # A variant that changes one of these or of `along`, the ball or the energy inherits no `axes`.
     axes_depend_on: ClassVar[tuple[str, ...]] = ()
-    # The quantity of `numbers` that stands for the figure in a list.
-    headline: ClassVar[str]
-    # Quantity -> value as text, measured in the datasets: numbers(block, **{stage: dataset}).
-    numbers: ClassVar[Callable[..., dict[str, str]]]
+    # The quantity among those that the picture reports that stands for it in a list.
+    headline: ClassVar[str] = ""
+    # The kind of the scene that a field `over` names; its fields and its data are this scene's too.
+    drawn_over: ClassVar[str] = ""
+    # Whether it shows orbits on one section of the paper's map, as the section at an energy.
+    on_section: ClassVar[bool] = False
 
     picture: str = allowed("the kind of picture: one of those below")
     """What the figure shows."""
-    ball: fields.BallBlock = ABSENT
-    """The ball of this scene. Without it the scene has the ball at the top of the file."""
-    energy: fields.Energy
-    """Total energy of the ball, in m omega^2 R^2; every impact keeps it. Below the lower bound
-    there is no motion, above the upper one the ball could flatten to nothing, eq. (31). Islands of
-    regular motion mostly shrink as the energy rises."""
-    method: fields.Method = ABSENT
-    """How the next impact is found. Without it, the first impact is found with a certificate that
-    none was missed; leave it out unless you want to compare methods."""
     formats: fields.Formats = ["png"]
     """File formats of the figure. png and svg are published; pdf stays in `results/`."""
+
+    @classmethod
+    def completed(cls, block: YamlMapping) -> YamlMapping:
+        """Return a block with shorthands written out; raises CompletionError."""
+        return block
 
     @classmethod
     def hidden(cls, block: YamlMapping) -> Iterator[str]:
@@ -65,17 +76,38 @@ class Scene(fields.Block):
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
         """Yield what is wrong between fields of a complete block, each of which has its type."""
-        k, g = (block["ball"][name] for name in "kg")
-        if not g < k:
-            yield ("ball", "g"), g, f"0 < g < k = {k}"
-            return
-        yield from _energy_errors(block)
         for name, axis in block.get("axes", {}).items():
             low, high = axis["limits"]
             for tick in axis["ticks"]:
                 if low < high and not low <= tick <= high:
                     words = f"numbers within the limits {axis['limits']}"
                     yield ("axes", name, "ticks"), tick, words
+
+
+class Scene(Picture):
+    """a mapping that begins with picture"""
+
+    on_section = True
+
+    ball: fields.BallBlock = ABSENT
+    """The ball of this scene. Without it the scene has the ball at the top of the file."""
+    energy: fields.Energy
+    """Total energy of the ball, in m omega^2 R^2; every impact keeps it. Below the lower bound
+    there is no motion, above the upper one the ball could flatten to nothing, eq. (31). Islands of
+    regular motion mostly shrink as the energy rises."""
+    method: Method = ABSENT
+    """How the next impact is found. Without it, the first impact is found with a certificate that
+    none was missed; leave it out unless you want to compare methods."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check the ball, its energies, and ticks."""
+        k, g = (block["ball"][name] for name in "kg")
+        if not g < k:
+            yield ("ball", "g"), g, f"0 < g < k = {k}"
+            return
+        yield from _energy_errors(block)
+        yield from super().cross_field_errors(block)
 
 
 class OfOrbits(Scene):
@@ -173,19 +205,6 @@ class OfPeriodicOrbit(Scene):
     """Stability of the periodic orbit: an elliptic orbit is surrounded by islands, a hyperbolic or
     inverse hyperbolic one is a saddle with manifolds. It selects among the orbits of the period."""
 
-    @staticmethod
-    def about_orbit(periodic: Dataset, block: YamlMapping) -> dict[str, str]:
-        """Return the orbit's type and period, its energy, and its rotation number or multiplier."""
-        from pseudorigid.dynamics.variables import of_type
-
-        orbit = of_type(periodic, block["type"])
-        last = "rotation_number" if block["type"] == "elliptic" else "multiplier"
-        return {
-            "orbit": f"{orbit['type'].item()}, period {orbit.sizes['point']}",
-            **measured_energy(block, orbit),
-            last.replace("_", " "): f"{float(orbit[last]):.6f}",
-        }
-
 
 class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
@@ -250,24 +269,6 @@ def bounded(block: YamlMapping, first: str, second: str, what: str) -> Iterator[
 def beyond(axis: str, limits: list[float]) -> str:
     """Name limits of an axis that hide something, and say what to do about them."""
     return f"axes.{axis}.limits {limits}: widen them, or leave axes.{axis} out"
-
-
-def listing(data: Dataset, template: str, *names: str) -> str:
-    """Format the values of some variables of a dataset side by side, with commas between rows."""
-    rows = zip(*(data[name].values for name in names), strict=True)
-    return ", ".join(template.format(*row) for row in rows)
-
-
-def measured_energy(block: YamlMapping, states: Dataset) -> dict[str, str]:
-    """Return the energy of a dataset's states, eq. (29), to twelve digits."""
-    import numpy as np
-
-    from pseudorigid.dynamics.ball import Ball
-    from pseudorigid.dynamics.variables import states_of
-
-    energy = np.asarray(Ball(**block["ball"]).energy(*states_of(states)))
-    ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
-    return {"energy": " to ".join(ends)}
 
 
 def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:

@@ -1,16 +1,9 @@
-"""The declarations of a variant of the paper's scenes, and of the block `prove`."""
+"""The declaration of a variant of the paper's scenes."""
 
 from typing import Annotated
 
-from .fields import ABSENT, LARGEST, Block, Energy, Method, PartOfBall, YamlMapping, allowed, whole
-
-
-class Prove(Block):
-    """a mapping with the key impacts"""
-
-    impacts: int = whole(1, LARGEST)
-    """Number of impacts to prove in each figure whose data have millions of them. The impacts of
-    the other figures are all proved."""
+from .fields import ABSENT, Block, Energy, PartOfBall, YamlMapping, allowed
+from .method import Method
 
 
 class Variant(Block):

@@ -7,9 +7,10 @@ from typing import Any
 
 import yaml
 
-import pseudorigid
-
+from ...declaration import files
+from ...loading import note_loaded
 from ...records.files import FileError, read_bytes
+from ..paths import Config
 from ..schema.fields import YamlMapping
 from .document import check
 from .words import ConfigError
@@ -38,15 +39,46 @@ _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)[eE][-+]?[0-9]+$")
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", _NUMBER, [*"-+.0123456789"])
 
 
-def load(path: str | Path) -> YamlMapping:
-    """Return the checked config of a file, as `check` returns it; raise ConfigError."""
+# Blocks that are shipped. A block of the same name in config.yaml replaces them.
+_STUDY = Path(__file__).parents[1] / "study.yaml"
+
+
+def load(path: str | Path) -> Config:
+    """Return the checked config of a file with the shipped blocks; raise ConfigError."""
     path = Path(path)
     try:
-        return check(_parse(path))
+        return check(with_shipped(_parse(path)))
     except ConfigError as error:
         raise ConfigError(*(f"{path.name}: {line}" for line in error.lines)) from None
     except RecursionError:
         raise ConfigError(f"{path.name}: nested too deeply") from None
+
+
+def with_shipped(document: object) -> object:
+    """Add the shipped blocks that a document does not have, and the shipped variants.
+
+    The `ball` of a shipped file is that of its scenes.
+    """
+    if not isinstance(document, dict):
+        return document
+    shipped: YamlMapping = {}
+    for file in (_STUDY, *files("scenes.yaml")):
+        parsed: Any = _parse(file)
+        ball = parsed.pop("ball", None)
+        for key, block in parsed.items():
+            own = ball if key != "variants" else None
+            scenes = {name: _with_ball(scene, own) for name, scene in block.items()}
+            shipped[key] = shipped.get(key, {}) | scenes
+    variants = document.get("variants", {})
+    if isinstance(variants, dict):
+        document = document | {"variants": variants | shipped.pop("variants", {}) | variants}
+    return shipped | document
+
+
+def _with_ball(scene: Any, ball: YamlMapping | None) -> Any:
+    """Return a scene with a ball, if there is one and it is a scene of a ball's motion."""
+    of_ball = ball and isinstance(scene, dict) and "energy" in scene
+    return {"ball": ball} | scene if of_ball else scene
 
 
 def _parse(path: Path) -> object:
@@ -54,7 +86,7 @@ def _parse(path: Path) -> object:
         if path.is_file() and path.stat().st_size > LARGEST_FILE:
             raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_FILE}")
         data = read_bytes(path)
-        pseudorigid.note_loaded(path, data)
+        note_loaded(path, data)
         return yaml.load(data.decode("utf-8"), _Loader)
     except FileError as error:
         raise ConfigError(str(error).removeprefix(f"{path}: ")) from None

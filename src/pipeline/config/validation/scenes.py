@@ -7,28 +7,38 @@ by L^2; bounds are checked before that.
 """
 
 import math
+import re
+from collections.abc import Mapping
 from typing import Any
 
+from ...declaration import extensions
 from ..schema.fields import YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.published import FOLDERS
-from ..schema.scene import exact
+from ..schema.scene import CompletionError, Picture, exact
+from ..schema.sets import SETS
 from .mistakes import complete, has_types, mistakes
 from .words import Place, dotted, refusal, unknown
 
-# Names that a variant may not have: folders in results/, and commands.
-RESERVED = (*FOLDERS, "sweeps", "atlas", "compare", "report", "archive", "site")
 _OF_ALL_SCENES = ("ball", "energy", "method")
+
+
+def reserved_names() -> list[str]:
+    """Return the names that a variant may not have: of other folders in results/."""
+    patterns = [p for extension in extensions().values() for p in extension.generated]
+    folders = [p.partition("/")[0] for p in patterns if re.match(r"[\w-]+/", p)]
+    return [*dict.fromkeys([*SETS, "compare", "report", *folders])]
 
 
 def checked(
     given: object,
     ball: YamlMapping | None,
     place: Place,
+    others: Mapping[str, Any],
 ) -> tuple[YamlMapping, list[str]]:
     """Return a scene's complete block and a line for each mistake; with mistakes the block is {}.
 
-    `ball` is the ball of a scene without one, or None if it has mistakes itself.
+    `ball` is the ball of a scene without one, or None if it has mistakes itself. `others` are the
+    scenes of its set, over one of which it may be drawn.
     """
     if not isinstance(given, dict):
         return {}, [refusal(place, given, "a mapping that begins with picture")]
@@ -39,12 +49,32 @@ def checked(
         return {}, [refusal(picture, given["picture"], words)]
     kind = KINDS[given["picture"]]
     lines = mistakes(kind, given, place)
-    if ball is None or (lines and not has_types(kind, given)):
+    of_ball = "ball" in kind.model_fields
+    if (ball is None and of_ball) or (lines and not has_types(kind, given)):
         return {}, lines
-    block = complete(kind, {"ball": ball} | given)
+    try:
+        below = _below(kind, given, others) if kind.drawn_over else {}
+        block = kind.completed(below | complete(kind, ({"ball": ball} if of_ball else {}) | given))
+    except CompletionError as error:
+        return {}, [refusal((*place, *error.place), error.value, error.allowed)]
     for where, value, allowed in kind.cross_field_errors(block):
         lines.append(refusal((*place, *where), value, allowed))
     return ({}, lines) if lines else (block, [])
+
+
+def of_kind(block: object, kind: str) -> object:
+    """Return a scene that is of this kind if it does not say otherwise."""
+    return {"picture": kind} | block if isinstance(block, dict) else block
+
+
+def _below(kind: type[Picture], given: YamlMapping, others: Mapping[str, Any]) -> YamlMapping:
+    """Return the complete block of the scene over which another one is drawn."""
+    below, over = others.get(given["over"]), KINDS[kind.drawn_over]
+    if not isinstance(below, dict) or below.get("picture") != kind.drawn_over:
+        raise CompletionError(("over",), given["over"], f"a scene of kind {kind.drawn_over}")
+    if mistakes(over, below, ()):
+        raise CompletionError(("over",), given["over"], "a scene without mistakes")
+    return over.completed(complete(over, below))
 
 
 def derive(
@@ -56,8 +86,8 @@ def derive(
     mistake if they suit no scene, or if what the variant gives for the scene itself is wrong.
     """
     place = ("variants", name)
-    if name in RESERVED:
-        return {}, {}, [refusal(place[:-1], name, f"a name other than {', '.join(RESERVED)}")]
+    if name in (reserved := reserved_names()):
+        return {}, {}, [refusal(place[:-1], name, f"a name other than {', '.join(reserved)}")]
     lines: list[str] = []
     changes = given.get("scenes", {})
     for scene, change in changes.items():
@@ -136,7 +166,7 @@ def _scaled(block: YamlMapping, scale: float) -> YamlMapping:
     ball = block["ball"] | {"g": _times(block["ball"]["g"], scale)}
     block = block | {"ball": ball}
     energies = {"energy", "energies", "marks"}
-    if block.get("parameter") == "energy":  # what families are followed against
+    if block.get("parameter") == "energy":  # along which something is followed
         energies |= {"span", "step"}
     for name in energies & block.keys():
         block[name] = _times(block[name], scale, scale)

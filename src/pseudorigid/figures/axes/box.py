@@ -45,6 +45,7 @@ class Box:
         if left + sum(wide) > _WIDE:
             left, row = _LEFT, 1
         self.sheet = self._fit(1 + row)
+        self.ticks = [self._apart(along) for along in range(3)]
         self.figure = self.sheet.figure
         top = self.sheet.high - (4 + _ROW / 2) * POINT
         self.sheet.text(_LEFT - 8, top, text, size=_SIZE)
@@ -93,6 +94,18 @@ class Box:
         bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
+
+    def _apart(self, along):
+        """Return every n-th tick of an axis, so that no label covers the next one."""
+        ticks = self.ticks[along]
+        right, up = (
+            abs(part[along]) * self.view.scale / POINT for part in (self.view.right, self.view.up)
+        )
+        for every in range(1, len(ticks)):
+            step = ticks[every] - ticks[0]
+            if step * up > _SIZE or step * right > _SIZE * (_ems(ticks) + 0.3):
+                return ticks[::every]
+        return ticks[:1]
 
     def _edge(self, start, along, color, width):
         """Draw the line of the box through `start` in the direction of one axis."""

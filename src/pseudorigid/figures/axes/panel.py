@@ -85,13 +85,17 @@ class Panel:
         left, bottom, right, top = frame
         tick, reach = self.tick * POINT, (self.tick + self.gap) * POINT
         marks = left + across.between(across.ticks) * (right - left)
-        for x, text in zip(marks.tolist(), self._apart(marks, across.texts()), strict=True):
+        texts = across.texts()
+        widest = max((width(text, self.size) for text in texts if text), default=0.0)
+        texts = _apart(marks, widest + _LABEL_GAP, texts)
+        for x, text in zip(marks.tolist(), texts, strict=True):
             if grid:
                 self._frame_line([x, x], [bottom, top], color=style.GRID, zorder=0.5)
             self._frame_line([x, x], [bottom, bottom - tick])
             self._text(self._label(x, text), bottom - reach, text, "center", "top")
         marks = bottom + up.between(up.ticks) * (top - bottom)
-        for y, text in zip(marks.tolist(), up.texts(), strict=True):
+        texts = _apart(marks, self.size * POINT, up.texts())
+        for y, text in zip(marks.tolist(), texts, strict=True):
             if grid:
                 self._frame_line([left, right], [y, y], color=style.GRID, zorder=0.5)
             self._frame_line([left, left - tick], [y, y])
@@ -150,13 +154,6 @@ class Panel:
         y, va = _beside(float(y), shift[1] * POINT, va, self.small * POINT, bottom, top)
         self.sheet.text(x, y, text, ha=ha, va=va, size=self.small)
 
-    def _apart(self, marks, texts):
-        """Return the labels below the frame, without those between every n-th if they touch."""
-        widest = max((width(text, self.size) for text in texts if text), default=0.0)
-        room = float(np.diff(marks).min(initial=np.inf))
-        every = max(int(np.ceil((widest + _LABEL_GAP) / room)), 1)
-        return ["" if i % every else text for i, text in enumerate(texts)]
-
     def _label(self, x, text):
         """Return the middle of a label below the frame."""
         return x
@@ -188,6 +185,13 @@ class Window(Panel):
         """Return whether each point is within the limits; NaN counts as within."""
         fractions = self.across.fraction(x), self.up.fraction(y)
         return ~np.logical_or.reduce([(part < 0.0) | (part > 1.0) for part in fractions])
+
+
+def _apart(marks, size, texts):
+    """Return the labels of ticks, without those between every n-th if labels of `size` touch."""
+    room = float(np.abs(np.diff(marks)).min(initial=np.inf))
+    every = max(int(np.ceil(size / room)), 1)
+    return ["" if i % every else text for i, text in enumerate(texts)]
 
 
 def _beside(at, shift, side, size, low, high):

@@ -14,7 +14,7 @@ from .limits import linear
 from .panel import Panel, corner
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
-SEA = "#d4d4d4"  # of dots beside proved or computed curves
+SEA = "#d4d4d4"  # of chaotic orbits beside regular ones
 LEFT, SIDE = 150, 825  # pixels: left and width of a large panel
 _SIDES = 720  # of the rim
 _STEP = 0.06  # the frame's height is a multiple of this part of half its width
@@ -63,7 +63,7 @@ def over_orbits(scene, orbits, high=1200):
     """
     sheet = Sheet(style.COLUMN, high)
     panel = at_top(sheet, scene)
-    from ...analyses.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
 
     chaotic = chaotic_orbits(scene["ball"], orbits)
     panel.orbits(orbits, chaotic)

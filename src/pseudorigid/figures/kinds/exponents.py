@@ -21,9 +21,8 @@ plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 def draw(scene, lyapunov):
     """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
 
-    If some orbits are regular and others chaotic, inset and
-    names are those of chaotic ones, and a key has each start. Raises ValueError if the axes show
-    nothing.
+    If some orbits are regular and others chaotic, inset and names are those of chaotic ones, and a
+    key has each start. Raises ValueError if the axes show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     final, chaotic = final_exponents(lyapunov), _chaotic(lyapunov)
@@ -63,7 +62,7 @@ def draw(scene, lyapunov):
 
 def _chaotic(lyapunov):
     """Return whether the largest exponent of each orbit exceeds `regular_bound`."""
-    from ...analyses.regularity import regular_bound  # compiled code, which other kinds do not need
+    from ...dynamics.regularity import regular_bound  # compiled code, which other kinds do not need
 
     known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
     lengths = np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)

@@ -15,7 +15,7 @@ def draw(scene, orbits):
 
     Raises ValueError if nothing can be seen.
     """
-    from ...analyses.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
 
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     chaotic = chaotic_orbits(scene["ball"], orbits)

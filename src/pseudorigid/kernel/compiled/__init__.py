@@ -1,8 +1,4 @@
-"""Compilation with strict arithmetic, one thread, and machine code that is kept.
-
-Numba notices an edit of the file in which a function stands, but not of the files that it calls,
-and takes an edited comment for a change. `locator` therefore chooses where machine code is kept.
-"""
+"""Compilation with strict arithmetic, one thread, and machine code that is kept."""
 
 
 def jit(function):

@@ -1,20 +1,30 @@
-"""The kinds of picture: each is a class of a module of this package, named in CamelCase."""
+"""The kinds of picture, here and in extensions: each is a class named in CamelCase."""
 
 import importlib
 import pkgutil
 import re
 
-from ..scene import Scene
+from ....declaration import files
+from ..scene import Picture
+
+_FIGURES = "pseudorigid.figures.kinds"  # has one module of `draw` for each kind
 
 
-def _declared() -> dict[str, type[Scene]]:
-    """Return the classes that the modules of this package declare, by the kinds' names."""
+def _declared() -> dict[str, type[Picture]]:
+    """Return the classes that are declared, by the kinds' names."""
+    drawn_by = {f"{__name__}.{each.name}": _FIGURES for each in pkgutil.iter_modules(__path__)}
+    folders = [file.parent.name for file in files("kinds.py")]
+    drawn_by |= {f"extensions.{name}.kinds": f"extensions.{name}.figures" for name in folders}
     kinds = {}
-    for found in pkgutil.iter_modules(__path__):
-        module = importlib.import_module(f"{__name__}.{found.name}")
+    for declaring, figures in drawn_by.items():
+        module = importlib.import_module(declaring)
         for name, value in vars(module).items():
-            if isinstance(value, type) and value.__module__ == module.__name__:
-                kinds[re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()] = value
+            ours = isinstance(value, type) and value.__module__ == module.__name__
+            if ours and issubclass(value, Picture):
+                kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
+                value.drawn_by = vars(value).get("drawn_by") or f"{figures}.{kind}.draw"
+                value.reported_by = f"{figures}.reports.{kind}"
+                kinds[kind] = value
     return dict(sorted(kinds.items()))
 
 

@@ -7,7 +7,6 @@ from typing import Literal
 from ..fields import ABSENT, Axis, Window, YamlMapping, allowed, whole
 from ..scene import (
     CrossFieldError,
-    Dataset,
     OfBranches,
     OfChaoticOrbits,
     OfManifolds,
@@ -16,7 +15,6 @@ from ..scene import (
     OfRecords,
     OnSurface,
     beyond,
-    measured_energy,
 )
 
 
@@ -25,18 +23,6 @@ class Portrait(OnSurface, OfChaoticOrbits):
 
     stages = ("orbits",)
     headline = "impacts"
-
-    @staticmethod
-    def numbers(block: YamlMapping, orbits: Dataset) -> dict[str, str]:
-        """Count orbits and impacts; give their energy and how near they come to grazing."""
-        speed = float((orbits["xdot"] + orbits["udot"]).min())
-        return {
-            "orbits": f"{orbits.sizes['orbit']:,}",
-            "impacts": f"{orbits.sizes['point']:,}",
-            **measured_energy(block, orbits),
-            "least speed of contact": f"{speed:.2g}",
-            "x": f"{float(orbits['x'].min()):.4f} to {float(orbits['x'].max()):.4f}",
-        }
 
 
 class Motion(OfPeriodicOrbit):
@@ -54,36 +40,12 @@ class Motion(OfPeriodicOrbit):
     """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
     An axis that is left out has limits that hold its data."""
 
-    @staticmethod
-    def numbers(block: YamlMapping, periodic: Dataset, motion: Dataset) -> dict[str, str]:
-        """Describe the orbit, the times drawn, its period in time and its strain."""
-        from pseudorigid.dynamics.variables import of_type
-
-        t = motion["t"].values
-        orbit = of_type(periodic, block["type"])
-        return Motion.about_orbit(periodic, block) | {
-            "time": f"{t[0]:g} to {t[-1]:g}",
-            "time of one period": f"{float(orbit['total_time']):.6f}",
-            "impacts drawn": f"{motion.sizes['impact']:,}",
-            "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
-        }
-
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
     """manifolds on the energy surface"""
 
     stages = ("orbits", "manifolds", "periodic")
     headline = "orbit"
-
-    @staticmethod
-    def numbers(
-        block: YamlMapping, orbits: Dataset, periodic: Dataset, manifolds: Dataset
-    ) -> dict[str, str]:
-        """Describe the orbit, and count its branches and their points."""
-        return Tangle.about_orbit(periodic, block) | {
-            "branches": f"{manifolds.sizes['branch']:,}",
-            "points of the lines": f"{manifolds.sizes['vertex']:,}",
-        }
 
 
 class Closeup(OfManifolds):
@@ -122,17 +84,6 @@ class Closeup(OfManifolds):
             if radius * (high - low) > 1.001 * (right - left):  # limits are rounded
                 yield f"window.{name} {[low, high]} is wider than {beyond(name, axis['limits'])}"
 
-    @staticmethod
-    def numbers(block: YamlMapping, periodic: Dataset, manifolds: Dataset) -> dict[str, str]:
-        """Describe the orbit, the window and the point."""
-        quantities, attributes = Closeup.about_orbit(periodic, block), manifolds.attrs
-        for name in ("x", "xdot"):
-            ends = attributes[f"window_{name}"]
-            quantities[f"window, {name}"] = "{:.7g} to {:.7g}".format(*ends)
-        for name in ("x", "xdot"):
-            quantities[f"{name} of the point"] = f"{attributes[f'point_{name}']:.7f}"
-        return quantities
-
 
 class Exponents(OfRecords):
     """Lyapunov exponents against the number of impacts"""
@@ -144,22 +95,3 @@ class Exponents(OfRecords):
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
     `largest` (exponents of the inset). An axis that is left out has limits that hold its data."""
-
-    @staticmethod
-    def numbers(block: YamlMapping, lyapunov: Dataset) -> dict[str, str]:
-        """Give the final exponents, and mean and spread of the largest ones."""
-        import numpy as np
-
-        from pseudorigid.dynamics.variables import final_exponents
-
-        last = final_exponents(lyapunov)
-        largest = np.sort(last[:, 0])
-        spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
-        rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
-        rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
-        return {
-            "largest exponent": rows[0],
-            "their mean": f"{np.mean(largest):.4f}{spread}",
-            "all three of an orbit, at the end": "; ".join(rows[1:]),
-            "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
-        }

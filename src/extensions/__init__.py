@@ -1,0 +1,1 @@
+"""Extensions of the pipeline, one folder each; `pipeline.extensions` loads what it finds."""

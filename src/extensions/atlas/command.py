@@ -1,0 +1,33 @@
+"""./reproduce sweep and ./reproduce atlas: compute grids over k and E/g^2, and draw them."""
+
+import shutil
+
+from pipeline.cli import figures
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.packages import add_packages
+from pipeline.cli.session import UsageError, locked
+from pipeline.config import paths
+from pipeline.records.sources import ROOT
+
+
+def run(args: Arguments) -> int:
+    """Make the datasets of all sweeps or of the named ones; `atlas` makes pictures too."""
+    variants = args.checked.variants
+    sweeps = variants["atlas"]
+    figures.require_known("sweep", args.sweep, list(sweeps))
+    if not sweeps:
+        raise UsageError("config.yaml: sweeps: empty")
+    if args.slurm:
+        if shutil.which("sbatch") is None:
+            raise UsageError("--slurm: there is no sbatch on this machine")
+        args.options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *args.options]
+        add_packages("slurm")
+    files: figures.Wanted = {}
+    names = [n for n in sweeps if not args.sweep or {n, sweeps[n].get("over")} & {*args.sweep}]
+    if args.word == "atlas":
+        files = figures.of_scenes(args.checked, "atlas", names)
+    artifact_paths = paths.artifact_paths(variants)
+    stages = (("atlas", name, "sweep") for name in names)  # which a scene may be without
+    data = dict.fromkeys(artifact_paths[key] for key in stages if key in artifact_paths)
+    with locked():
+        return figures.make(args.checked, "atlas", files | {path: path for path in data}, args)

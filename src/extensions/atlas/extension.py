@@ -1,0 +1,34 @@
+"""What the atlas adds to the pipeline: sweeps over k and the energy."""
+
+from pipeline.declaration import Extension, SceneSet, SnakemakeCommand, Stage, names, switch
+
+_ARGUMENTS = (
+    names("sweep", "sweeps of config.yaml; without a name, all"),
+    switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
+)
+_MODULE = "extensions.atlas.command"
+EXTENSION = Extension(
+    stages={
+        "sweep": Stage(
+            "extensions.atlas.blocks.cells_of_a_sweep",
+            "k energy starts impacts",
+            parts="extensions.atlas.grid.parts",
+            part="extensions.atlas.blocks.block_of_cells_of_a_sweep",
+        ),
+        "verdicts": Stage("extensions.atlas.verdicts.verdicts"),
+    },
+    sets={
+        "atlas": SceneSet(
+            "more_figures/atlas", "./reproduce atlas", "The atlas", key="sweeps", kind="atlas"
+        )
+    },
+    commands={
+        "sweep": SnakemakeCommand(
+            "compute grids over k and E/g^2, in results/atlas/", *_ARGUMENTS, module=_MODULE
+        ),
+        "atlas": SnakemakeCommand(
+            "draw these grids, in more_figures/atlas/", *_ARGUMENTS, module=_MODULE
+        ),
+    },
+    benchmark="extensions.atlas.bench",
+)

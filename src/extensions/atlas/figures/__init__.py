@@ -1,0 +1,1 @@
+"""Pictures of sweeps over k and the energy."""

@@ -1,0 +1,219 @@
+"""The atlas: the regular share of the section and the exponent of the rest, over k and E/g^2."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from pseudorigid.dynamics import fixed_point
+from pseudorigid.figures.axes.limits import decades, linear
+from pseudorigid.figures.axes.panel import Panel, Window, corner, letters, log10, title, upright
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import pieces
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
+
+from . import raster
+
+RESONANCES = tuple((1, q) for q in range(2, 11))
+PAPER_K = 0.2
+PAPER_ENERGIES = {"Figure 8": 0.625, "Figure 2": 6.25}  # E/g^2
+QUOTATION = (
+    "the paper: the regular trajectories",
+    "“appear to be progressively destroyed",
+    "as the total energy increases”",
+)
+LEFT, WIDE, HIGH = 115, 800, 640  # pixels: the left of a plane's frame, and its largest size
+_SIZE = 6.0  # points: text beside lines
+_NAME = 46  # pixels: the room that the name of a resonance needs
+_NORMAL = 1.959964  # standard errors either way that hold 95 %
+_DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
+
+
+def draw(sweep, data):
+    """Draw a sweep: a plane over k and E/g^2, or a line over the energy if it has one k."""
+    return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
+
+
+@style.pinned()
+def plane(sweep, data):
+    """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k."""
+    lower = 320
+    upper = lower + pixels(sweep)[1] + 225
+    sheet = sheet_above(upper, sweep)
+    share, exponent = data["regular"].values, data["exponent"].values
+    largest = float(np.nanmax(exponent, initial=0.05))
+    panels = (
+        (upper, "Regular share of the section", share, 1.0, "viridis"),
+        (lower, "Lyapunov exponent of the sea, per impact", exponent, largest, "magma"),
+    )
+    frames = []
+    for bottom, text, values, most, table in panels:
+        panel = cells(sheet, bottom, sweep, values, most, table, text)
+        frames.append(panel.frame)
+        _curves(panel, named=bottom == upper)
+        for energy in PAPER_ENERGIES.values():
+            panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
+            panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
+    letters(sheet, *frames)
+    _plane_key(sheet, 170)
+    return sheet.figure
+
+
+def pixels(sweep):
+    """Return width and height of a plane, with whole pixels for each cell."""
+    sizes = (len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH)
+    return tuple(count * max(1, most // count) for count, most in sizes)
+
+
+def sheet_above(bottom, sweep):
+    """Return a sheet whose upper panel is a plane that begins at the height `bottom`."""
+    return Sheet(style.COLUMN, 75 * -(-(bottom + pixels(sweep)[1] + 105) // 75))
+
+
+def cells(sheet, bottom, sweep, values, most, table, text):
+    """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
+    wide, high = pixels(sweep)
+    frame = (LEFT, bottom, LEFT + wide, bottom + high)
+    up = linear(*raster.edges(sweep["k"])[[0, -1]], 7, "$k$")
+    panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
+    panel.minor()
+    raster.cells(panel, sweep, values / most, table)
+    raster.scale(sheet, frame, most, table)
+    corner(sheet, frame, text, rise=13)
+    return panel
+
+
+def _plane_key(sheet, top):
+    """Explain curves, circles and grey in rows from the height `top` down."""
+    across, rows = [LEFT, LEFT + 50], [top - 40 * i for i in range(4)]
+    texts = (
+        "rotation number of the fixed point, 1/2 to 1/10",
+        "$E/g^2 = 1 + k/2$: above it the map jumps",
+        "the paper's Figure 8 (left) and Figure 2 (right)",
+        "no chaotic orbit among those of the cell",
+    )
+    for y, text in zip(rows, texts, strict=True):
+        sheet.text(LEFT + 70, y, text, size=_SIZE)
+    _stroke(sheet, across, [rows[0]] * 2)
+    _stroke(sheet, across, [rows[1]] * 2, dashed=True)
+    dot = {"ls": "none", "marker": "o"}
+    sheet.draw([LEFT + 25], [rows[2]], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
+    sheet.draw([LEFT + 25], [rows[2]], ms=2.5, color=style.BLACK, mew=0, **dot)
+    sheet.draw(across, [rows[3]] * 2, lw=6.0, color=style.GRID)
+
+
+@style.pinned()
+def line(sweep, data):
+    """Draw regular share with its 95 % interval, and the sea's exponent with quartiles."""
+    sheet = Sheet(style.COLUMN, 1275)
+    k = sweep["k"][0]
+    unit = sweep["g"] * sweep["g"] if "g" in sweep else 1.0
+    energy = np.array(sweep["energy"]) * unit
+    name = "Energy $E$" if "g" in sweep else r"$E/g^2$"
+    first, last = min(0.0, energy[0]), max(0.0, energy[-1])
+    across = linear(first, last + (0.02 * (last - first) or 1.0), 8, name)
+    share = linear(0.0, 1.0, 5)
+    exponents = np.concatenate([data[f"exponent{end}"].values[0] for end in ("", "_high")])
+    exponent = linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
+    above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
+    below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
+    *sides, top = above.frame  # its title stands above the names of resonances
+    letters(sheet, (*sides, top + 10 * POINT), below.frame)
+    for panel, text, bars, rise in (
+        (above, "Regular share of the section", "bars: 95 %", 14),
+        (below, "Lyapunov exponent of the sea", "dark: 95 %; pale: quartiles", 4),
+    ):
+        panel.minor()
+        title(sheet, panel.frame, text, rise)
+        corner(sheet, panel.frame, bars, rise, _SIZE)
+    _upright_lines((above, below), k, energy[0], unit)
+    error = _NORMAL * data["exponent_error"].values[0]
+    quartiles = data["exponent_low"].values[0], data["exponent_high"].values[0]
+    mean = data["exponent"].values[0]
+    regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
+    above.estimates(energy, *regular, style.BLUE)
+    below.estimates(energy, np.full(energy.size, np.nan), *quartiles, style.pale(style.VERMILION))
+    below.estimates(energy, mean, mean - error, mean + error, style.VERMILION)
+    for i, text in enumerate(QUOTATION if "g" in sweep else ()):
+        sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
+    for name, scaled in PAPER_ENERGIES.items():
+        if k == PAPER_K and scaled in sweep["energy"]:
+            at, value = scaled * unit, float(data["regular"].sel(energy=scaled).values[0])
+            above.dots(at, value, style.BLACK, size=4.5, hollow=True)
+            above.dots(at, value, style.BLUE, size=2.0)
+            above.note(at, value, name, shift=(4, 11))
+    return sheet.figure
+
+
+def _upright_lines(panels, k, first, unit):
+    """Draw the energies of resonances and of the onset of jumps, as far as they are swept."""
+    sheet, last = panels[0].sheet, panels[0].across.limits[1]
+    energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
+    energies = [(name, energy) for name, energy in energies if first < energy < last]
+    lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
+    for (name, _), x in zip(energies, _apart(lines), strict=True):
+        up = panels[0].frame[3] + 3 * POINT
+        sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
+    onset = (1.0 + 0.5 * k) * unit
+    if first < onset < last:
+        x = upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
+        up = panels[1].frame[3] - 8
+        sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
+
+
+def _apart(centres):
+    """Return the centres of names, moved apart where neighbours would touch."""
+    order = sorted(range(len(centres)), key=lambda i: centres[i])
+    moved = list(centres)
+    for left, right in pairwise(order):
+        push = 0.5 * max(0.0, _NAME - (moved[right] - moved[left]))
+        moved[left], moved[right] = moved[left] - push, moved[right] + push
+    return moved
+
+
+def _curves(panel, named):
+    """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps."""
+    bottom, top = panel.up.limits
+    k = bottom + (top - bottom) * np.arange(1001) / 1000
+    k = k[k > 0.0]
+    for turns, impacts in RESONANCES:
+        energy = np.array([fixed_point.resonance(value, turns, impacts) for value in k.tolist()])
+        visible = _is_between(panel.across, energy)
+        for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
+            _stroke(panel.sheet, *piece)
+        if named:
+            name_curve(panel, visible, energy, k, f"{turns}/{impacts}")
+    ends = k[[0, -1]]
+    if _is_between(panel.across, 1.0 + 0.5 * ends).all():
+        _stroke(panel.sheet, *panel.place(1.0 + 0.5 * ends, ends), dashed=True)
+
+
+def name_curve(panel, visible, energy, k, text):
+    """Name a curve where its visible part leaves the frame at the top or at the left."""
+    if visible.any():
+        last = int(np.flatnonzero(visible)[-1])
+        x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
+        x = max(x, panel.frame[0] + 12 * POINT)
+        panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
+
+
+def _stroke(sheet, x, y, dashed=False):
+    """Draw a white line edged in black, or white dashes on a black line."""
+    dashes = {"ls": (0, _DASHES)} if dashed else {}
+    sheet.draw(x, y, color=style.BLACK, lw=1.5, zorder=2.0)
+    sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **dashes)
+
+
+def _energy_axis(values):
+    """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
+    name = r"$E/g^2$"
+    if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
+        return linear(*raster.edges(values)[[0, -1]], 5, name)
+    axis = decades(raster.edges(log10(values))[[0, -1]].tolist(), name)
+    return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
+
+
+def _is_between(axis, values):
+    """Return whether each value lies within the limits of an axis."""
+    fractions = axis.fraction(values)
+    return (fractions >= 0.0) & (fractions <= 1.0)

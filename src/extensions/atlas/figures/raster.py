@@ -1,0 +1,76 @@
+"""Coloured cells between axes, and their colour scale."""
+
+import matplotlib
+import numpy as np
+
+from pseudorigid.figures.axes.limits import ticks
+from pseudorigid.figures.axes.panel import log10
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT
+
+_SIZE = 6.0  # points: text beside a colour scale
+_COLOURS = 64  # of a scale
+GREYS = "greys"
+_LIGHTEST, _DARKEST = 250, 130  # of GREYS
+
+
+def cells(panel, sweep, shades, table):
+    """Draw a rectangle for each cell, coloured by shades (k, energy) from 0 to 1, grey if NaN.
+
+    The cells are an image of whole pixels: a PNG has the exact colours, and vector files are small.
+    """
+    left, bottom, right, top = panel.frame
+    energy = log10(sweep["energy"]) if panel.across.decades else sweep["energy"]
+    x = _pixels(edges(energy), panel.across.limits, right - left)
+    y = _pixels(edges(sweep["k"]), panel.up.limits, top - bottom)
+    steps = np.clip((np.nan_to_num(shades) * _COLOURS).astype(np.int64), 0, _COLOURS - 1)
+    colors = palette(table)[steps]
+    colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
+    image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
+    _paste(panel.sheet, left, bottom, image)
+
+
+def scale(sheet, frame, largest, table):
+    """Draw the colour scale beside a frame, from 0 to `largest`."""
+    left, right = frame[2] + 25, frame[2] + 55
+    bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), frame[3] - frame[1])
+    column = np.repeat(palette(table), np.diff(bounds), axis=0)
+    _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
+    for tick in ticks(0.0, largest, 5):
+        y = frame[1] + tick / largest * (frame[3] - frame[1])
+        sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
+        text = style.number(tick)
+        sheet.text(right + 4 * POINT, y, text, size=_SIZE)
+
+
+def palette(name):
+    """Return colours, shape (64, 3): red, green and blue up to 255.
+
+    `name` is that of a table of matplotlib, or GREYS, which leaves room for coloured lines.
+    """
+    if name == GREYS:
+        levels = _LIGHTEST + (_DARKEST - _LIGHTEST) * np.arange(_COLOURS) // (_COLOURS - 1)
+        return np.repeat(levels[:, None], 3, axis=1).astype(np.uint8)
+    table = np.array(matplotlib.colormaps[name].colors)
+    rows = table[(2 * np.arange(_COLOURS) + 1) * len(table) // (2 * _COLOURS)]
+    return (rows * 255 + 0.5).astype(np.uint8)
+
+
+def _paste(sheet, left, bottom, image):
+    """Draw an image (height, width, 3), lowest row first, pixel for pixel."""
+    sheet.figure.figimage(image, xo=left, yo=bottom, origin="lower", zorder=0.6)
+
+
+def _pixels(values, limits, size):
+    """Return whole pixels of values, 0 at the lower limit and `size` at the upper one."""
+    low, high = limits
+    return [int((value - low) / (high - low) * size + 0.5) for value in values]
+
+
+def edges(values):
+    """Return the borders of cells, halfway between their values; a single cell is a unit wide."""
+    values = np.asarray(values)
+    if values.size == 1:
+        return np.array([values[0] - 0.5, values[0] + 0.5])
+    middle = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])

@@ -1,0 +1,165 @@
+"""The kinds of picture of sweeps: a grid over k and E/g^2, and how reliable its verdicts are."""
+
+from collections.abc import Iterator
+from decimal import Context, Decimal
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Tag
+
+from pipeline.config.schema.fields import (
+    ABSENT,
+    TAGS,
+    Block,
+    Gravity,
+    Number,
+    YamlMapping,
+    allowed,
+    first_if,
+    whole,
+)
+from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, exact
+
+# Bounds of a sweep.
+LARGEST_IMPACTS = 10_000_000_000_000  # a larger number is a slip
+MOST_CELLS = 1_000_000  # each start of ./reproduce looks at all of them
+MOST_JOBS = 5000  # with more, snakemake is busier with its list than with the jobs
+HIGHEST_ENERGY = 1e9  # E/g^2
+_FORTY_DIGITS = Context(prec=40)
+
+
+class Span(Block):
+    """a mapping with from, to and count"""
+
+    from_: float = allowed("a number", alias="from")
+    """First value of the axis."""
+    to: Number
+    """Last value of the axis."""
+    count: int = whole(2, 100_000)
+    """Number of values, both ends included."""
+    spacing: Literal["even", "log"] = "even"
+    """`even` gives neighbours equal differences, `log` gives them equal ratios."""
+
+
+Values = Annotated[
+    Annotated[list[Number], allowed("a list of at least one number", min_length=1), Tag(TAGS[0])]
+    | Annotated[Span, Tag(TAGS[1])],
+    first_if(list),
+    allowed("a list of numbers, or a mapping with from, to and count"),
+]
+
+
+class Atlas(Picture):
+    """regular and chaotic motion over a grid of k and E/g^2, a sweep"""
+
+    stages = ("sweep",)
+    undrawn = ("formats", "block")
+
+    k: Values
+    """Inertias of the grid, in increasing order. A single value makes a line, which is drawn as
+    curves; several make a plane, which is drawn as maps."""
+    energy: Values
+    """Energies of the grid as multiples of g^2, in increasing order."""
+    g: Gravity = ABSENT
+    """Gravity, in R omega^2. With it the picture shows E instead of E/g^2, and energies at which
+    the ball could flatten, eq. (31), are refused. The data do not depend on it."""
+    starts: int = whole(1, 1_000_000)
+    """Number of orbits in each cell of the grid. They start evenly, by area, over the half y >= 0
+    of the section, of which the other half is the mirror image. More starts make the share of
+    regular motion more precise."""
+    impacts: int = whole(100, 10_000_000)
+    """Largest number of impacts of an orbit. Longer orbits tell slow chaos from regular motion."""
+    block: int = whole(1, 100_000)
+    """Number of cells that one job computes. Choose it so that a job takes about a minute: an
+    interrupted sweep resumes with the blocks that are missing. The data do not depend on it."""
+
+    @classmethod
+    def completed(cls, block: YamlMapping) -> YamlMapping:
+        """Write out the axes."""
+        axes = {}
+        for axis in ("k", "energy"):
+            for place, value, words in _axis_errors(block[axis], axis):
+                raise CompletionError(place, value, words)
+            axes[axis] = _values(block[axis])
+            if any(not a < b for a, b in pairwise(axes[axis])):
+                words = "increasing numbers that differ in six digits"
+                raise CompletionError((axis,), block[axis], words)
+        return block | axes
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check the grid, of which each value is correct by itself."""
+        k, energy, size, impacts = (block[name] for name in ("k", "energy", "block", "impacts"))
+        for i, each in enumerate(k):
+            if not 0 < each <= 1:
+                yield ("k",), each, f"numbers with 0 < k <= 1 (number {i + 1})"
+                return
+        yield from _energy_errors(energy[0], energy[-1], k, block.get("g"))
+        cells = len(k) * len(energy)
+        if cells > MOST_CELLS:
+            sizes = f"{len(k)} times {len(energy)}"
+            yield ("energy",), energy, f"axes with at most {MOST_CELLS} cells, here {sizes}"
+            return
+        if cells * block["starts"] * impacts > LARGEST_IMPACTS:
+            words = (
+                f"at most {LARGEST_IMPACTS} impacts in a sweep, counted over all cells and starts"
+            )
+            yield ("impacts",), impacts, words
+        if cells > MOST_JOBS * size:
+            words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
+            yield ("block",), size, words
+
+
+class Verdicts(Picture):
+    """the share of wrong verdicts on orbits against the impacts that they take"""
+
+    stages = ("verdicts",)
+
+
+def _axis_errors(given: YamlMapping | list[float], axis: str) -> Iterator[CrossFieldError]:
+    """Yield an error if the ends of an axis are wrong."""
+    if isinstance(given, dict):
+        low, high = given["from"], given["to"]
+        if not low < high:
+            yield (axis, "to"), high, f"a number above from = {low}"
+        elif given.get("spacing") == "log" and not low > 0:
+            yield (axis, "from"), low, "a number > 0 where spacing is log"
+
+
+def _energy_errors(
+    first: float, last: float, k: list[float], g: float | None
+) -> Iterator[CrossFieldError]:
+    """Yield an error for the first or last energy, or for g, if a ball could rest or flatten."""
+    lowest = -1 / (2 * exact(k[-1]))
+    if not exact(first) > lowest:
+        words = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k[-1]} is at rest"
+        yield ("energy",), first, words
+    if not last <= HIGHEST_ENERGY:
+        yield ("energy",), last, f"E/g^2 of at most {HIGHEST_ENERGY:g}"
+    elif g is not None and not g < k[0]:
+        yield ("g",), g, f"0 < g < k = {k[0]}"
+    elif g is not None:
+        highest = (exact(k[0]) / 2 - exact(g)) / exact(g) ** 2
+        if not exact(last) < highest:
+            words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
+            yield ("energy",), last, words
+
+
+def _values(given: YamlMapping | list[float]) -> list[float]:
+    """Return the numbers of an axis.
+
+    Evenly spaced ones are exact to twelve digits where the ends are decimals. Those in equal ratios
+    have six digits; they are computed in decimals, which have the same bits everywhere.
+    """
+    if isinstance(given, list):
+        return [float(value) for value in given]
+    low, high, count = given["from"], given["to"], given["count"]
+    if given.get("spacing") != "log":
+        first, last = exact(low), exact(high)
+        values = [first + (last - first) * i / (count - 1) for i in range(count)]
+        twelve = Context(prec=12)
+        return [float(twelve.divide(Decimal(v.numerator), Decimal(v.denominator))) for v in values]
+    start, end = (_FORTY_DIGITS.ln(Decimal(str(value))) for value in (low, high))
+    step = _FORTY_DIGITS.divide(_FORTY_DIGITS.subtract(end, start), Decimal(count - 1))
+    powers = (_FORTY_DIGITS.fma(step, Decimal(i), start) for i in range(count))
+    return [float(Context(prec=6).plus(_FORTY_DIGITS.exp(power))) for power in powers]

@@ -1,0 +1,75 @@
+"""Rotation number and exponent of orbits against their start along y = 0, at several energies."""
+
+import numpy as np
+import xarray as xr
+
+from pseudorigid.dynamics.regularity import regular
+from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
+from pseudorigid.dynamics.variables import ENERGY, RADIUS, described, variables
+
+_MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports
+_ORBITS = {
+    "place": ("start along y = 0, in section radii from the centre", RADIUS),
+    "rotation": "rotation number around the fixed point",
+    "exponent": "Lyapunov exponent an impact",
+}
+
+
+def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) -> xr.Dataset:
+    """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
+
+    At each energy the starts go evenly from the fixed point to the section's rim. At the first
+    energy as many starts again go over the part `detail` of y = 0; the names of their variables
+    begin with detail_. Rotation numbers and exponents are those of `winding`.
+
+    >>> from pseudorigid import Ball
+    >>> data = rotation(Ball(k=0.2, g=0.04), 0.01, [0.001], 10, 200, (-0.8357, -0.8342), 200)
+    >>> data.sizes["start"]
+    10
+    """
+    levels = [float(energy), *map(float, energies)]
+    middle = (np.arange(starts) + 0.5) / starts
+    fixed_points = [symmetric_fixed_point(ball, level) for level in levels]
+    orbits = []
+    for level, (fixed_place, _) in zip(levels, fixed_points, strict=True):
+        place = fixed_place + (1.0 - fixed_place) * middle
+        orbits.append((place, *winding(ball, level, place, impacts)))
+    data = variables(("energy", "start"), zip(*orbits, strict=True), _ORBITS)
+    fixed_places, fixed_rotations = zip(*fixed_points, strict=True)
+    meaning = "the fixed point, in section radii from the centre"
+    data |= described(
+        {
+            "energy": ("energy", levels, "energy", ENERGY),
+            "fixed_place": ("energy", fixed_places, meaning, RADIUS),
+            "fixed_rotation": ("energy", fixed_rotations, "rotation number of the fixed point"),
+        }
+    )
+    place = detail[0] + (detail[1] - detail[0]) * middle
+    values = place, *winding(ball, energy, place, detail_impacts)
+    data |= variables("detail", values, {f"detail_{name}": text for name, text in _ORBITS.items()})
+    return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
+
+
+def island(dataset: xr.Dataset, row: int) -> int:
+    """Return how many starts from the fixed point on precede two chaotic neighbours."""
+    chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
+    both = chaotic[:-1] & chaotic[1:]
+    return int(np.argmax(both)) if both.any() else chaotic.size
+
+
+def plateaus(place: np.ndarray, turns: np.ndarray) -> list[tuple[int, int, float, float]]:
+    """Find chains of islands: neighbouring regular starts with one rotation number p/q.
+
+    `place` and `turns` are the starts, in order, and their rotation numbers. A chain is returned as
+    p, q in lowest terms and its first and last start.
+    """
+    chains = []
+    for q in range(2, _MAX_ISLANDS + 1):
+        p = np.rint(turns * q).astype(np.int64)
+        locked = np.abs(turns - p / q) < LOCKED
+        for number in sorted(set(p[locked].tolist())):
+            (at,) = np.nonzero(locked & (p == number))
+            neighbours = at.size >= _MIN_STARTS and at[-1] - at[0] == at.size - 1
+            if neighbours and np.gcd(number, q) == 1:
+                chains.append((number, q, float(place[at[0]]), float(place[at[-1]])))
+    return chains

@@ -1,0 +1,112 @@
+"""Lyapunov exponents of many orbits: how they spread, and how the spread falls with the length.
+
+Orbits start uniformly over the whole section, and their exponents decide which of them are chaotic.
+The dataset holds means over blocks, from which means over longer stretches follow. So one run gives
+the long-run value, its error, and the distribution of the short runs that it consists of.
+"""
+
+import numpy as np
+import xarray as xr
+
+from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
+from pseudorigid.dynamics.regularity import regular_bound
+from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
+
+from .sea import half_axes, section_points
+
+_CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
+
+
+def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
+    """Compute the exponents of many orbits by blocks, and the cells that chaotic orbits enter.
+
+    The exponents so far of the regular orbits are kept after `regular_impacts` and its halves. The
+    section's bounding rectangle is divided into cells x cells cells, and those that chaotic orbits
+    enter are counted after `visits` and its halves. Exponents are in the order of
+    `lyapunov_spectrum`. ValueError is raised if `blocks` does not divide `length`, or no orbit is
+    chaotic.
+
+    >>> from pseudorigid import Ball
+    >>> data = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
+    >>> in_sea(data)
+    array([ True,  True,  True,  True, False])
+    """
+    if length % blocks:
+        raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
+    x, y = section_points(ball, energy, orbits)
+    states = ball.state_xy(x, y, energy)
+    so_far = lyapunov_spectrum(ball, states, length, blocks)["exponent"].values
+    count = np.arange(1, blocks + 1)[:, None, None]
+    sums = so_far * count
+    block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
+    chaotic = so_far[-1].max(axis=-1) > regular_bound(length)
+    if not chaotic.any():
+        raise ValueError(
+            f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
+            "give more orbits, longer ones or another energy"
+        )
+    lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
+    islands = ball.start(starts, energy)
+    regular = [lyapunov_spectrum(ball, islands, int(n), 1)["exponent"].values[0] for n in lengths]
+    data = {
+        "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
+        "start_x": ("orbit", x, "x of the start", LENGTH),
+        "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
+        "length": ("length", lengths, "number of impacts"),
+        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
+        "regular_exponent": (("length", "island", "index"), regular, "exponent of a regular orbit"),
+    }
+    data |= _entered_cells(ball, energy, [a[chaotic] for a in states], cells, visits)
+    return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
+
+
+def in_sea(dataset: xr.Dataset) -> np.ndarray:
+    """Return which orbits of a dataset of `spread` have an exponent above `regular_bound`."""
+    length = int(dataset.attrs["block_impacts"]) * dataset.sizes["block"]
+    return dataset["exponent"].values.mean(axis=0).max(axis=-1) > regular_bound(length)
+
+
+def _halves(number: int) -> np.ndarray:
+    """Return number, number/2, ... above 0, in rising order."""
+    return np.array([number >> i for i in reversed(range(int(number).bit_length()))])
+
+
+def _entered_cells(ball, energy, states, cells, visits):
+    """Count the cells of the chart that orbits enter, at `visits` impacts and its halves."""
+    centre, (radius, high) = ball.section(energy)[0], half_axes(ball, energy)
+    entered = np.zeros((states[0].size, cells * cells), dtype=bool)
+    lengths, done, counts = _halves(visits), 0, []
+    for length in lengths.tolist():
+        while done < length:
+            out = ball.history(states, min(_CHUNK, length - done))
+            states = out[:, -1, :3].T
+            done += out.shape[1]
+            x, y = chart(ball.k, *np.moveaxis(out[..., :3], -1, 0))
+            across, up = _cell((x - centre) / radius, cells), _cell(y / high, cells)
+            for orbit, numbers in enumerate(up * cells + across):
+                entered[orbit, numbers] = True
+        least = entered.sum(axis=1).min()
+        counts.append((entered.any(axis=0).sum(), entered.all(axis=0).sum(), least))
+    any_of, all_of, least = np.array(counts, dtype=np.int64).T
+    return {
+        "visit": ("visit", lengths, "number of impacts of each chaotic orbit"),
+        "entered_any": ("visit", any_of, "cells entered by at least one chaotic orbit"),
+        "entered_all": ("visit", all_of, "cells entered by each chaotic orbit"),
+        "entered_least": ("visit", least, "cells entered by the chaotic orbit that enters fewest"),
+    }
+
+
+def _cell(coordinate: np.ndarray, cells: int) -> np.ndarray:
+    """Return the cell, 0 to cells - 1, of coordinates between -1 and 1."""
+    return np.clip((0.5 * (coordinate + 1.0) * cells).astype(np.int64), 0, cells - 1)
+
+
+def stretches(dataset: xr.Dataset, length: int) -> np.ndarray:
+    """Return the largest exponent of each stretch of `length` impacts of the chaotic orbits.
+
+    `length` is a multiple of the dataset's block_impacts; the exponents are in nats an impact.
+    """
+    block = dataset["exponent"].values[:, in_sea(dataset)]
+    count = length // int(dataset.attrs["block_impacts"])
+    whole = block[: block.shape[0] // count * count]
+    return whole.reshape(-1, count, *block.shape[1:]).mean(axis=1).max(axis=-1).ravel()

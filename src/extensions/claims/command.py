@@ -1,0 +1,85 @@
+"""./reproduce claims: every statement of the paper, checked, in CLAIMS.json and CLAIMS.md."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+from pipeline.cli import figures
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.session import UsageError, interruptible, locked
+from pipeline.config import PAPER, Config, paths
+from pipeline.records import artifacts
+from pipeline.records.files import write_whole
+from pipeline.records.names import suggestion
+from pipeline.records.sources import ROOT
+
+from . import ledger as claims
+from .ledger.schema import Verdict
+
+
+def run(args: Arguments) -> int:
+    """Compute missing data, draw the pictures and write the verdicts."""
+    checked = args.checked
+    with locked():
+        files = figures.of_scenes(checked, "claims")
+        data = [*dataset_paths(checked, claims.required_datasets()).values()]
+        data += theorem_paths(checked, claims.required_theorems()).values()
+        status = figures.make(checked, "claims", files, args, data)
+        if status or args.makes_nothing:
+            return status
+        with interruptible():
+            verdicts = write(checked)
+    counts = Counter(verdict.verdict for verdict in verdicts)
+    print(f"\n{claims.FILE}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    return 0
+
+
+def dataset_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
+    """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
+    known = {}
+    for (variant, scene, stage), path in paths.artifact_paths(checked.variants).items():
+        own = variant in (PAPER, "claims")
+        known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
+        if stage == "sweep":
+            known[f"atlas/{scene}"] = path
+        if stage == "derivations":
+            known[stage] = path
+    for name in names:
+        if name not in known:
+            numbers = [number for number, claim in claims.CLAIMS.items() if name in claim.data]
+            needs = f"no scene of config.yaml makes {name}, which claim {numbers[0]} needs"
+            raise UsageError(": ".join([needs, *filter(None, [suggestion(name, known)])]))
+    return {name: known[name] for name in names}
+
+
+def theorem_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
+    """Return name -> path of the verdicts on theorems; raises UsageError for a missing one."""
+    artifact_paths = paths.artifact_paths(checked.variants)
+    known = {
+        scene: path for (_, scene, stage), path in artifact_paths.items() if stage == "theorem"
+    }
+    for name in names:
+        if name not in known:
+            raise UsageError(f"there is no certificate of the theorem {name}")
+    return {name: known[name] for name in names}
+
+
+def write(checked: Config) -> list[Verdict]:
+    """Judge all claims, and write CLAIMS.json and then CLAIMS.md.
+
+    A sweep's dataset gets the g of its block, if there is one, as an attribute.
+    """
+    datasets = {}
+    for name, path in dataset_paths(checked, claims.required_datasets()).items():
+        folder, _, sweep = name.partition("/")
+        block = checked.variants["atlas"][sweep] if folder == "atlas" else {}
+        more = {"g": block["g"]} if "g" in block else {}
+        datasets[name] = artifacts.load(ROOT / path).assign_attrs(more)
+    proofs = {
+        name: artifacts.load(ROOT / path).attrs["verdict"]
+        for name, path in theorem_paths(checked, claims.required_theorems()).items()
+    }
+    data = claims.to_json(claims.judge_claims(datasets, proofs))
+    verdicts = claims.read_json(data)
+    for name, text in {claims.DATA: data, claims.FILE: claims.render(verdicts)}.items():
+        write_whole(ROOT / name, text)
+    return verdicts

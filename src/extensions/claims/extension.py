@@ -1,0 +1,45 @@
+"""What the verdicts on the paper's statements add to the pipeline."""
+
+from pipeline.declaration import Extension, SceneSet, SnakemakeCommand, Stage
+
+_ANALYSES = "extensions.claims.analyses"
+EXTENSION = Extension(
+    needs=("proofs", "atlas", "families"),
+    stages={
+        **{
+            name: Stage(f"{_ANALYSES}.{name}.{name}", fields)
+            for name, fields in {
+                "spread": "orbits length blocks regular regular_impacts cells visits",
+                "clusters": "between orbits impacts cuts lags resamples seed",
+                "rotation": "energies starts impacts detail detail_impacts",
+                "jumps": "energies sides",
+                "flux": "period distance grid between orbits impacts",
+                "control": "strengths orbits impacts period starts shown drawn resamples seed",
+            }.items()
+        },
+        "last_curve": Stage(
+            "extensions.atlas.last_curve.last_curve", "nobles convergents between impacts drawn"
+        ),
+    },
+    sets={
+        "claims": SceneSet(
+            "more_figures/claims",
+            "./reproduce claims",
+            "Statements of the paper",
+            key="claims",
+            texts=("CLAIMS.md", "CLAIMS.json"),
+        )
+    },
+    commands={
+        "claims": SnakemakeCommand(
+            "check every statement of the paper: CLAIMS.md, more_figures/claims/",
+            module="extensions.claims.command",
+            details=" Makes missing results first, including the sweeps.",
+        ),
+    },
+    removed={
+        ("claims", "--check"): "all claims are judged",
+        ("claims", "--data"): "the data of this tree are judged",
+    },
+    report="extensions.claims.report",
+)

@@ -1,0 +1,1 @@
+"""Pictures behind the verdicts on the paper's statements."""

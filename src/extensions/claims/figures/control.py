@@ -1,0 +1,155 @@
+"""Regular orbits of maps that keep area, are reversible, both, or neither."""
+
+import numpy as np
+
+from pseudorigid.figures.axes.limits import decades, linear
+from pseudorigid.figures.axes.panel import Axis, Window, key, letters, log10, title
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import Sheet
+
+_LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
+_CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.BACKDROP))
+_UNCHANGED = "the impact map"
+# What a changed map keeps, the colour, and whether marks are hollow. All but the first have a
+# column of portraits, in this order.
+_KEPT = {
+    "both": ("area, reversor", style.BLACK, False),
+    "area": ("area alone", style.PURPLE, True),
+    "reversor": ("reversor alone", style.GREEN, False),
+    "neither": ("neither", style.ORANGE, True),
+}
+_FORMS = {"twist": "o", "stir": "s", "shift": "^"}  # in the order of the portraits' rows
+_ROWS = 690, 290  # pixels: the bottoms of the charts' rows
+_HIGH = 240  # pixels: the height of a chart
+_LONG = 5  # digits of numbers of impacts that fit beside one another
+_SIDE, _APART = 282, 346  # pixels: the side of a portrait, and from one to the next below
+
+
+@style.pinned()
+def draw(scene, control):
+    """Draw portraits of maps, and shares and rates of all maps against the strength."""
+    sheet = Sheet(style.COLUMN, 2175)
+    drawn = set(control["kind"].values.ravel().tolist())
+    entries = [(*_CLASSES[kind], "o", False, 3.0) for kind in range(3) if kind in drawn]
+    key(sheet, entries, sheet.high - 32, 3, _LEFT, 450, 7.0)
+    sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
+    text = rf"the changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
+    sheet.text(_RIGHT, _ROWS[0] + _HIGH + 80, text, ha="right", va="center", size=7.0)
+    letters(sheet, _portraits(sheet, control), *_charts(sheet, control))
+    entries = [(text, hue, "o", hollow, 3.4) for text, hue, hollow in _KEPT.values()]
+    entries += [(form, style.SEA, mark, False, 3.4) for form, mark in _FORMS.items()]
+    entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
+    key(sheet, entries, 125, 4, _LEFT - 90, 990, 7.0)
+    text = "colour and filling: what is kept; shape: form of the change; bars: 95 %"
+    sheet.text(_LEFT - 90, 30, text, size=7.0)
+    return sheet.figure
+
+
+def _portraits(sheet, control):
+    """Draw the orbits of each panel, chaotic ones first; return the first frame."""
+    from pseudorigid.kernel.arithmetic import sincos_each
+
+    first = _LEFT, sheet.high - 105 - _SIDE, _LEFT + _SIDE, sheet.high - 105
+    columns, last = [*_KEPT][1:], len(_FORMS) - 1
+    for i, name in enumerate(control["panel"].values.tolist()):
+        form, _, kept = name.partition(" ")
+        if kept == "both":  # like the unchanged map
+            continue
+        row = last if name == "none" else [*_FORMS].index(form)
+        column = 0 if name == "none" else columns.index(kept)
+        left, bottom = _LEFT + column * (_SIDE + 22), first[1] - row * _APART
+        frame = left, bottom, left + _SIDE, bottom + _SIDE
+        across, up = (
+            Axis((-1.04, 1.04), (-0.5, 0, 0.5), labels=[style.number(-0.5), name, "0.5"])
+            for name in ("$a$", "$b$")
+        )
+        across = across if row == last else across.blank()
+        up = up if column == 0 else up.blank()
+        panel = Window(sheet, frame, across, up, grid=False)
+        sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
+        panel.line(cosine, sine, color=style.BLACK, lw=0.5)
+        kinds = control["kind"].values[i]
+        for kind in (2, 1, 0):
+            a, b = (control[axis].values[i][kinds == kind].ravel() for axis in "ab")
+            panel.dots(a, b, _CLASSES[kind][1], 0.5 if kind == 2 else 0.7)
+        title(sheet, frame, _UNCHANGED if name == "none" else f"{form}: {_KEPT[kept][0]}")
+    return first
+
+
+def _charts(sheet, control):
+    """Draw shares and rates; return the frames."""
+    strength = control["strength"].values[1:]
+    logs = log10(strength)
+    low, high = float(logs.min()), float(logs.max())
+    room = max(0.08 * (high - low), 0.15)
+    if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
+        low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
+    across = decades((low - room, high + room), r"Strength $\epsilon$")
+    left, right = ((at, at + _HALF) for at in (_LEFT, _RIGHT - _HALF))
+    frames = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in (left, right)]
+    last = control.isel(length=-1)
+    regular, spiral = (
+        [last[f"class_{name}"].sel({"class": kind}).values for name in ("share", "low", "high")]
+        for kind in ("regular", "spiral")
+    )
+    for frame, up, text, estimate in (
+        (frames[0], _share_axis(regular[2]), "Regular share", regular),
+        (frames[1], linear(0.0, 1.0, 5), "Share of spirals", spiral),
+    ):
+        panel = _chart(sheet, frame, across, up, text)
+        panel.line([1e-9, 1.0], [estimate[0][0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
+        _maps(panel, control, strength, [part[:, 1:] for part in estimate])
+    rate = [control[f"rate{end}"].values[:, 1:, 0] / strength for end in ("", "_low", "_high")]
+    finite = np.abs(rate[0][np.isfinite(rate[0])])
+    most = 1.15 * float(finite.max()) if finite.size else 1.0
+    up = linear(-most, most, 5)
+    panel = _chart(sheet, frames[2], across, up, r"Rate at the fixed point, / $\epsilon$")
+    panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
+    _maps(panel, control, strength, rate, joined=False)
+    _lengths(sheet, frames[3], control)
+    return frames
+
+
+def _chart(sheet, frame, across, up, text, minor_across=True):
+    """Return a chart with its title above it."""
+    panel = Window(sheet, frame, across, up)
+    panel.minor(minor_across)
+    title(sheet, frame, text)
+    return panel
+
+
+def _share_axis(values):
+    """Return an axis from 0 to above the largest share."""
+    return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
+
+
+def _maps(panel, control, at, estimate, apart=1.04, joined=True):
+    """Draw the changed maps' values with intervals, (map, abscissa), side by side."""
+    for i, name in enumerate(control["map"].values.tolist()):
+        form, _, kept = name.partition(" ")
+        _, hue, hollow = _KEPT[kept]
+        beside = at * apart ** (i - 4.5)
+        value, low, high = (part[i] for part in estimate)
+        if joined:
+            panel.line(beside, value, color=style.pale(hue), lw=0.8)
+        panel.bars(beside, low, high, color=hue, lw=0.7)
+        shown = np.isfinite(value)
+        panel.dots(beside[shown], value[shown], hue, 3.0, hollow, _FORMS[form])
+
+
+def _lengths(sheet, frame, control):
+    """Draw the regular share against the number of impacts at the strength that is shown."""
+    lengths = control["length"].values.astype(float)
+    logs = log10(lengths)
+    texts = [style.number(int(n)) for n in lengths]
+    if len(texts[-1]) > _LONG:
+        texts[1:-1] = [""] * (len(texts) - 2)
+    limits = float(logs[0]) - 0.1, float(logs[-1]) + 0.1
+    across = Axis(limits, logs.tolist(), "Number of impacts", True, texts)
+    at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
+    kind = control.sel({"class": "regular"})
+    estimate = [kind[f"class_{name}"].values[:, at] for name in ("share", "low", "high")]
+    text = rf"Regular share, $\epsilon$ = {style.number(control.attrs['shown'])}"
+    up = _share_axis(estimate[2])
+    panel = _chart(sheet, frame, across, up, text, minor_across=False)
+    _maps(panel, control, lengths, estimate, 1.02)

@@ -1,0 +1,122 @@
+"""The regions that the branches of a hyperbolic orbit enclose, and the lobes between branches."""
+
+import textwrap
+
+import numpy as np
+
+from pseudorigid.figures.axes import section
+from pseudorigid.figures.axes.limits import around, linear
+from pseudorigid.figures.axes.panel import Panel, corner, key, letters, title, vacant
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
+
+from ..analyses.flux import SIDES
+
+_SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index in SIDES, colour, points
+_LONGEST = 24  # characters of a line that fits into a small panel
+_RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
+
+
+@style.pinned()
+def draw(scene, flux):
+    """Draw regions and lobes of the inner and the outer branches, and both crossings."""
+    sheet = Sheet(style.COLUMN, 1725)
+    frame = _regions(sheet, scene, flux)
+    corner(sheet, frame, style.setting(scene))
+    entries = [
+        (_edge_name(flux, side), hue if _has_edge(flux, side) else "white", "", False, wide)
+        for side, hue, wide in reversed(_SIDES)  # white: the text alone
+    ]
+    entries.append(("grazing rim", style.BLACK))
+    entries.append(("crossing, and its lobe's area", style.FRAME, "o"))
+    key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
+    entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
+    key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
+    lobes = (section.LEFT, 105, 505, 405), (680, 105, 1005, 405)
+    letters(sheet, frame, *lobes)
+    for side, frame in zip((1, 0), lobes, strict=True):
+        title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18)
+    return sheet.figure
+
+
+def _has_edge(flux, side):
+    """Return whether a region has an edge that can be drawn."""
+    return bool(np.isfinite(flux["region"].values[side]))
+
+
+def _edge_name(flux, side):
+    """Return the name of a region's edge, or why there is none."""
+    name = SIDES[side]
+    if np.isnan(flux["area"].values[side]):
+        return f"{name} region: none"
+    if not _has_edge(flux, side):
+        return f"{name} edge: cut by a jump"
+    return f"edge of the {name} region"
+
+
+def _regions(sheet, scene, flux):
+    """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
+    panel = section.at_top(sheet, scene)
+    panel.rim(zorder=2)
+    for side, hue, wide in _SIDES:
+        if np.isnan(flux["area"].values[side]):
+            continue
+        x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
+        panel.line(x, y, color=hue, lw=wide)
+        digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
+        text = rf"area ${digits}\times 10^{{{int(power)}}}$"
+        crossing = float(flux["crossing_x"].values[side].max())
+        panel.dots([crossing], [0.0], hue)
+        left = panel.centre - panel.radius if np.isnan(x[0]) else x.min()
+        ends = [left, panel.centre + panel.radius]
+        (end, dot), _ = panel.place([ends[side], crossing], [0.0, 0.0])
+        ha, sign = ("left", 1.0) if side else ("right", -1.0)
+        if abs(end - dot) > width(text, panel.small) + 8.0 * POINT:
+            panel.note(crossing, 0.0, text, ha=ha, shift=(sign * 4.0, 0.0))
+        else:  # no room inside the rim or the region: outside, in a corner
+            left, _, right, top = panel.frame
+            across, ha = (right, "right") if side else (left, "left")
+            across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
+            sheet.text(across, up, f"{SIDES[side]}: {text}", ha=ha, va="top", size=panel.small)
+    if not any(_has_edge(flux, side) for side, *_ in _SIDES):
+        text = "neither region has an edge that can be drawn"
+        panel.note(panel.centre, 0.5 * panel.high * panel.radius, text, ha="center")
+    return panel.frame
+
+
+def _lobe(sheet, frame, side, flux):
+    """Draw two branches at their crossing, or the distance between them, and return a title."""
+    x, y = (flux[f"branch_{name}"].values[side] for name in "xy")
+    if np.isnan(x[0]):
+        reason = flux.attrs.get(f"missing_{SIDES[side]}", "none is closed")
+        vacant(sheet, frame, textwrap.fill(f"no lobe: {reason}", _LONGEST))
+    elif side == 0 and (np.all(np.diff(y) >= 0.0) or np.all(np.diff(y) <= 0.0)):
+        _difference(sheet, frame, x, y)
+        return "Inner: unstable minus stable"
+    else:
+        up = around([y, -y], 0.06, 5, "$y$")
+        panel = Panel(sheet, frame, around(x, 0.06, 3, "$x$"), up)
+        panel.line(x, -y, color=style.STABLE, lw=1.0)
+        panel.line(x, y, color=style.UNSTABLE, lw=1.0)
+    return f"{SIDES[side].title()} branches at the crossing"
+
+
+def _difference(sheet, frame, x, y):
+    """Draw the distance in x of the unstable branch from the stable one, its mirror image."""
+    y, order = np.unique(y, return_index=True)
+    x = x[order]
+    half = float(min(y.max(), -y.min()))
+    at = half * (np.arange(-200, 201) / 200.0)
+    apart = np.interp(at, y, x) - np.interp(-at, y, x)
+    # Halving the sides of a polygon divides its distance from a smooth line by four.
+    error = 0.25 * np.abs(x[1:-1] - np.interp(y[1:-1], y[::2], x[::2])).max()
+    if float(np.abs(apart).max()) < _RESOLVED * error:
+        vacant(sheet, frame, "too small for lines this coarse")
+        return
+    power = int(f"{float(np.abs(apart).max()):e}".partition("e")[2])
+    apart = apart / float(f"1e{power}")
+    most = 1.1 * float(np.abs(apart).max())
+    up = linear(-most, most, 5, rf"Difference of $x$ / $10^{{{power}}}$")
+    panel = Panel(sheet, frame, linear(-half, half, 3, "$y$"), up)
+    panel.line([-half, half], [0.0, 0.0], color=style.STABLE, lw=1.0)
+    panel.line(at, apart, color=style.UNSTABLE, lw=1.0)

@@ -1,0 +1,59 @@
+"""The section in the chart (x, y): jumps of the map, orbits, symmetry lines, grazing rim."""
+
+import numpy as np
+
+from pseudorigid.figures.axes import section
+from pseudorigid.figures.axes.panel import key, letters, title, vacant
+from pseudorigid.figures.canvas import style
+
+_SMALL, _LEFTS = 215, (125, 465, 805)  # pixels: side and lefts of the small panels
+MAP, INVERSE = style.VERMILION, style.BLUE
+
+
+@style.pinned()
+def draw(scene, jumps, orbits):
+    """Draw the section with the jumps of the map and its inverse, and further energies below."""
+    panel, regular, chaotic = section.over_orbits(scene, orbits, high=1500)
+    dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
+    panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
+    for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
+        panel.line(x, y, **dashes)
+    _curves(panel, jumps, 0)
+    jumping = (jumps["length"].values > 0.0).any()
+    entries = [
+        ("the map jumps", MAP) if jumping else None,
+        ("its inverse jumps", INVERSE) if jumping else None,
+        regular,
+        ("grazing rim", style.BLACK),
+        ("symmetry lines", style.PURPLE, "", True),
+        chaotic,
+    ]
+    entries = [*filter(None, entries)]
+    key(panel.sheet, entries, panel.frame[1] - 128, 3, section.LEFT - 50, section.SIDE + 60)
+    letters(panel.sheet, panel.frame, *_births(panel.sheet, jumps))
+    return panel.sheet.figure
+
+
+def _curves(panel, jumps, row):
+    x, y = jumps["x"].values[row], jumps["y"].values[row]
+    for sign, hue in ((1.0, INVERSE), (-1.0, MAP)):
+        panel.line(x, sign * y, color=hue, lw=1.2, zorder=5)
+
+
+def _births(sheet, jumps):
+    """Draw sections at energies above that of the birth, each on its own scale; return frames."""
+    energies = jumps["energy"].values
+    born = jumps["length"].values > 0.0
+    rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
+    if not rising:
+        text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
+        frame = section.LEFT, 60, section.LEFT + section.SIDE, 60 + _SMALL
+        vacant(sheet, frame, text)
+    frames = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(rising)]]
+    for frame, row in zip(frames, rising, strict=False):
+        radius = float(jumps["radius"].values[row])
+        panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 4, ("", ""))
+        panel.rim()
+        _curves(panel, jumps, row)
+        title(sheet, frame, f"$E$ = {style.number(float(energies[row]))}")
+    return frames

@@ -1,0 +1,66 @@
+"""What each kind of picture reports: quantity -> value as text, measured in its datasets.
+
+A function has the name of a kind and takes the scene's block and the datasets by their stages.
+"""
+
+from typing import Any
+
+import xarray as xr
+
+from pseudorigid.figures.quantities import listing
+
+
+def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:
+    """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
+    from ..analyses.spread import in_sea
+
+    largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
+    error = largest.std(ddof=1) / largest.size**0.5
+    return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
+
+
+def clusters(block: dict[str, Any], clusters: xr.Dataset) -> dict[str, str]:
+    """Give the mean time from one cluster to the next, for each cut."""
+    return {"time between clusters": listing(clusters, "{:.2f} cut at {:g}", "period", "cut")}
+
+
+def rotation(block: dict[str, Any], rotation: xr.Dataset) -> dict[str, str]:
+    """Give the rotation number at the fixed point, at each energy."""
+    numbers = listing(rotation, "{:.6f} at E = {:g}", "fixed_rotation", "energy")
+    return {"at the fixed point": numbers}
+
+
+def jumps(block: dict[str, Any], jumps: xr.Dataset, orbits: xr.Dataset) -> dict[str, str]:
+    """Give the length of the curve in (x, y) at each energy."""
+    return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}
+
+
+def flux(block: dict[str, Any], flux: xr.Dataset) -> dict[str, str]:
+    """Give the areas of the lobes in (x, y), or why there are none."""
+    with_area = flux.dropna("side", subset=["area"])
+    missing = {
+        f"no {side} lobes": flux.attrs[f"missing_{side}"]
+        for side in flux["side"].values
+        if f"missing_{side}" in flux.attrs
+    }
+    for side in with_area["side"].values[with_area["region"].isnull().values]:
+        missing[f"no {side} region"] = "a jump of the map cuts its edge"
+    return {"lobes": listing(with_area, "{} {:.10g}", "side", "area")} | missing
+
+
+def last_curve(block: dict[str, Any], last_curve: xr.Dataset) -> dict[str, str]:
+    """Give the residue of each number's last convergent, and its period."""
+    last = last_curve.isel(convergent=-1)
+    return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}
+
+
+def control(block: dict[str, Any], control: xr.Dataset) -> dict[str, str]:
+    """Give the regular share of each map at the strength that is drawn."""
+    share = control["class_share"].sel({"class": "regular"}).isel(length=-1)
+    rows = share.sel(strength=block["shown"], method="nearest").values.tolist()
+    texts = [
+        f"{name} {value:.3f}"
+        for name, value in zip(control["map"].values.tolist(), rows, strict=True)
+    ]
+    none = float(share.isel(map=0, strength=0))
+    return {"regular share": f"{', '.join(texts)}; impact map {none:.3f}"}

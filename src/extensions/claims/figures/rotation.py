@@ -1,0 +1,143 @@
+"""Rotation number and exponent against the start on y = 0."""
+
+import numpy as np
+
+from extensions.claims.analyses.rotation import island, plateaus
+from pseudorigid.dynamics.regularity import regular
+from pseudorigid.figures.axes.limits import around, inside, linear, ticks
+from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, vacant
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import Sheet
+
+_LEFT, _RIGHT = 135, 1005  # pixels
+_STARTS = "Start on $y=0$, section radii from the centre"
+_FAR = 4.0  # a curve longer than this times the median does not set the lowest axis
+
+
+@style.pinned()
+def draw(scene, rotation):
+    """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
+    sheet = Sheet(style.COLUMN, 2100)
+    good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
+    detail = _regular_detail(rotation)
+    entries = [
+        (good.any() or detail[0].size) and ("regular", style.BLUE, "o"),
+        not good.all() and ("chaotic", style.SEA, "o"),
+        ("fixed point", style.VERMILION, "o"),
+        plateaus(*detail) and ("islands", style.VERMILION, "", False, 1.6),
+    ]
+    key(sheet, [*filter(None, entries)], sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
+    spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
+    frames = [(_LEFT, low, _RIGHT, high) for low, high in spans]
+    letters(sheet, *frames)
+    _first_energy(sheet, frames[:2], scene, rotation)
+    _detail(sheet, frames[2], rotation)
+    _energies(sheet, frames[3], rotation)
+    return sheet.figure
+
+
+def _first_energy(sheet, frames, scene, rotation):
+    """Draw rotation numbers up to the last regular start, and exponents, at the first energy."""
+    start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
+    good = regular(growth, rotation.attrs["impacts"])
+    at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
+    regular_turns = turns[good] if good.any() else turns
+    last = min(start[good].max() + 0.03, 1.0) if good.any() else 1.0
+    across = linear(at - 0.03, last, 10, _STARTS)
+    up = around(np.append(regular_turns, fixed), 0.1, 5, "Rotation number")
+    panel = Panel(sheet, frames[0], across, up)
+    shown = ~good & inside((across.limits, up.limits), (start, turns))
+    panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
+    panel.dots(start[good], turns[good], style.BLUE, size=1.6)
+    panel.dots([at], [fixed], style.VERMILION, size=3.4)
+    corner(sheet, frames[0], style.setting(scene))
+    top = max(np.ceil(10.0 * growth.max()), 1.0) / 10.0
+    up = linear(min(-top / 15.0, growth.min()), top, 5, "Exponent")
+    panel = Panel(sheet, frames[1], linear(at - 0.03, 1.0, 10, _STARTS), up)
+    panel.dots(start[~good], growth[~good], style.SEA, size=1.6)
+    panel.dots(start[good], growth[good], style.BLUE, size=1.6)
+
+
+def _regular_detail(rotation):
+    """Return the regular starts of the detail and their rotation numbers."""
+    names = ("place", "rotation", "exponent")
+    start, turns, growth = (rotation[f"detail_{name}"].values for name in names)
+    good = regular(growth, rotation.attrs["detail_impacts"])
+    return start[good], turns[good]
+
+
+def _detail(sheet, frame, rotation):
+    """Draw the rotation numbers of regular starts at higher resolution, with their plateaus."""
+    place = rotation["detail_place"].values
+    start, turns = _regular_detail(rotation)
+    across = linear(place[0], place[-1], 5, _STARTS)
+    shown = turns if turns.size else rotation["detail_rotation"].values
+    up = around(shown, 0.05, 4, "Rotation number, detail", above=0.2)
+    panel = Panel(sheet, frame, across, up)
+    if not turns.size:
+        vacant(sheet, frame, "all these starts are chaotic")
+    panel.dots(start, turns, style.BLUE, size=1.6)
+    for p, q, first, last in plateaus(start, turns):
+        panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
+        side = {"ha": "left", "va": "top", "shift": (4, -2)}
+        if first > place[0] + 0.8 * (place[-1] - place[0]):
+            side = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
+        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **side)
+
+
+def _energies(sheet, frame, rotation):
+    """Draw the departure from the fixed point's rotation number against the start, by energy."""
+    curves = []
+    for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
+        growth = rotation["exponent"].values[row, : island(rotation, row)]
+        keep = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
+        start = rotation["place"].values[row, keep] - float(rotation["fixed_place"].values[row])
+        change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
+        curves.append((float(rotation["energy"].values[row]), start, change))
+    up = _departure_axis([change for _, _, change in curves])
+    within = [inside([up.limits], [change]) for _, _, change in curves]
+    far = max(
+        float(start[shown].max(initial=0.0))
+        for (_, start, _), shown in zip(curves, within, strict=True)
+    )
+    far = 0.1 * (int(far / 0.1) + 1) + 0.05
+    across = linear(0.0, far, 6, "Start, section radii from the fixed point")
+    panel = Panel(sheet, frame, across, up)
+    entries, drawn = [], []
+    for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
+        turn, place = divmod(number, len(style.MANY_HUES))
+        hue, dashed = style.MANY_HUES[place], (place + turn) % 2 == 1
+        last = np.logical_and.accumulate(shown).sum()
+        panel.line(start[:last], change[:last], color=hue, lw=1.0, ls="--" if dashed else "-")
+        if 0 < last < start.size:
+            marker = "v" if change[last] < up.limits[0] else "^"
+            panel.dots(start[last - 1], change[last - 1], hue, marker=marker)
+        drawn.append(np.array(panel.place(start[:last], change[:last])))
+        if last > 1:
+            entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
+    if not np.concatenate(within).all():
+        corner(sheet, frame, "triangles: beyond the axis")
+    high = 39 * -(-len(entries) // 2)
+    x, y = np.hstack(drawn)
+    left, right, low, top = _LEFT + 20, _RIGHT - 350, frame[1] + high - 21, frame[3] - 60
+    corners = [(left, low), (right, low), (right, top), (left, top)]
+    left, top = min(corners, key=lambda at: _taken(x - at[0], at[1] - y, high))
+    key(sheet, entries, top, 2, left, 370, 6.5)
+
+
+def _taken(x, down, high):
+    """Return the number of points, from the first line of a key, that lie behind the key."""
+    return np.sum((x > -20) & (x < 330) & (down > -15) & (down < high))
+
+
+def _departure_axis(curves):
+    """Return an axis for all curves but those far longer than the median."""
+    sizes = [float(np.abs(curve).max()) for curve in curves if curve.size] or [0.0]
+    most = max(sizes) if max(sizes) <= _FAR * np.median(sizes) else float(np.median(sizes))
+    step = ticks(0.0, max(most, 1e-9), 2.5)[1]
+    values = np.concatenate([[0.0], *curves])
+    ends = (min(float(end), most) for end in (-values.min(), values.max()))
+    low, high = (int(np.ceil(end / step - 0.5)) for end in ends)  # whole steps, with half a step
+    tick_values = [float(f"{i * step:.10g}") for i in range(-low, high + 1)]
+    limits = -(low + 0.5) * step, (high + 0.5) * step
+    return Axis(limits, tick_values, "Rotation number minus the fixed point's")

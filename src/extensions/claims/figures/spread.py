@@ -1,0 +1,111 @@
+"""Lyapunov exponents of many orbits: how they spread with length, and where the paper's lies."""
+
+import numpy as np
+
+from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
+from pseudorigid.dynamics.regularity import regular_bound
+from pseudorigid.dynamics.variables import final_exponents
+from pseudorigid.figures.axes.limits import decades, of_data
+from pseudorigid.figures.axes.panel import Axis, Panel, corner, letters, log10
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
+
+from ..analyses.spread import stretches
+
+_LEFT, _RIGHT = 135, 1005  # pixels
+_BAR = 0.001  # width of a bar of the histogram in the paper's case
+_LONGEST = 3.0  # quartile distances below the quartiles that the axis shows
+_LN10 = 2.302585092994046
+
+
+@style.pinned()
+def draw(scene, spread, lyapunov):
+    """Draw exponents against length, the distribution of short runs, and regular orbits."""
+    sheet = Sheet(style.COLUMN, 1575)
+    sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
+    paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
+    frames = [(_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))]
+    letters(sheet, *frames)
+    _lengths(sheet, frames[0], spread, paper)
+    _short_runs(sheet, frames[1], spread, lyapunov, paper)
+    _regular(sheet, frames[2], spread)
+    return sheet.figure
+
+
+def _lengths(sheet, frame, spread, paper):
+    """Draw range, quartiles and mean against the length; a triangle if the range is cut off."""
+    first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
+    lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
+    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
+    across = decades((low - 0.1, high + 0.1), "Length in impacts")
+    shortest = np.sort(stretches(spread, first))
+    low, high = shortest[shortest.size // 4], shortest[3 * (shortest.size - 1) // 4]
+    axis = of_data(np.clip(shortest, low - _LONGEST * (high - low), None))
+    panel = Panel(sheet, frame, across, Axis(**axis, name="Largest exponent in the sea"))
+    if paper:
+        panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
+        panel.note(lengths[-1], EXPONENT, f"the paper: {EXPONENT}", ha="right", shift=(0, 5))
+    for length in lengths:
+        values = np.sort(stretches(spread, length))
+        last = values.size - 1
+        panel.line([length] * 2, values[[0, last]], color=style.VERMILION, lw=0.7)
+        if values[0] < axis["limits"][0]:
+            panel.dots([length], values[:1], style.VERMILION, marker="v")
+        panel.line([length] * 2, values[[last // 4, 3 * last // 4]], color=style.VERMILION, lw=2.4)
+        panel.dots([length], [values.mean()], style.BLACK, size=2.0)
+    corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
+
+
+def _short_runs(sheet, frame, spread, lyapunov, paper):
+    """Draw the histogram of short runs, with their mean and the marked orbits."""
+    marked = final_exponents(lyapunov)[:, 0]
+    block, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
+    # Runs are as long as those of the marked orbits, as far as blocks allow.
+    short = block * min(max(int(lyapunov["impact"].values[-1]) // block, 1), blocks)
+    runs = stretches(spread, short)
+    paper = paper and short == 200_000
+    axis = of_data(runs, marked)
+    low, high = axis["limits"]
+    bar = _BAR if paper else (high - low) / 50
+    edges = low + bar * np.arange(round((high - low) / bar) + 1)
+    share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
+    room = 1.0 if paper else 1.2  # for the mean's name
+    highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
+    across = Axis(**axis, name=f"Exponent of {short:,} impacts")
+    step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
+    ticks = tuple(step * i for i in range(int(highest / step + 1e-9) + 1))
+    panel = Panel(sheet, frame, across, Axis((0.0, highest), ticks, "Share of runs"), grid=False)
+    for height, left in zip(share[share > 0.0], edges[:-1][share > 0.0], strict=True):
+        outline = [left, left, left + bar, left + bar]
+        panel.line(outline, [0.0, height, height, 0.0], color=style.FRAME, lw=0.5)
+    mean = float(runs.mean())
+    panel.line([mean] * 2, [0.0, highest], color=style.BLACK, lw=0.9)
+    panel.note(mean, highest, "mean", ha="right", va="top", shift=(-3, -4))
+    if paper:
+        panel.line([EXPONENT] * 2, [0.0, highest], color=style.BLUE, lw=0.9, ls="--")
+        panel.note(EXPONENT, highest, "the paper", va="top", shift=(3, -4))
+    panel.dots(marked, [0.35 * share.max()] * marked.size, style.VERMILION, size=3.4)
+    orbits = "Figure 7's" if paper else "orbits from starts"
+    corner(sheet, frame, f"{runs.size:,} runs; dots: {orbits}")
+
+
+def _regular(sheet, frame, spread):
+    """Draw the exponents of the orbits that should be regular against their length."""
+    keep = spread["length"].values >= 16
+    n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
+    across = decades((1, len(str(int(n[-1])))), "Length in impacts")
+    largest = values.max(axis=-1)
+    chaotic = largest[-1] > regular_bound(int(n[-1]))
+    lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
+    lowest = min(-5, int(np.floor(lowest)))
+    highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))
+    name = "Largest exponent" if chaotic.any() else "Largest exponent in the islands"
+    up = decades((lowest, highest), name)
+    panel = Panel(sheet, frame, across, up)
+    for island in range(spread.sizes["island"]):
+        positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
+        hue = style.SEA if chaotic[island] else style.HUES[island % len(style.HUES)]
+        panel.line(n, positive, color=hue, lw=0.8)
+    panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
+    grey = " grey: chaotic;" if chaotic.any() else ""
+    corner(sheet, frame, f"one colour an orbit;{grey} dashes: $\\ln\\,n/n$")

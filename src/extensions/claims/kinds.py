@@ -1,0 +1,255 @@
+"""Kinds of picture behind the verdicts on the paper's statements."""
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from annotated_types import Predicate
+
+from pipeline.config.schema.fields import (
+    ABSENT,
+    LARGEST,
+    Between,
+    Energies,
+    Fraction,
+    YamlMapping,
+    allowed,
+    rising,
+    whole,
+)
+from pipeline.config.schema.scene import (
+    CrossFieldError,
+    OfChaoticOrbits,
+    OfRecords,
+    OfSea,
+    Scene,
+    bounded,
+    is_sound,
+    not_elliptic,
+)
+
+
+class Spread(OfRecords):
+    """Lyapunov exponents of many orbits at many lengths"""
+
+    stages = ("spread", "lyapunov")
+    headline = "long-run exponent"
+
+    orbits: int = whole(2, 1000)
+    """Number of long orbits. They start uniformly over the whole section, in islands as well as in
+    the chaotic sea; their exponents decide which of them are chaotic. A run says if none is."""
+    length: int = whole(100, 100_000_000)
+    """Number of impacts of each long orbit, a multiple of `blocks`. The error of the long-run
+    exponent falls as its square root grows."""
+    blocks: int = whole(2, 10_000)
+    """Number of equal blocks into which a long orbit is divided. Exponents are averaged over each
+    block, so that one block is the shortest run whose distribution can be drawn."""
+    regular: list[Fraction] = allowed("a list of fractions", min_length=1)
+    """Starts of regular orbits, as fractions of the section's radius along y = 0. Their exponents
+    tend to zero and are drawn beside ln n/n. An orbit that is chaotic is drawn in grey."""
+    regular_impacts: int = whole(16, 10_000_000)
+    """Number of impacts of each regular orbit."""
+    cells: int = whole(2, 1000)
+    """The rectangle around the section is divided into this many cells to a side, to count which of
+    them chaotic orbits enter."""
+    visits: int = whole(2, 100_000_000)
+    """Number of impacts of each chaotic orbit whose cells are counted."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the length is a multiple of the blocks."""
+        yield from super().cross_field_errors(block)
+        if block["length"] % block["blocks"]:
+            yield ("blocks",), block["blocks"], f"a divisor of length = {block['length']}"
+
+
+class Clusters(OfSea):
+    """clusters of impacts and their memory"""
+
+    stages = ("clusters",)
+    headline = "time between clusters"
+
+    cuts: list[Annotated[float, allowed("a time above 0", gt=0)]] = allowed(
+        "a list of 1 to 7 times", min_length=1, max_length=7
+    )
+    """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
+    is repeated for each cut, to show what depends on the choice. A run refuses a cut that leaves an
+    orbit fewer than lags + 2 clusters, and names the largest that does not."""
+    lags: int = whole(1, 100)
+    """A cluster is compared with this many later ones: the next, the next but one, and so on."""
+    resamples: int = whole(10, 100_000)
+    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
+    seed: int = whole(0, 2**31)
+    """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
+    shifts their ends a little, and nothing else. Any number will do."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that samples fit into memory, and that cuts are below the longest flight."""
+        yield from super().cross_field_errors(block)
+        yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        if block["lags"] > block["impacts"] - 2:
+            yield ("lags",), block["lags"], f"at most impacts - 2 = {block['impacts'] - 2}"
+        if not is_sound(block):
+            return
+        (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
+        longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
+        for i, cut in enumerate(block["cuts"]):
+            if not cut < longest:
+                words = f"a time below {longest:.4g}, which no flight at this energy exceeds"
+                yield ("cuts", i), cut, words
+
+
+class Rotation(Scene):
+    """rotation number and exponent against the start"""
+
+    stages = ("rotation",)
+    headline = "at the fixed point"
+
+    energies: Energies
+    """Energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of `energy`."""
+    starts: int = whole(2, 100_000)
+    """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
+    rim of the section. More starts resolve narrower plateaus."""
+    impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit. Longer orbits give the rotation number more digits."""
+    detail: Between
+    """Part of the symmetry line y = 0 that is drawn at higher resolution, in section radii from the
+    section's centre: `starts` further orbits start evenly in it, at `energy`."""
+    detail_impacts: int = whole(100, 10_000_000)
+    """Number of impacts of each orbit of the detail."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the fixed point, around which orbits rotate, is elliptic at each energy."""
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        yield from not_elliptic(block, "energies")
+
+
+class Jumps(OfChaoticOrbits):
+    """the curves where the map and its inverse jump"""
+
+    stages = ("jumps", "orbits")
+    headline = "jump curve"
+
+    energies: Energies
+    """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
+    sides: int = whole(4, 100_000, 4)
+    """Number of straight sides of which each curve is drawn. Its length is measured with this
+    number, half of it and a quarter of it, which gives the error of the length."""
+
+
+class Flux(OfSea):
+    """crossings and lobes of both branches"""
+
+    stages = ("flux",)
+    headline = "lobes"
+
+    period: int = whole(2, 12, 2)
+    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even. A run
+    says if there is no such orbit, or if its branches enclose nothing."""
+    distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
+    """Largest distance between neighbouring points of the traced branches, in section radii. It
+    decides how well areas of polygons agree with the exact areas of the lobes."""
+    grid: int = whole(10, 3000)
+    """The flux is counted along the orbits, and over a grid of this many points to a side, in the
+    rectangle around the section. The work grows with its square."""
+
+
+class LastCurve(Scene):
+    """residues of the convergents of noble rotation numbers"""
+
+    stages = ("last_curve",)
+    headline = "last residues"
+
+    nobles: list[
+        Annotated[
+            list[Annotated[int, whole(0, 1000)]], allowed("a continued fraction", min_length=1)
+        ]
+    ] = allowed("a list of 1 to 8 continued fractions", default=ABSENT, min_length=1, max_length=8)
+    """Noble rotation numbers, in turns per impact, each as the first quotients of its continued
+    fraction: [0, 5, 1, 15] is 1/(5 + 1/(1 + 1/(15 + ...))), with ones from there on. Without this
+    field one number on either side of the last curve within `between` is chosen."""
+    convergents: int = whole(2, 20)
+    """Number of convergents of each rotation number whose periodic orbits are found. Each further
+    convergent has a period about 1.6 times as long."""
+    between: Between
+    """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
+    section's centre. The end nearer to the fixed point comes first. A run says if an orbit is not
+    found there."""
+    impacts: int = whole(100, LARGEST)
+    """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
+    whether a curve confines the orbit."""
+    drawn: int = whole(100, LARGEST)
+    """Number of these impacts that are drawn."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the orbits can be computed and drawn."""
+        yield from super().cross_field_errors(block)
+        yield from not_elliptic(block, "energy")
+        start, end = block["between"]
+        if start == end:
+            yield ("between",), block["between"], "two fractions that differ"
+        nobles = block.get("nobles", [[1], [1]])
+        for i, noble in enumerate(nobles):
+            before, period = 0, 1
+            for quotient in noble[1:] + [1] * (block["convergents"] - 1):
+                before, period = period, before + quotient * period
+            if not 0 < period <= LARGEST:
+                words = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
+                yield ("nobles", i), noble, words
+        if block["drawn"] * len(nobles) > LARGEST:
+            words = f"at most {LARGEST} points drawn, counted over all nobles"
+            yield ("drawn",), block["drawn"], words
+
+
+class Control(Scene):
+    """what regular motion needs: area kept, or the reversor"""
+
+    stages = ("control",)
+    on_section = False
+    headline = "regular share"
+
+    strengths: Annotated[
+        list[Annotated[float, allowed("a number from 1e-6 to 0.5", ge=1e-6, le=0.5)]],
+        allowed("a rising list of 1 to 12 strengths", min_length=1, max_length=12),
+        Predicate(rising),
+    ]
+    """Strengths eps of the changes of the map: about the largest displacement of a point, in
+    section radii. Each costs ten runs of all orbits."""
+    orbits: int = whole(10, 100_000)
+    """Number of orbits of each map. They start evenly over the whole section. More orbits narrow
+    the intervals of the shares."""
+    impacts: int = whole(64, 10_000_000)
+    """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
+    is told from a curve after about 4.4/eps impacts. Shares are kept after an eighth, a quarter and
+    half of these impacts too."""
+    period: int = whole(2, 12)
+    """Period of the elliptic orbit whose islands are followed beside the fixed point."""
+    starts: list[Fraction] = allowed("a list of 1 to 50 fractions", min_length=1, max_length=50)
+    """Starts of the orbits that are drawn, as fractions of the section's radius along y = 0."""
+    shown: float = allowed("one of strengths", gt=0)
+    """Strength at which these orbits are drawn."""
+    drawn: int = whole(1, LARGEST)
+    """Number of impacts of each orbit that are drawn."""
+    resamples: int = whole(10, 100_000)
+    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
+    seed: int = whole(0, 2**31)
+    """Random seed of the bootstrap. It decides the ends of the confidence intervals of means, and
+    nothing else."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the strength shown is computed, and that all impacts fit into memory."""
+        yield from super().cross_field_errors(block)
+        if block["shown"] not in block["strengths"]:
+            words = f"one of strengths: {', '.join(map(str, block['strengths']))}"
+            yield ("shown",), block["shown"], words
+        if block["drawn"] > block["impacts"]:
+            yield ("drawn",), block["drawn"], f"at most impacts = {block['impacts']}"
+        yield from bounded(block, "orbits", "resamples", "orbits drawn")
+        points = block["impacts"] * len(block["starts"])
+        if points > LARGEST:
+            words = f"at most {LARGEST} impacts, counted over all starts"
+            yield ("impacts",), block["impacts"], words

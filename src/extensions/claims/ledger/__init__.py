@@ -1,0 +1,91 @@
+"""Every checkable statement of the paper (claims.toml), with a check that gives a verdict on it.
+
+CLAIMS.json has the verdicts as data, and CLAIMS.md is rendered from it.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from inspect import getmembers, isfunction
+from pathlib import Path
+
+import xarray as xr
+from pydantic import TypeAdapter
+
+from . import chaos, model, periodic, schema
+from .schema import UNCHECKED, Verdict
+
+FILE, DATA = "CLAIMS.md", "CLAIMS.json"  # the second is rendered as the first
+# MODULE.FUNCTION -> each public function of the modules with checks.
+CHECKS = {
+    f"{module.__name__.rpartition('.')[2]}.{name}": function
+    for module in (model, periodic, chaos)
+    for name, function in getmembers(module, isfunction)
+    if function.__module__ == module.__name__ and not name.startswith("_")
+}
+TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
+DOCUMENT = schema.load(TEXT, CHECKS)
+CLAIMS, VERDICTS = DOCUMENT.claims, DOCUMENT.verdicts
+_ROWS = TypeAdapter(list[Verdict])
+
+
+def required_datasets() -> list[str]:
+    """Return the names of all datasets that the checks need, sorted."""
+    return sorted({name for claim in CLAIMS.values() for name in claim.data})
+
+
+def required_theorems() -> list[str]:
+    """Return the names of all theorems that the checks ask for, sorted."""
+    return sorted({name for claim in CLAIMS.values() for name in claim.theorems})
+
+
+def judge_claims(datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> list[Verdict]:
+    """Return the verdicts on all claims, by number.
+
+    `datasets` are all of `required_datasets()`; a theorem that `proofs` does not name counts as not
+    proved.
+    """
+    return [claim.judge(datasets, proofs) for claim in CLAIMS.values()]
+
+
+def to_json(verdicts: Iterable[Verdict]) -> str:
+    """Return the text of CLAIMS.json: a list of objects with the fields of Verdict."""
+    return json.dumps([asdict(each) for each in verdicts], indent=1, ensure_ascii=False) + "\n"
+
+
+def read_json(text: str) -> list[Verdict]:
+    """Return the verdicts of a CLAIMS.json; raises ValueError if it is not one."""
+    return _ROWS.validate_json(text, strict=True)
+
+
+def checkable(verdicts: Iterable[Verdict]) -> int:
+    """Return the number of statements that can be checked."""
+    return sum(row.verdict != UNCHECKED for row in verdicts)
+
+
+def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
+    """Return verdict word -> its rows by number, in the order of CLAIMS.md: corrections first."""
+    rows = sorted(verdicts, key=lambda row: row.number)
+    return {word: [row for row in rows if row.verdict == word] for word in VERDICTS}
+
+
+def render(verdicts: list[Verdict]) -> str:
+    """Return the text of CLAIMS.md."""
+    tables = by_verdict(verdicts)
+    count = checkable(verdicts)
+    rest = f"{count} checkable statements, and on {len(verdicts) - count} more"
+    lines = [DOCUMENT.head, f"The verdicts on {rest}, and what each needs:", ""]
+    lines += ["| verdict | rows | what it needs |", 3 * "|---" + "|"]
+    lines += [f"| {word} | {len(tables[word])} | {needs} |" for word, needs in VERDICTS.items()]
+    lines.append("")
+    for word, rows in tables.items():
+        if rows:
+            lines += [f"## {word.capitalize()}", ""]
+            lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
+            lines += [*map(_row, rows), ""]
+    return "\n".join(lines)
+
+
+def _row(row: Verdict) -> str:
+    cells = (str(row.number), row.place, row.statement, row.value, row.error, row.evidence)
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

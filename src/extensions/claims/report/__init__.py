@@ -1,0 +1,55 @@
+"""What the verdicts add to the report: a bar, the corrections, and a table with a filter."""
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup
+
+from pipeline.checks.report.links import Links
+from pipeline.checks.report.part import Part
+from pipeline.config import PAPER, Config
+from pipeline.records.files import read_text
+
+from .. import ledger
+from ..ledger.schema import CORRECTED, FALSE, Verdict
+
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent),
+    autoescape=True,
+    undefined=jinja2.StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+# What filters the table of statements; without it, the whole table is shown.
+_SCRIPT = Path(__file__).with_name("filter.js").read_text(encoding="utf-8")
+
+
+def part(config: Config, root: Path, links: Links) -> Part:
+    """Return the part that CLAIMS.json of the tree fills; without it, a sentence."""
+    verdicts = _verdicts(root)
+    values = {
+        "linked": links.of,
+        "claims": verdicts,
+        "counts": list(Counter(row.verdict for row in verdicts).items()),
+        "corrected": (FALSE, CORRECTED),
+    }
+    html: Any = _TEMPLATES.get_template("parts.html").make_module(values)
+
+    def note(variant: str, scene: str, block: dict[str, Any], published: str) -> Markup:
+        shown = published and variant != PAPER  # all statements concern the paper's figures
+        return Markup(html.statements(published).strip()) if shown else Markup()
+
+    menu = {"Corrections": "#corrections", "All statements": "#claims"}
+    script = _SCRIPT if verdicts else ""
+    return Part(menu, html.summary, html.findings, html.tables, script, note)
+
+
+def _verdicts(root: Path) -> list[Verdict]:
+    """Return the rows of CLAIMS.json in the order of CLAIMS.md, or none."""
+    try:
+        verdicts = ledger.read_json(read_text(root / ledger.DATA))
+    except (OSError, ValueError):
+        return []
+    return [row for rows in ledger.by_verdict(verdicts).values() for row in rows]

@@ -1,0 +1,108 @@
+"""Data of the page: scenes of config.yaml, hashes of published orbits, the atlas."""
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote_plus
+
+import yaml
+
+from pipeline.config.paths import PAPER, PUBLISHED, Config
+from pipeline.config.schema.fields import YamlMapping
+from pipeline.config.schema.kinds import KINDS
+from pipeline.records.files import read_text
+from pipeline.records.sources import ROOT
+
+from . import atlas
+
+BLOCK = 1024  # values in a block of MANIFEST.json
+STATE = ("x", "xdot", "udot", "tau")
+_PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
+
+
+def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
+    """Return the data, which JSON can hold; the same tree gives the same data."""
+    project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
+    return {
+        "version": f"{project['name']} {project['version']}",
+        "citation": citation(),
+        "scenes": {
+            name: {field: value for field, value in block.items() if field != "formats"}
+            for variant, scenes in checked.variants.items()
+            for scene, block in scenes.items()
+            if (name := address(variant, scene, block))
+        },
+        "presets": json.loads(read_text(_PRESETS)),
+        "check": published_orbits(root),
+        "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
+    }
+
+
+def citation() -> dict[str, Any]:
+    """Return how to cite the software and the paper, and links, from CITATION.cff.
+
+    A paper without a DOI there is linked by a search for its title. Without an address of the
+    repository, links lead from the page's folder to files of the tree.
+    """
+    facts = yaml.safe_load(read_text(ROOT / "CITATION.cff"))
+    (paper,) = (each for each in facts["references"] if each["type"] == "article")
+    search = f"https://search.crossref.org/search/works?q={quote_plus(paper['title'])}"
+    people = [f"{one['given-names']} {one['family-names']}" for one in paper["authors"]]
+    names = ", ".join(one["name"] for one in facts["authors"] if "name" in one)
+    return {
+        "software": f"{names}: {facts['title']}, version {facts['version']}.",
+        "paper": f"{' and '.join(people)}: {paper['title']}. {paper['journal']}.",
+        "links": {
+            "paper": f"https://doi.org/{paper['doi']}" if "doi" in paper else search,
+            "source": facts.get("repository-code", "../README.md"),
+            "citation": "../CITATION.cff",
+        },
+    }
+
+
+def address(variant: str, scene: str, block: YamlMapping) -> str | None:
+    """Return what opens a scene of a variant in the page after `#`, None if nothing does.
+
+    Scenes with another method than the page's have other orbits.
+    """
+    if not KINDS[block["picture"]].on_section or "method" in block:
+        return None
+    return scene if variant in PUBLISHED else f"{variant}/{scene}"
+
+
+def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
+    """Return the committed figures' starts, and the hashes of their orbits' variables.
+
+    Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles,
+    and the beginnings of the hashes of its blocks.
+    """
+    name = f"{PUBLISHED[PAPER]}/MANIFEST.json"
+    if not (root / name).is_file():  # before the first ./reproduce accept
+        return []
+    try:
+        manifest = json.loads(read_text(root / name))
+        return [
+            _orbits(figure, scene["config"], manifest["data"][scene["data"]["orbits"]]["variables"])
+            for figure, scene in manifest["scenes"].items()
+            if scene["config"]["picture"] == "portrait"
+            and all(isinstance(start, float) for start in scene["config"]["starts"])
+        ]
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
+        raise ValueError(f"{name}: broken: {error!r}: run ./reproduce accept") from None
+
+
+def _orbits(figure: str, block: YamlMapping, variables: dict[str, Any]) -> dict[str, Any]:
+    """Return a figure's starts and the hashes of its orbits."""
+    counts, starts = block["impacts"], block["starts"]
+    return {
+        "figure": figure,
+        **block["ball"],
+        "energy": block["energy"],
+        "starts": starts,
+        "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
+        "block": BLOCK,
+        "variables": {
+            name: {part: variables[name][part] for part in ("sha256", "blocks")} for name in STATE
+        },
+    }

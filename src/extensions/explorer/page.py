@@ -1,0 +1,100 @@
+"""The explorer as one HTML file, which needs no network and no server.
+
+Its bytes depend on the tree alone: config.yaml, the kernel, the committed manifest and `web/`. The
+content security policy allows the page's own scripts, by their hashes, and nothing from elsewhere.
+src/extensions/explorer/explorer.html is a copy. Renew it after a change:
+
+    .venv/bin/python -m extensions.explorer.page
+"""
+
+import base64
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from pipeline import config
+from pipeline.records.files import write_whole
+from pipeline.records.sources import ROOT
+
+from . import data
+from .compiled import build
+
+COPY = "src/extensions/explorer/explorer.html"
+WEB = Path(__file__).with_name("web")
+# Scripts of both, those of the worker, and of the page, in their order.
+BOTH = ("kernel_api.js", "geometry.js")
+WORKER = ("analysis.js", "worker.js")
+APP = (
+    *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js"),
+    *("presets.js", "svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
+)
+
+
+def render(checked: config.Config, root: Path = ROOT) -> str:
+    """Return the page."""
+    kernel_script = kernel_scripts()
+    worker_script, app_script = (_minified("application/javascript", p) for p in (WORKER, APP))
+    style = _minified("text/css", ("style.css",))
+    policy = "; ".join(
+        [
+            "default-src 'none'",
+            f"script-src 'wasm-unsafe-eval' {_source(kernel_script)} {_source(app_script)}",
+            f"style-src {_source(style)}",
+            "worker-src blob:",
+            "img-src data: blob:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        ]
+    )
+    stored = _json(data.collect(checked, root))
+    parts = {
+        "POLICY": f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        "STYLE": f"<style>{style}</style>",
+        "DATA": f'<script type="application/json" id="data">{stored}</script>',
+        "SCRIPT": f'<script id="kernel">{kernel_script}</script>\n'
+        f'<script type="text/plain" id="worker">{worker_script}</script>\n'
+        f"<script>{app_script}</script>",
+    }
+    page = _minified("text/html", ("index.html",))
+    for name, text in parts.items():
+        before, mark, after = page.partition(f"<!--{name}-->")
+        if not mark:
+            raise ValueError(f"web/index.html has no mark <!--{name}-->")
+        page = f"{before}\n{text}\n{after}"
+    return page
+
+
+def kernel_scripts() -> str:
+    """Return the script that computes, in the page and in its worker."""
+    module = base64.b64encode(build.current_module()).decode()
+    return "\n".join([f'const KERNEL = "{module}";', *map(script, BOTH)])
+
+
+def script(name: str) -> str:
+    """Return the text of a file of the page."""
+    return (WEB / name).read_text(encoding="utf-8")
+
+
+def _minified(kind: str, names: tuple[str, ...]) -> str:
+    """Return files of `web/` as one of a media type, without what nobody reads in the page."""
+    import minify  # starts threads, which no process that forks should have
+
+    minify.config({"html-keep-comments": True})  # marks, where parts are put in
+    text: str = minify.string(kind, "".join(map(script, names)))
+    return text
+
+
+def _source(text: str) -> str:
+    """Return how a content security policy calls a script or a style."""
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
+
+
+def _json(value: Any) -> str:
+    """Return JSON that may stand in a script element."""
+    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+if __name__ == "__main__":
+    write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))

@@ -1,0 +1,228 @@
+"""Families of periodic orbits: curves, their events and their ends."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from pseudorigid.kernel.arithmetic import sincos
+
+from .asymmetric import NO_LINE, AsymmetricOrbits
+from .curve import Place, Point, System, cramer, locate, part_of_chord, trace_both_ways
+from .half_orbit import FIX_RP, H_P
+from .symmetric import COLLAPSED, Orbits
+
+# Largest |trace - 2| at a collapse. Where an impact grazes, rounds of an orbit come near each other
+# too.
+_RESTS = 0.1
+_STRONG = 4  # largest order of the resonances at which islands vanish
+# Residues below this are rounding: the signs of what vanishes with them are no events.
+_NOISE = 1e-8
+_SLOW = 1e-3  # contact speed, in units where g = 1, of an impact that all but grazes
+_ROUNDING = 1e-14  # of a value, over its gradient
+_NEWTON_STEPS = 30  # to a touch
+FAR = 1e-4  # a touch farther than this from the last point of a curve is another one
+
+
+class Event(NamedTuple):
+    """Something that happens to an orbit of a family at one point of its curve."""
+
+    kind: str  # fold, doubling, pitchfork, resonance
+    turns: int
+    order: int  # the children have the parent's period times this
+    point: Point
+    at: float  # place along the family, an index of its points
+
+
+@dataclass
+class End:
+    """How a family ends."""
+
+    kind: str  # range, resonance, doubling, pitchfork, touch, rim, closed, unresolved
+    p: float
+    q: float
+    family: int = -1  # the parent, or the family on the other side of the grazing
+    turns: int = 0
+    order: int = 0
+    impact: int = -1  # the flight that touches, or the impact that grazes, along the half orbit
+    point: Point | None = None
+
+
+@dataclass
+class Family:
+    """A curve of periodic orbits."""
+
+    system: Orbits | AsymmetricOrbits
+    points: list[Point]
+    ends: list[End]
+    events: list[Event] = field(default_factory=list)
+    number: int = -1
+
+    @property
+    def period(self) -> int:
+        """Number of impacts."""
+        return self.system.period
+
+    @property
+    def line(self) -> int:
+        """Symmetry line on which the positions lie."""
+        return self.system.line
+
+
+def follow(system: Orbits | AsymmetricOrbits, start: Point, longest: int) -> Family:
+    """Follow the family of a solution to both its ends, and find its events.
+
+    Resonances are those whose children have periods up to `longest`, and those of orders 3 and 4,
+    at which islands vanish.
+    """
+
+    def collapsed(point: Point) -> bool:
+        near = system.separation(point) < COLLAPSED
+        return near and abs(system.trace(point) - 2.0) < _RESTS
+
+    points, reasons = trace_both_ways(system, start, collapsed)
+    ends = [
+        _grazing(system, last) if reason == "blocked" else End(reason, last.p, last.q, point=last)
+        for reason, last in zip(reasons, (points[0], points[-1]), strict=True)
+    ]
+    family = Family(system, points, ends)
+    _find_events(family, longest)
+    return family
+
+
+def _grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
+    """Return the grazing end that is next to the last point of a blocked curve.
+
+    It is a touch, where a flight meets the floor without an impact and is solved for, or at the
+    rim, where the speed of an impact vanishes.
+    """
+    speed, times = system.speed(last), system.times(last.data)
+    heights = system.heights(last.place, times, np.full(times.size, np.nan))
+    touching = not np.all(np.isnan(heights[:, 1]))
+    flight = int(np.nanargmax(heights[:, 1])) if touching else -1
+    if system.line == NO_LINE:
+        at_rim = speed < 2.0 * _SLOW
+    else:
+        at_rim = not touching or 0.5 * speed * speed < -float(heights[flight, 1])
+    if at_rim:
+        return End("rim", last.p, last.q, point=last)
+    end = _touch(system, last, times, flight, float(heights[flight, 0])) if touching else None
+    if end is not None:
+        return end
+    if system.line == NO_LINE:
+        return End("unresolved", last.p, last.q, point=last)
+    kind = "rim" if speed < _SLOW else "unresolved"
+    return End(kind, last.p, last.q, impact=flight, point=last)
+
+
+def _touch(
+    system: Orbits | AsymmetricOrbits, last: Point, times: np.ndarray, flight: int, at: float
+) -> End | None:
+    """Solve for the orbit of which a flight touches the floor, from a point next to it."""
+    near = np.full(times.size, np.nan)
+    near[flight] = at
+
+    def values(place: Place) -> Place:
+        data, defect = system.tracked(place, times)
+        heights = system.heights(place, system.times(data), near)
+        return *defect, float(heights[flight, 1])
+
+    place = last.place
+    if system.line == FIX_RP and flight == 0 and at == 0.0:  # the ball is at rest on the floor
+        q, p = math.copysign(1.0, last.q), last.p
+        for _ in range(_NEWTON_STEPS):
+            data, (defect,) = system.tracked((q, p), times)
+            step = -defect / float(data[H_P])
+            p += step
+            if abs(step) < 1e-15 * p:
+                break
+        best = q, p
+    else:
+        least, best = math.inf, place
+        for _ in range(_NEWTON_STEPS):
+            here = values(place)
+            error = sum(map(abs, here))
+            if error < least:
+                least, best = error, place
+            elif least < 1e-12:
+                break
+            columns = []
+            for i in range(len(place)):
+                step = 1e-7 * (place[-1] if i == len(place) - 1 else 1.0)
+                beside = values(tuple(z + step * (i == j) for j, z in enumerate(place)))
+                columns.append([(b - a) / step for a, b in zip(here, beside, strict=True)])
+            step = cramer(list(zip(*columns, strict=True)), here)
+            if step is None:
+                return None
+            place = tuple(z + dz for z, dz in zip(place, step, strict=True))
+            if not _is_next_to(place, last):
+                return None
+        # The largest gradients, times the rounding of the place, are the rounding of the values.
+        scales = [max(1.0, abs(z)) for z in best]
+        sizes = sum(z * abs(x) for z, row in zip(scales, columns, strict=True) for x in row)
+        if not least < max(1e-11, _ROUNDING * sizes):
+            return None
+    if not _is_next_to(best, last):
+        return None
+    point = last._replace(place=best, data=system.tracked(best, times)[0])
+    return End("touch", point.p, point.q, impact=flight, point=point)
+
+
+def _is_next_to(place: Place, last: Point) -> bool:
+    pairs = zip(place, last.place, strict=True)
+    return all(abs(a - b) < FAR * max(1.0, abs(b)) for a, b in pairs)
+
+
+def _find_events(family: Family, longest: int) -> None:
+    """Find folds, pitchforks, doublings and resonances of a family, and put them on its curve."""
+    system, points = family.system, family.points
+    marks = []
+    for kind, monitor in system.monitors:
+        sure = [
+            i
+            for i, point in enumerate(points)
+            if kind == "doubling" or system.residue(point) >= _NOISE
+        ]
+        for i, part, event in _zeros(system, points, sure, monitor):
+            marks.append((i, part, kind, event))
+    for before, (i, _, kind, event) in enumerate(sorted(marks, key=lambda mark: mark[:2])):
+        points.insert(i + before, event)
+        order = 2 if kind == "doubling" else 1
+        family.events.append(Event(kind, 1, order, event, float(i + before)))
+    for turns, order in fractions(max(_STRONG, longest // family.period)):
+        wanted = 2.0 * sincos(2.0 * math.pi * turns / order)[1]
+
+        def above(point: Point, wanted: float = wanted) -> float:
+            return system.trace(point) - wanted
+
+        for i, part, event in _zeros(system, points, range(len(points)), above):
+            family.events.append(Event("resonance", turns, order, event, i - 1 + part))
+    family.events.sort(key=lambda event: event.at)
+
+
+def _zeros(
+    system: System, points: list[Point], numbers: Sequence[int], value: Callable[[Point], float]
+) -> Iterator[tuple[int, float, Point]]:
+    """Yield the zeros of a function between points of a curve that are given by their numbers.
+
+    With each are the number of the point after it, and where it lies along the last step to there.
+    """
+    for i, j in pairwise(numbers):
+        before, after = value(points[i]), value(points[j])
+        if before * after < 0.0 or after == 0.0:
+            zero = locate(system, points[i], points[j], value)
+            if zero is not None:
+                yield j, part_of_chord(system, points[j - 1], points[j], zero), zero
+
+
+def fractions(order: int) -> list[tuple[int, int]]:
+    """Return (turns, order) of the resonances of orders from 3 to `order` below one half."""
+    return [
+        (turns, q)
+        for q in range(3, order + 1)
+        for turns in range(1, (q + 1) // 2)
+        if math.gcd(turns, q) == 1
+    ]

@@ -1,0 +1,240 @@
+"""Starts of families without symmetry: beside events of other ones, and beyond grazings."""
+
+import math
+
+import numpy as np
+
+from pseudorigid.kernel.arithmetic import quadrant, sincos
+from pseudorigid.kernel.flight import gap
+from pseudorigid.kernel.impact import impact_coefficients, rebound
+
+from .asymmetric import FLIGHTS, POINTS, ROOM, TOTAL, AsymmetricOrbits, evaluate_orbit, state_at
+from .curve import Place, Point, correct, cramer, dot, tangent
+from .families import FAR, Event
+from .symmetric import COLLAPSED, NO_GUESS, Orbits
+
+_ASIDE = 3e-3  # distance from an event, in section radii, at which its branch is entered
+_FARTHER = 1.0, 3.0, 9.0  # that distance at resonances, in this unit
+_ANGLES = 12  # per branch, at which branches of a resonance are sought
+_NEWTON_STEPS = 8  # at resonances
+_UNTURNED = 1e-10  # largest angle from its ray, in radians, of a point that stays on it
+# Contact speeds, over the largest one, at which an orbit is entered whose new impact is slow.
+_SPEEDS = 1e-2, 1e-3, 1e-4, 1e-5
+_DIFFERENCE = 1e-10  # for derivatives of the way to an orbit with a slow impact
+_STEPS_BEYOND = 20  # of Newton's method
+_ASTRAY = 0.05  # longest Newton step towards an orbit without a slow impact, in section radii
+
+Vector = tuple[float, float]
+
+
+def starts_beside(
+    system: AsymmetricOrbits, parent: Orbits | AsymmetricOrbits, event: Event
+) -> list[Point]:
+    """Return orbits of a system beside the event of another one at which they branch off."""
+    if event.kind == "pitchfork":
+        return _beside_pitchfork(system, parent, event)
+    return (_beside_doubling if event.kind == "doubling" else _beside_resonance)(system, event)
+
+
+def _beside_pitchfork(system: AsymmetricOrbits, parent: Orbits, event: Event) -> list[Point]:
+    """Return an orbit without symmetry beside a pitchfork of a symmetric one."""
+    point = system.point(parent.first_place(event.point))
+    if point is None:
+        return []
+    # Start at the orbit's point that is farthest from the rim, where derivatives are bounded.
+    point = system.point((*system.innermost(point), event.point.p))
+    if point is None:
+        return []
+    (a, b, _), (c, d, _) = point.gradients
+    return _aside(system, point.place, _kernel(a, b, c, d), _ASIDE, _ASIDE)
+
+
+def _beside_doubling(system: AsymmetricOrbits, event: Event) -> list[Point]:
+    """Return orbits of twice the period beside a period doubling."""
+    a, c, b, d = event.point.data[:4].tolist()  # of P^n
+    across = _kernel(a + 1.0, b, c, d + 1.0)
+    return _aside(system, event.point.place, across, _ASIDE, _ASIDE)
+
+
+def _kernel(a: float, b: float, c: float, d: float) -> Vector:
+    """Return a vector of which a singular matrix makes nothing."""
+    return (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
+
+
+def _aside(
+    system: AsymmetricOrbits, place: Place, across: Vector, distance: float, reach: float
+) -> list[Point]:
+    """Return the orbit beside a place in a direction, unless it is a more symmetric one."""
+    size = math.sqrt(dot(across, across))
+    if not 0.0 < size < math.inf:
+        return []
+    x, y, p = place
+    along = (across[0] / size, across[1] / size, 0.0)
+    beside = (x + distance * along[0], y + distance * along[1], p)
+    start = correct(system, beside, along, reach)
+    return [start] if start is not None and system.separation(start) > COLLAPSED else []
+
+
+def _beside_resonance(system: AsymmetricOrbits, event: Event) -> list[Point]:
+    """Return orbits of q times the period beside a resonance p/q.
+
+    At each point of a small ellipse around the parent, which the linearized map keeps, the
+    parameter is chosen so that P^n brings the point back to its ray. Between two points that P^n
+    moves in opposite directions along their rays is an orbit.
+    """
+    a, c = event.point.data[:2].tolist()  # of the parent's map
+    sine, cosine = sincos(2.0 * math.pi * event.turns / event.order)
+    conjugate = (a - cosine) / sine, c / sine
+    size = _ASIDE / math.sqrt(1.0 + dot(conjugate, conjugate))
+    found = []
+    for radius in (size * factor for factor in _FARTHER):
+        before = None
+        for i in range(2 * _ANGLES + 1):
+            sine, cosine = sincos(math.pi * i / (_ANGLES * event.order))
+            # to the ellipse, and along it to the next quarter
+            outward = radius * (cosine + sine * conjugate[0]), radius * sine * conjugate[1]
+            around = radius * (cosine * conjugate[0] - sine), radius * cosine * conjugate[1]
+            moved = _moved_outward(system, event.point, outward, around)
+            if moved is not None and before is not None and moved[0] * before < 0.0:
+                found += _aside(system, moved[1], outward, 0.0, math.sqrt(dot(outward, outward)))
+            before = None if moved is None else moved[0]
+    return found
+
+
+def _moved_outward(
+    system: AsymmetricOrbits, parent: Point, outward: Vector, around: Vector
+) -> tuple[float, Place] | None:
+    """Return how far P^n moves a point along its ray, and the place where it stays on the ray."""
+    ((a, b, x_p), (c, d, y_p)), (x, y, p) = parent.gradients, parent.place
+    drift = cramer([(a, b), (c, d)], (x_p, y_p))
+    wedge = outward[0] * around[1] - outward[1] * around[0]
+    if drift is None or wedge == 0.0:
+        return None
+    for _ in range(_NEWTON_STEPS):
+        at_x = x + (p - parent.p) * drift[0] + outward[0]
+        at_y = y + (p - parent.p) * drift[1] + outward[1]
+        if not at_x * at_x + at_y * at_y < 1.0:
+            return None
+        data, (dx, dy) = system.tracked((at_x, at_y, p), NO_GUESS)
+        a, c, b, d, x_p, y_p = data[:TOTAL].tolist()
+        x_p += (a - 1.0) * drift[0] + b * drift[1]
+        y_p += c * drift[0] + (d - 1.0) * drift[1]
+        turned = (outward[0] * dy - outward[1] * dx) / wedge
+        rate = (outward[0] * y_p - outward[1] * x_p) / wedge
+        if abs(turned) < _UNTURNED:
+            return (around[1] * dx - around[0] * dy) / wedge, (at_x, at_y, p)
+        if not 0.0 < abs(rate) < math.inf:
+            return None
+        p -= turned / rate
+        if not abs(p - parent.p) < 0.05 * system.scale:
+            return None
+    return None
+
+
+def _entered(system: AsymmetricOrbits, place: Place) -> Point | None:
+    """Return the orbit next to a place, at its point that is farthest from the rim, or None."""
+    point = system.point(place)
+    if point is None or not max(map(abs, point.defect)) < FAR:
+        return None
+    point = system.point((*system.innermost(point), place[2]))
+    along = tangent(system, point) if point is not None else (math.nan,)
+    if not all(map(math.isfinite, along)):
+        return None
+    start = correct(system, point.place, along, FAR)
+    return start if start is not None and system.separation(start) > COLLAPSED else None
+
+
+def beyond_rim(
+    system: AsymmetricOrbits, longer: AsymmetricOrbits, point: Point, levels: list[float]
+) -> list[Point]:
+    """Return orbits that lack the slowest impact of a longer one, at values of the parameter."""
+    period, points = system.period, longer.orbit(point.data)
+    slowest = int(np.argmax(np.sum(points * points, axis=1)))
+    place = points[(slowest + 1) % longer.period]
+    times = np.roll(longer.times(point.data), -slowest - 1)
+    times = np.append(times[: period - 1], times[period - 1] + times[period])
+    found = []
+    for p in levels:
+        x, y = place.tolist()
+        for _ in range(_STEPS_BEYOND):
+            if not x * x + y * y < 1.0:
+                break
+            data, defect = system.tracked((x, y, p), times)
+            a, c, b, d = data[:4].tolist()
+            step = cramer([(a - 1.0, b), (c, d - 1.0)], defect)
+            if step is None:
+                break
+            x, y = x + step[0], y + step[1]
+            if not max(map(abs, step)) < _ASTRAY:
+                break
+            if max(map(abs, step)) < 1e-10:
+                found.append(_entered(system, (x, y, p)))
+                break
+    return [start for start in found if start is not None]
+
+
+def beyond_touch(system: AsymmetricOrbits, place: Place, symmetric: bool) -> list[Point]:
+    """Return orbits with one impact more than one that touches the floor, next to the touch.
+
+    `place` is on a touching orbit of period n - 1, where n is the period of `system`. A symmetric
+    orbit must touch the floor in two flights. Where the new impact is slow, its point is next to
+    the section's rim. From there n - 1 impacts ahead, and one impact back in time, must lead to the
+    same point: both depend smoothly on the contact speed, although P^n does not.
+    """
+    period, kind = system.period - 1, system.parameter.kind
+    out, back = np.empty(ROOM), np.empty(ROOM)
+    k, rho = system.parameter.k_and_rho(place[2])
+    evaluate_orbit(period, kind, k, rho, *place[:2], NO_GUESS, out)
+    times = out[FLIGHTS : FLIGHTS + period].copy()
+    points = out[POINTS : POINTS + 2 * period].reshape(-1, 2).tolist()
+    heights = system.heights(place, times, np.full(period, np.nan))
+    (flights,) = np.nonzero(heights[:, 1] > -FAR)
+    if flights.size < (2 if symmetric else 1):
+        return []
+    flight = int(flights[0])
+    at = float(heights[flight, 0])
+    unit = _rim_point(k, rho, *points[flight], at)
+    ahead = np.roll(times, -flight)
+    ahead[0] -= at
+
+    def on_rim(turn: float, speed: float) -> tuple[float, float]:
+        size = math.sqrt((1.0 - speed) * (1.0 + speed)) / (1.0 + turn * turn)
+        cosine, sine = size * (1.0 - turn) * (1.0 + turn), size * 2.0 * turn
+        return cosine * unit[0] - sine * unit[1], cosine * unit[1] + sine * unit[0]
+
+    def mismatch(turn: float, p: float, speed: float) -> tuple[float, float]:
+        x, y = on_rim(turn, speed)
+        k, rho = system.parameter.k_and_rho(p)
+        evaluate_orbit(period, kind, k, rho, x, y, ahead, out)
+        evaluate_orbit(1, kind, k, rho, x, -y, np.array([at]), back)
+        x, y = out[POINTS + 2 * period : POINTS + 2 * period + 2].tolist()
+        return x - float(back[POINTS + 2]), y + float(back[POINTS + 3])
+
+    found = []
+    for speed in _SPEEDS:
+        turn, p = 0.0, place[2]
+        for _ in range(_STEPS_BEYOND):
+            x, y = mismatch(turn, p, speed)
+            x1, y1 = mismatch(turn + _DIFFERENCE, p, speed)
+            x2, y2 = mismatch(turn, p * (1.0 + _DIFFERENCE), speed)
+            step = cramer([(x1 - x, x2 - x), (y1 - y, y2 - y)], (x, y))
+            if step is None:
+                break
+            turn, p = turn + _DIFFERENCE * step[0], p * (1.0 + _DIFFERENCE * step[1])
+            if not (abs(turn) < 0.1 and system.limits[0] < p < system.limits[1]):
+                break
+            if sum(map(abs, step)) < 1.0:
+                found.append(_entered(system, (*on_rim(turn, speed), p)))
+                break
+    return [start for start in found if start is not None]
+
+
+def _rim_point(k: float, rho: float, at_x: float, at_y: float, t: float) -> tuple[float, float]:
+    """Return the point of the rim where the flight from (X, Y) touches the floor after a time."""
+    x, v, w = state_at(k, rho, at_x, at_y)
+    b, c, s = rebound(v, w, k, impact_coefficients(k))
+    position = gap(t, x, b, c, s, 1.0, quadrant(t))[3]
+    X = (k * position - 1.0) / rho
+    Y = (1.0 + k) * (b + t) / (rho * math.sqrt((1.0 + k) / k))
+    size = math.sqrt(X * X + Y * Y)
+    return X / size, Y / size

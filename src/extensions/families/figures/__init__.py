@@ -1,0 +1,1 @@
+"""Pictures of families of periodic orbits and of chains of islands."""

@@ -1,0 +1,176 @@
+"""Families of periodic orbits against the energy or the inertia, below the regular share."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from pseudorigid.figures.axes.limits import around, inside, linear
+from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import rows
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
+
+_LEFT, _RIGHT = 125, 1000  # pixels
+# Colours by period; a longer period has that of the period less a multiple of their number.
+_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
+_MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
+_NAMES = {"doubling": "period doubling"}  # of marks in the key
+_NAME = 50  # pixels: room for the name of a resonance
+_RESIDUES = -0.6, 1.6
+_BEYOND = "; triangles: beyond the axis"
+
+
+@style.pinned()
+def draw(scene, families, shares):
+    """Draw regular share, positions and residues of families over one axis of E or k.
+
+    Lines of elliptic orbits are thick, of hyperbolic ones thin, of inverse hyperbolic ones dashed.
+    Above are the fixed point's resonances. Families of a period above scene["drawn"] are left out.
+    """
+    sheet = Sheet(style.COLUMN, 2400)
+    low, high = scene["span"]
+    name = "Energy $E$" if scene["parameter"] == "energy" else "Euler inertia $k$"
+    across = linear(low, high, 7, name)
+    above = Window(sheet, (_LEFT, 1945, _RIGHT, 2250), across.blank(), _share_axis(shares))
+    highest = above.up.limits[1]
+    beyond = shares["regular"].values > highest
+    x, rim = families["x"].values, _rim(scene)
+    up = around(x, 0.04, 8)
+    if not inside([up.limits] * 2, rim[1:]).all():
+        up = around(np.append(x, rim[1:]), 0.04, 8)
+    middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
+    below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
+    *sides, top = above.frame  # its title stands above the names of resonances
+    letters(sheet, (*sides, top + 10 * POINT), middle.frame, below.frame)
+    title(sheet, above.frame, "Regular share of the section" + _BEYOND * bool(beyond.any()), 14)
+    title(sheet, middle.frame, "Position $x$ of the orbit's point on a symmetry line")
+    for panel in (above, middle, below):
+        panel.minor()
+    _resonances((above, middle, below), scene, families)
+    at, share = (shares[name].values for name in (scene["parameter"], "regular"))
+    ends = (shares[f"regular_{end}"].values for end in ("low", "high"))
+    above.estimates(at, share, *ends, style.BLUE)
+    above.dots(at[beyond], 0.0 * at[beyond] + 0.98 * highest, style.BLUE, 2.6, marker="^")
+    for end in rim[1:]:
+        middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
+    shown = [i for i, n in enumerate(families["period"].values) if n <= scene["drawn"]]
+    # Near grazing the residue grows without bound.
+    residue = np.clip(0.25 * (2.0 - families["trace"].values), -50.0, 50.0)
+    for level in (0.0, 1.0):
+        below.line([low, high], [level, level], color=style.FRAME, lw=0.5)
+    for i in shown:
+        _family(middle, scene, families, i, x)
+        _family(below, scene, families, i, residue)
+    leaves = [_exits(below, scene, families, i, residue) for i in shown]
+    title(sheet, below.frame, "Residue $(2-$trace$)/4$" + _BEYOND * any(leaves))
+    marks = _events(middle, scene, families, set(shown))
+    _keys(sheet, families, shown, marks)
+    fixed = {name: scene["ball"][name] for name in "kg" if name != scene["parameter"]}
+    setting = style.setting(scene | {"ball": fixed}, energy=scene["parameter"] == "k")
+    sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
+    return sheet.figure
+
+
+def _share_axis(shares):
+    """Return an axis to above the largest share, or that of the upper two thirds if far smaller."""
+    values = shares["regular_high"].values
+    largest, later = float(values.max()), float(values[values.size // 3 :].max())
+    return linear(0.0, min(1.0, 1.1 * (later if 4.0 * later < largest else largest)), 4)
+
+
+def _family(panel, scene, families, index, values):
+    """Draw one family, in pieces of one type of stability."""
+    span = rows(families)[index]
+    across = families[scene["parameter"]].values[span]
+    up, types = values[span], families["type"].values[span]
+    hue = _hue(int(families["period"].values[index]))
+    changes = [0, *(np.flatnonzero(types[1:] != types[:-1]) + 1).tolist(), types.size]
+    for first, last in pairwise(changes):
+        kind = str(types[first])
+        end = min(last + 1, types.size)
+        dashes = {"ls": (0, (4.0, 2.5))} if kind == "inverse hyperbolic" else {}
+        panel.line(across[first:end], up[first:end], color=hue, lw=_WIDTHS[kind], **dashes)
+
+
+def _exits(panel, scene, families, index, residue):
+    """Mark where a family leaves the axis of residues, and return how often it does."""
+    span = rows(families)[index]
+    at, values = families[scene["parameter"]].values[span], residue[span]
+    hue, count = _hue(int(families["period"].values[index])), 0
+    for end, inner, marker in ((_RESIDUES[1], 1.56, "^"), (_RESIDUES[0], -0.56, "v")):
+        beyond = (values > end) == (end > 0.0)
+        i = np.flatnonzero(beyond[1:] != beyond[:-1])
+        x = at[i] + (end - values[i]) / (values[i + 1] - values[i]) * (at[i + 1] - at[i])
+        panel.dots(x, 0.0 * x + inner, hue, 2.6, marker=marker)
+        count += i.size
+    return count
+
+
+def _hue(period):
+    return style.MANY_HUES[(period - 1) % len(style.MANY_HUES)]
+
+
+def _events(panel, scene, families, shown):
+    """Mark events, and ends where an impact grazes; return which kinds there are."""
+    marked = set()
+    number = families["event_family"].values
+    chosen = np.isin(number, sorted(shown))
+    across = families[f"event_{scene['parameter']}"].values
+    up, kinds = families["event_x"].values, families["event_kind"].values
+    for kind, marker in _MARKS.items():
+        at = chosen & (kinds == kind)
+        if kind == "resonance":  # of longer chains there are too many
+            at &= families["event_order"].values * families["period"].values[number] <= 12
+            at &= families["event_order"].values <= 6
+        panel.dots(across[at], up[at], style.BLACK, 2.6, hollow=True, marker=marker)
+        marked |= {kind} if at.any() else set()
+    spans = rows(families)
+    for index in sorted(shown):
+        for side, last in ((0, spans[index].start), (1, spans[index].stop - 1)):
+            if families["end_kind"].values[index, side] in ("touch", "rim"):
+                x, y = (families[name].values[last] for name in (scene["parameter"], "x"))
+                panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker="x")
+                marked.add("grazing")
+    return marked
+
+
+def _rim(scene):
+    """Return values of the parameter, and both ends of the symmetry line y = 0 there."""
+    low, high = scene["span"]
+    value = low + (high - low) * (np.arange(401) / 400.0)
+    of_rim = {"energy": scene["energy"], **scene["ball"], scene["parameter"]: value}
+    energy, k, g = (of_rim[name] for name in ("energy", "k", "g"))
+    radius = np.sqrt((2.0 * energy + g * g / k) / k)
+    return np.array([value, g / k - radius, g / k + radius])
+
+
+def _resonances(panels, scene, families):
+    """Draw an upright line at each resonance of the fixed point up to order 8, with its name."""
+    order = families["event_order"].values
+    chosen = (families["event_family"].values == 0) & (order > 2) & (order <= 8)
+    names = f"event_{scene['parameter']}", "event_turns", "event_order"
+    resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
+    reach = -np.inf
+    for value, p, q in sorted(resonances):
+        x = upright(panels, value, color=style.BACKDROP, lw=0.5)
+        if x - reach >= _NAME:
+            up = panels[0].frame[3] + 3 * POINT
+            panels[0].sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
+            reach = x
+
+
+def _keys(sheet, families, shown, marks):
+    """Explain the widths, marks and colours that are drawn."""
+    types = {kind for i in shown for kind in families["type"].values[rows(families)[i]]}
+    widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)
+    entries = [
+        *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in widths),
+        ("rim of the section", style.BACKDROP, "", False, 1.0),
+        *((_NAMES.get(k, k), style.BLACK, mark, True) for k, mark in _MARKS.items() if k in marks),
+        *[("an impact grazes", style.BLACK, "x", True)] * ("grazing" in marks),
+    ]
+    key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
+    periods = sorted({int(families["period"].values[i]) for i in shown})
+    entries = [(f"{n}", _hue(n), "", False, 1.7) for n in periods]
+    sheet.text(_LEFT - 30, 65, "period", size=7.0)
+    key(sheet, entries, 65, 10, _LEFT + 80, 820, 7.0)

@@ -1,0 +1,89 @@
+"""Kinds of picture of families of periodic orbits."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from annotated_types import Predicate
+
+from pipeline.config.schema.fields import Name, Range, YamlMapping, allowed, distinct, whole
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, exact
+
+MOST_CELLS = 2_000  # of the regular share
+
+
+class Families(Scene):
+    """families of periodic orbits, below the regular share of the section"""
+
+    stages = ("families", "shares")
+    on_section = False
+    headline = "families"
+
+    parameter: Literal["energy", "k"] = allowed("energy or k", default="energy")
+    """What orbits are followed against: the energy of the ball, or its inertia k at the scene's
+    E/g^2."""
+    span: Range
+    """Least and largest value of the parameter. Families are followed between them."""
+    period: int = whole(1, 24)
+    """Largest period of the orbits. There are about twice as many orbits for each further
+    period."""
+    levels: int = whole(1, 10_000)
+    """Number of values of the parameter, evenly in the radius of the section, at which brute force
+    seeks orbits that no family holds yet. A family that lives between two of them is found if it
+    branches off from another one."""
+    drawn: int = whole(1, 24)
+    """Largest period that is drawn. More than a hundred families in one panel cannot be told
+    apart."""
+    step: float = allowed("a positive number", gt=0)
+    """Distance in the parameter between two values of the regular share; these are multiples of
+    it."""
+    starts: int = whole(1, 1_000_000)
+    """Number of orbits behind each value of the regular share, evenly over half of the section."""
+    impacts: int = whole(100, 10_000_000)
+    """Largest number of impacts of these orbits."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the section exists over the whole span of k, and the number of values."""
+        yield from super().cross_field_errors(block)
+        g, energy = exact(block["ball"]["g"]), exact(block["energy"])
+        low, high = (exact(value) for value in block["span"])
+        sound = low > 0 and high <= 1 and g * g + 2 * high * energy > 0
+        if block["parameter"] == "k" and not sound:
+            yield ("span",), block["span"], "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
+        step = exact(block["step"])
+        if high // step <= -(-low // step):
+            yield ("step",), block["step"], "one with two multiples or more in the span"
+        if (high - low) / step > MOST_CELLS:
+            least = float((high - low) / MOST_CELLS)
+            yield ("step",), block["step"], f"at least {least:g}, {MOST_CELLS} values in the span"
+        if block["drawn"] > block["period"]:
+            yield ("drawn",), block["drawn"], f"at most period = {block['period']}"
+
+
+_Orders = Annotated[
+    list[Annotated[int, whole(3, 12)]],
+    allowed("a list of whole numbers from 3 to 12, at least one, none of them twice", min_length=1),
+    Predicate(distinct),
+]
+
+
+class Chains(Picture):
+    """births of chains of islands and their ends, over the plane of a sweep"""
+
+    stages = ("sweep", "chains")
+    drawn_over = "atlas"
+    undrawn = ("formats", "block")
+
+    over: Name = allowed("the name of a sweep of several k")
+    """Name of the sweep over whose plane the curves are drawn. It must have several k."""
+    chains: _Orders
+    """Orders q, from 3 to 12, of the chains 1/q whose births and losses of stability are
+    followed."""
+
+    @classmethod
+    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+        """Check that the sweep is a plane with energies at which chains exist."""
+        if len(block["k"]) == 1:
+            yield ("over",), block["over"], "a sweep of several k"
+        elif not block["energy"][0] > 0:
+            yield ("over",), block["over"], "a sweep whose energies are above 0"

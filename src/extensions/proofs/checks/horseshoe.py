@@ -1,0 +1,139 @@
+"""A horseshoe: h-sets at the points of a hyperbolic orbit and along a connection between them.
+
+Sets S_0 ... S_(n-1) at the saddles cover each other in turn. A chain M_-K ... M_K leaves from S_a
+and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. README.md ("Horseshoe") has the
+theorems, and what follows for the orbits of P.
+"""
+
+from fractions import Fraction
+from itertools import pairwise
+from math import gcd
+
+from flint import arb, ctx
+
+from study.enclosure.surface import Surface, ball_of
+
+from . import hsets, periodic
+from .certificate import Certificate, Finding, NotProvedError
+from .hsets import HSet
+from .periodic import Window
+
+BITS = 128  # the smallest sets are 1e-10 wide: 1e-38 is far finer than their margins
+
+
+def check(
+    text: str,
+    surface: Surface,
+    *,
+    period: int,
+    radius: Fraction,
+    entropy: Fraction,
+    window: Window | None = None,
+    crossing: tuple[Fraction, Fraction] | None = None,
+) -> Finding:
+    """Prove a certificate's horseshoe on an orbit of a prime period, with a point in the window.
+
+    The orbit must be the only one within the radius of the centres of the S. M_0 must lie between
+    the x of the crossing, which tells one connection from another, and the entropy, in nats per
+    impact, be above the given one. The margins are the least over all relations. The parts are
+    saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and loop
+    (impacts).
+    """
+    certificate = Certificate(text, "horseshoe", surface)
+    orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
+    with ctx.workprec(BITS):
+        saddles, chain, leaves, enters = _sets(certificate)
+        hsets.check_contained(saddles, orbit.points)
+        edges = [
+            *pairwise([*saddles, saddles[0]]),
+            *pairwise([saddles[leaves], *chain, saddles[enters]]),
+        ]
+        margins, cone, angle = _relations(surface, edges, chain)
+        _check_margins(certificate, edges, margins)
+        middle = chain[len(chain) // 2]
+        for hset in (*saddles, *chain):
+            if hset is not middle and not middle.is_disjoint(hset):
+                raise NotProvedError(f"M_0 is not proved to be disjoint from {hset.name}")
+        x = middle.box()[0]
+        if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
+            raise NotProvedError("the connection does not pass y = 0 where the statement says")
+        loop = len(chain) + 1 + (leaves - enters) % period
+        if gcd(period, loop) != 1:
+            raise NotProvedError(f"loops of {period} and {loop} impacts do not mix")
+        bound = _entropy(period, loop)
+        if not bound > ball_of(entropy):
+            raise NotProvedError(f"the entropy is not proved to be above {float(entropy)}")
+        beyond, room = map(min, zip(*margins, strict=True))
+        return Finding(
+            {"entropy": bound, "crossing x": x, "crossing angle": angle},
+            {"beyond": beyond, "room": room, "cones": cone},
+            dict(saddles=saddles, chain=chain, edges=edges, margins=margins, loop=loop),
+        )
+
+
+def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
+    """Return saddles, chain, a and b; the second half of the chain mirrors the first."""
+    rows, approach = (certificate.numbers(name, 6) for name in ("saddles", "approach"))
+    leaves, enters = (certificate.number(name) for name in ("leaves", "enters"))
+    if not {leaves, enters} <= set(range(len(rows))):
+        raise NotProvedError("the certificate's chain does not begin and end at its saddles")
+    leaves, enters = int(leaves), int(enters)
+    for i, (x, y, ux, uy, sx, sy) in enumerate(rows):  # the reversor maps the connection to itself
+        if rows[(leaves + enters - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
+            raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
+    steps = len(approach)
+    chain = [hsets.hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
+    x, ux, uy = certificate.row("middle", 3)
+    middle = hsets.hset("M_0", [x, 0, ux, uy, ux, -uy])
+    back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
+    saddles = [hsets.hset(f"S_{i}", row) for i, row in enumerate(rows)]
+    return saddles, [*chain, middle, *reversed(back)], leaves, enters
+
+
+def _relations(surface: Surface, edges: list[tuple[HSet, HSet]], chain: list[HSet]):
+    """Prove every covering and cone condition: ([(beyond, room), ...], cone margin, angle)."""
+    margins, cone = [], float("inf")
+    slope, middle = hsets.UNIT, chain[len(chain) // 2]
+    for source, target in edges:
+        margin, least, local = hsets.prove_hyperbolic(surface, source, target)
+        margins.append(margin)
+        cone = min(cone, least)
+        if source is chain[0]:
+            slope = hsets.UNIT
+        (a, b), (c, d) = local.hull()
+        slope = (c + d * slope) / (a + b * slope)  # dq/dp of the unstable manifold
+        if target is middle:
+            angle = _crossing_angle(middle, slope)
+    return margins, cone, angle
+
+
+def _crossing_angle(middle: HSet, slope: arb) -> arb:
+    """Enclose the acute angle between the unstable manifold in M_0 and its mirror image."""
+    x, y = (u + slope * s for u, s in zip(middle.u, middle.s, strict=True))
+    half = arb.atan2(abs(y), abs(x))
+    return (2 * half).min(arb.pi() - 2 * half)  # the acute one, even if half may be pi/4
+
+
+def _check_margins(certificate: Certificate, edges: list, margins: list) -> None:
+    """Check that every covering has at least the stated margins."""
+    stated = certificate.numbers("margins", 2)
+    if len(stated) != len(edges):
+        raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
+    for (source, target), pair, least in zip(edges, margins, stated, strict=True):
+        if min(least) < 0:
+            raise NotProvedError(f"a margin of the certificate is {float(min(least)):g}, below 0")
+        if not all(arb(p) >= ball_of(m) for p, m in zip(pair, least, strict=True)):
+            raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
+
+
+def _entropy(period: int, loop: int) -> arb:
+    """Enclose ln x, x^-period + x^-loop = 1, by bisection; both exponents are at least 1."""
+    low, high = arb(0), arb(1)
+    for _ in range(60):
+        middle = ((low + high) / 2).mid()
+        excess = (-period * middle).exp() + (-loop * middle).exp() - 1
+        if excess > 0:
+            low = middle
+        elif excess < 0:
+            high = middle
+    return low.union(high)

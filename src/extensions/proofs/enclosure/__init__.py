@@ -1,0 +1,1 @@
+"""Enclosures that only proofs use, beside those in `study.enclosure`."""

@@ -1,0 +1,41 @@
+"""The fixed point's energy and trace in closed form, in ball arithmetic.
+
+With theta = half the time of flight, p = 1/theta - cot(theta) and q = 2 theta - sin(2 theta),
+
+    E = (g^2/2k) ((1+k) theta^2 + (theta p)^2 - 1),
+    trace/2 = (1 + k cos(2 theta))/(1+k) - k p q/(1+k)^2.
+
+They hold for 0 < theta < pi, and NotProvedError is raised for any other theta.
+README.md has the argument ("Periodic orbits").
+"""
+
+from flint import arb
+
+from study.enclosure.flight import NotProvedError
+from study.enclosure.jets import Jet, algebra
+
+
+def energy_at(k: arb, g: arb, theta: arb) -> arb:
+    """Enclose the energy at a theta, which rises with it."""
+    _check(theta)
+    bend = 1 - theta * theta.cot()
+    return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
+
+
+def trace_at(k: arb, theta: arb | Jet) -> arb | Jet:
+    """Enclose the trace at a theta."""
+    _check(theta.constant if isinstance(theta, Jet) else theta)
+    sine, cosine = theta.sin_cos()
+    double_sine, double_cosine = (2 * theta).sin_cos()
+    shear = (1 / theta - cosine / sine) * (2 * theta - double_sine)
+    return 2 * ((1 + k * double_cosine) / (1 + k) - k * shear / (1 + k) ** 2)
+
+
+def slope_at(k: arb, theta: arb) -> arb:
+    """Enclose the trace's derivative by theta."""
+    return trace_at(k, *Jet.series(algebra(1, 1), theta)).coefficients[1]
+
+
+def _check(theta: arb) -> None:
+    if not (theta > 0 and theta < arb.pi()):
+        raise NotProvedError("theta is not proved to lie between 0 and pi")

@@ -1,0 +1,47 @@
+"""The section with proved invariant curves, and the areas inside that nothing can enter."""
+
+import numpy as np
+
+from pseudorigid.figures.axes import section
+from pseudorigid.figures.axes.panel import key
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import runs
+
+_HATCH = 400  # lines of the shading across the section
+_SHADE = "#f0c3a6"
+
+
+@style.pinned()
+def draw(scene, curves, orbits):
+    """Draw orbits, the proved curves, the areas inside, and points inside no invariant circle."""
+    panel, regular, chaotic = section.over_orbits(scene, orbits)
+    x, y = curves["x"].values, curves["y"].values
+    polygons = [(x[run], y[run]) for run in runs(np.isnan(x))]
+    height = panel.high * panel.radius
+    for y in np.linspace(-height, height, _HATCH):
+        for polygon in polygons:
+            for ends in _inside(polygon, y):
+                panel.line(ends, [y, y], color=_SHADE, lw=0.8)
+    for polygon in polygons:
+        panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
+    saddles = curves["saddle_x"].values, curves["saddle_y"].values
+    panel.dots(*saddles, style.BLUE, size=2.6)
+    entries = [
+        ("proved curve", style.VERMILION),
+        ("no orbit enters or leaves", _SHADE, "s", False, 5.0),
+        ("inside no invariant circle", style.BLUE, "o") if saddles[0].size else None,
+        regular,
+        chaotic,
+    ]
+    entries = [entry for entry in entries if entry]
+    key(panel.sheet, entries, panel.frame[1] - 128, 2, section.LEFT, section.SIDE)
+    return panel.sheet.figure
+
+
+def _inside(polygon, level):
+    """Return the pairs of x between which a horizontal line runs inside a polygon."""
+    x, y = polygon
+    above = y > level
+    at = np.flatnonzero(above[1:] != above[:-1])
+    crossings = np.sort(x[at] + (x[at + 1] - x[at]) * (level - y[at]) / (y[at + 1] - y[at]))
+    return crossings.reshape(-1, 2)

@@ -1,0 +1,83 @@
+"""The sets of a horseshoe along a connection, over the manifolds, and one covering relation."""
+
+import numpy as np
+
+from pseudorigid.dynamics.variables import chart, states_of
+from pseudorigid.figures.axes.limits import complete, inside, of_data, refuse_empty
+from pseudorigid.figures.axes.panel import Axis, Window, corner, key, letters
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import rows
+from pseudorigid.figures.canvas.sheet import Sheet
+
+_HIGH = 1500  # pixels
+_ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
+_ROOM = 1.3  # height of the lower panel over that of its square; the square's name stands above it
+
+
+@style.pinned()
+def draw(scene, manifolds, horseshoe):
+    """Draw the sets of a horseshoe, as large dots over the manifolds, and one covering relation.
+
+    Raises ValueError if the axes show none of the sets or nothing of the image.
+    """
+    line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    scene = complete(
+        scene,
+        x=lambda: of_data(line_x, horseshoe["x"].values),
+        y=lambda: of_data(line_y, horseshoe["y"].values),
+        p=lambda: of_data(horseshoe["image_p"].values),
+        q=lambda: of_data([-_ROOM, _ROOM], room=0.0),
+    )
+    refuse_empty(scene["axes"], {name: horseshoe[name].values for name in "xy"})
+    for name in "pq":
+        refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
+    sheet = Sheet(style.COLUMN, _HIGH)
+    x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in "xypq")
+    panel = Window(sheet, _ABOVE, x, y)
+    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
+        hue = style.pale(style.MANIFOLDS[stable])
+        panel.line(line_x[span], line_y[span], color=hue, lw=0.4)
+    _sets(panel, horseshoe)
+    _relation(Window(sheet, _BELOW, p, q), horseshoe)
+    corner(sheet, _BELOW, style.setting(scene))
+    letters(sheet, _ABOVE, _BELOW)
+    return sheet.figure
+
+
+def _sets(panel, horseshoe):
+    """Draw the sets and the key."""
+    x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
+    for sets, hue, size in (
+        (chain < 0.0, style.BLUE, 2.0),
+        (chain > 0.0, style.GREEN, 2.0),
+        (np.isnan(chain), style.VERMILION, 3.6),
+        (chain == 0.0, style.BLACK, 3.6),
+    ):
+        panel.dots(x[sets], y[sets], hue, size=size)
+    entries = (
+        ("at the saddles", style.VERMILION, "o", False, 3.6),
+        ("middle set", style.BLACK, "o", False, 3.6),
+        ("stable", style.pale(style.STABLE)),
+        ("on the way out", style.BLUE, "o", False, 2.6),
+        ("on the way back", style.GREEN, "o", False, 2.6),
+        ("unstable", style.pale(style.UNSTABLE)),
+    )
+    left, _, right, _ = panel.frame
+    key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)
+
+
+def _relation(panel, horseshoe):
+    """Draw the image of a set across the square of the next."""
+    p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
+    square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
+    panel.line(*square, color=style.BLACK, lw=1.0)
+    for edge, wide in ((2, 0.8), (3, 0.8), (0, 2.0), (1, 2.0)):
+        panel.line(p[edge], q[edge], color=style.BLUE, lw=wide)
+    texts = (
+        (1.0, 5.5, "the middle set"),
+        (0.0, 6.5, "image of the set before it"),
+        (0.0, -6.5, "(heavy: its two ends)"),
+    )
+    for up, gap, text in texts:
+        if inside((panel.across.limits, panel.up.limits), (0.0, up)):
+            panel.note(0.0, up, text, shift=(0.0, gap), ha="center")

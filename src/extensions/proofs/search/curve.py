@@ -1,0 +1,296 @@
+"""Search for invariant curves around elliptic orbits: Newton's method on Fourier coefficients.
+
+It starts from an orbit in doubles on the curve with the wanted rotation number. Everything here is
+midpoints: `checks.curve` proves the result. A curve is a pair of polynomials in the form of
+`checks.circle`, of which x is even and y is odd.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from flint import acb, arb, ctx
+from scipy.optimize import bisect
+
+from pseudorigid.dynamics.orbits import orbit
+from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.jets import Jet
+from study.enclosure.surface import Surface, fraction_of
+
+from ..checks.certificate import Finding, NotProvedError
+from ..checks.circle import derivative, noble, real_values, rotated, transform
+from ..checks.curve import Curve
+from . import approximate_orbits
+from .certificate_text import fixed, header, rows
+from .periodic import BITS as CENTRE_BITS
+from .periodic import centre_rows, polished
+from .rotation_numbers import quotients_near
+
+BITS = 320
+_IMPACTS = 40_000  # of the orbit whose averages start Newton's method
+_SCAN = 120  # starts between the centre and the rim
+_NOISE = 1e-11  # Fourier coefficients from the orbit below this are rounding errors
+_SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
+_STEPS = 6
+_DIGITS_OF_ERROR = 12.0  # that the error has, besides those of the loss to the fourth power
+
+
+class Strips(NamedTuple):
+    """Sizes for the checker."""
+
+    strip: str  # half width of the strip of the error
+    loss: str  # what each step of the proof loses of it
+    columns: int  # cells around the circle
+    rows: int  # cells from the real axis to the strip's edge
+    more_rows: int  # cells beyond it
+    modes: int  # Fourier modes of the curve
+
+
+class _Start(NamedTuple):
+    """What Newton's method starts from."""
+
+    points: list[list[float]]  # of the orbit, the first one on y = 0
+    quotients: Sequence[int]  # of the rotation number
+    xs: list[float]  # the curve is the sum of xs[q] cos(2 pi q t), ys[q] sin(2 pi q t)
+    ys: list[float]
+
+
+def propose(theorem, quotients: Sequence[int], strips: Sequence, error: str) -> str:
+    """Return a certificate for a curve around a point (x, 0) of a symmetric orbit.
+
+    The rotation number is that of `checks.circle.noble`, and `strips` are those of `Strips`. Of the
+    orbit's points on y = 0 the one with the greatest x is taken.
+    """
+    start = _start(theorem, quotients)
+    share = str(float(theorem.bounds["share"]))
+    return _text(theorem, start, Strips(*strips), share, error)
+
+
+def search(theorem, rotation: float) -> tuple[str, Finding]:
+    """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
+
+    The rotation number is close to the given one. The strips follow from the decay of the
+    coefficients of an orbit in doubles. Raises ValueError if no curve is found, or the checker's
+    NotProvedError if the last sizes fail.
+    """
+    start = _start(theorem, quotients_near(rotation))
+    xs, ys = start.xs, start.ys
+    decay = -math.log(_NOISE / abs(xs[1])) / len(xs)
+    area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
+    with ctx.workprec(64):  # rounding adds less than 1e-4
+        share = f"{0.9999 * area / float(theorem.bounds['surface'].area()):.5g}"
+    for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
+        strip = part * decay / (2.0 * math.pi)
+        loss = strip / 6.2
+        digits = math.ceil(_DIGITS_OF_ERROR + spare - 4.0 * math.log10(loss))
+        modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
+        columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
+        rows = math.ceil(columns * strip)
+        strips = Strips(f"{strip:.4g}", f"{loss:.3g}", columns, rows, math.ceil(0.6 * rows), modes)
+        text = _text(theorem, start, strips, share, f"1e-{digits}")
+        try:
+            return text, theorem.prove(text)
+        except NotProvedError as error:
+            reason = error
+    raise reason
+
+
+def _start(theorem, quotients: Sequence[int]) -> _Start:
+    """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
+    surface, points = theorem.bounds["surface"], approximate_orbits.points_of(theorem, "elliptic")
+    symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
+    if not symmetric:
+        raise ValueError("the orbit has no point on y = 0")
+    first = max(symmetric, key=lambda i: points[i][0])
+    points = points[first:] + points[:first]
+    with ctx.workprec(BITS):
+        omega = float(noble(quotients)[0])
+    x = _start_on_curve(surface, points, omega)
+    return _Start(points, quotients, *_coefficients_of_orbit(surface, x, len(points), omega))
+
+
+def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
+    """Return the x > that of the first point at which y = 0 meets the curve of a rotation number.
+
+    The curve nearest to the point is taken. Raises ValueError if there is none.
+    """
+    centre, period = points[0][0], len(points)
+    with ctx.workprec(53):
+        k, g, _ = surface.constants()
+        rim = float(g / k + surface.radius())
+    reach = rim - centre if period == 1 else 0.5 * _nearest(points)
+
+    def excess(x, impacts=_IMPACTS):
+        return turns(surface, x, points, impacts) - omega
+
+    previous, seen = None, []
+    for i in range(1, _SCAN):
+        x = centre + reach * i / _SCAN
+        value = excess(x, 4000)
+        if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
+            return bisect(excess, previous[0], x, xtol=1e-17)
+        previous = x, value
+        if not seen or (len(seen) == i - 1 and abs(value - seen[-1]) < 0.05):
+            seen.append(value)  # from the point on, as far as the numbers change without a jump
+    low, high = omega + min(seen), omega + max(seen)
+    raise ValueError(
+        f"no curve with the rotation number {omega:.6g} was found on y = 0: "
+        f"near the point the numbers go from {low:.4f} to {high:.4f}"
+    )
+
+
+def _nearest(points: Sequence) -> float:
+    """Return the distance between the first point and the nearest of the others."""
+    first, *others = np.asarray(points, dtype=float)
+    return float(min(np.abs(np.array(others) - first).max(axis=1)))
+
+
+def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
+    """Return the clockwise turns of P^n around the first point, per n impacts, modulo 1."""
+    z = _orbit(surface, x, len(points), impacts)
+    angles = np.angle(z[0] - points[0][0] + 1j * (z[1] - points[0][1])) / (2.0 * math.pi)
+    steps = np.mod(-np.diff(angles), 1.0)
+    return float(_weights(steps.size) @ steps)
+
+
+def _weights(size: int) -> np.ndarray:
+    """Return the weights of a weighted Birkhoff average."""
+    t = (np.arange(size) + 0.5) / size
+    bump = np.exp(-1.0 / (t * (1.0 - t)))
+    return bump / bump.sum()
+
+
+def _orbit(surface: Surface, x: float, period: int, impacts: int) -> np.ndarray:
+    """Return every period-th point (x, y) after the one at (x, 0) of its orbit."""
+    ball = approximate_orbits.ball(surface)
+    with ctx.workprec(64):
+        v, w = (float(a) for a in surface.velocities(arb(x), arb(0)))
+    data = orbit(ball, (x, v, w), impacts * period)
+    return chart(ball.k, *states_of(data))[:, period - 1 :: period]
+
+
+def _coefficients_of_orbit(
+    surface: Surface, x: float, period: int, omega: float
+) -> tuple[list[float], list[float]]:
+    """Return x_q and y_q of the curve through (x, 0), from averages along its orbit."""
+    z = _orbit(surface, x, period, _IMPACTS)
+    phases = np.mod(omega * np.arange(1, z.shape[1] + 1), 1.0)
+    weights = _weights(z.shape[1])
+    xs, ys = [float(weights @ z[0])], [0.0]
+    for q in range(1, 2000):
+        angle = 2.0 * math.pi * q * phases
+        xs.append(float(2.0 * (weights * z[0]) @ np.cos(angle)))
+        ys.append(float(2.0 * (weights * z[1]) @ np.sin(angle)))
+        if q > 4 and max(abs(a) for a in (*xs[-3:], *ys[-3:])) < _NOISE:
+            break
+    return xs[:-3], ys[:-3]
+
+
+def _text(theorem, start: _Start, strips: Strips, share: str, error: str) -> str:
+    """Improve a curve by Newton's method until its error settles, and format the certificate."""
+    surface, radius = theorem.bounds["surface"], f"{float(theorem.bounds['radius']):g}"
+    with ctx.workprec(CENTRE_BITS):
+        centres = polished(surface, start.points)
+    with ctx.workprec(BITS):
+        omega, _ = noble(start.quotients)
+        curve: Curve = (
+            [acb(a / 2 if q else a) for q, a in enumerate(start.xs)],
+            [acb(0, -a / 2) for a in start.ys],
+        )
+        last = None
+        for _ in range(_STEPS):
+            modes = min(strips.modes, 2 * len(curve[0]) + 20)
+            step = _newton_step(surface, centres[0], len(centres), curve, omega, modes)
+            curve, size = step
+            if last is not None and not size < last * 1e-2 and modes == strips.modes:
+                break
+            last = size
+        digits = _SPARE_DIGITS - math.log10(float(error))
+        decay = 2.0 * math.pi * float(strips.strip) / math.log(10.0)  # in digits per mode
+        lines = [
+            f"[{_decimals(a.real if q == 0 else 2 * a.real, math.ceil(digits + decay * q))}, "
+            f"{_decimals(-2 * b.imag, math.ceil(digits + decay * q))}]"
+            for q, (a, b) in enumerate(zip(*curve, strict=True))
+        ]
+    return (
+        header("invariant curve", surface)
+        + f"radius = {radius}\n"
+        + centre_rows(centres)
+        + "# The rotation number's partial quotients after 0, and those that repeat for ever.\n"
+        + f"quotients = [{', '.join(map(str, start.quotients))}]\nrepeating = [1]\n"
+        + f"share = {share}\nerror = {error}\nstrip = {strips.strip}\nloss = {strips.loss}\n"
+        + f"columns = {strips.columns}\nrows = {strips.rows}\nmore_rows = {strips.more_rows}\n"
+        + "# The curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n"
+        + rows("coefficients", lines)
+    )
+
+
+def _decimals(value: arb, decimals: int) -> str:
+    return fixed(fraction_of(value), decimals)
+
+
+def _newton_step(surface, centre, period, curve, omega, modes) -> tuple[Curve, float]:
+    """Return the curve after one Newton step, and the error before it."""
+    count = 1 << (3 * modes).bit_length()
+    shifted = [rotated(row, omega) for row in curve]
+    here, there, tangent, tangent_there = (
+        list(zip(*(real_values(row, count) for row in rows), strict=True))
+        for rows in (curve, shifted, map(derivative, curve), map(derivative, shifted))
+    )
+    along, across, twist, normals, size = [], [], [], [], 0.0
+    for i in range(count):
+        image, matrix = _power(surface, *here[i], period)
+        error = [a - b for a, b in zip(image, there[i], strict=True)]
+        size = max(size, *(abs(float(a)) for a in error))
+        normals.append(_normal(here[i], tangent[i], centre))
+        after = _normal(there[i], tangent_there[i], centre)
+        along.append(_det(error, after))
+        across.append(_det(tangent_there[i], error))
+        twist.append(_det([a * normals[i][0] + b * normals[i][1] for a, b in matrix], after))
+    divisors = [1 - acb(2 * q * omega).exp_pi_i() for q in range(count // 2)]
+    second = _cohomology([-a for a in across], divisors)
+    rest = [-a - t * b for a, t, b in zip(along, twist, second, strict=True)]
+    mean = sum(rest, arb(0)) / sum(twist, arb(0))
+    second = [a + mean for a in second]
+    rest = [-a - t * b for a, t, b in zip(along, twist, second, strict=True)]
+    first = _cohomology(rest, divisors)
+    x, y = (
+        transform(
+            [
+                (here[i][r] + tangent[i][r] * first[i] + normals[i][r] * second[i]).mid()
+                for i in range(count)
+            ],
+            modes,
+        )
+        for r in (0, 1)
+    )
+    return ([acb(a.real.mid()) for a in x], [acb(0, a.imag.mid()) for a in y]), size
+
+
+def _power(surface, x, y, period):
+    """Return the image of a point under P^n and the derivative's rows, midpoints."""
+    x, y = Jet.plane(1, x.mid(), y.mid())
+    for _ in range(period):
+        x, y, *_ = surface.impact(x, y)
+        for jet in (x, y):
+            jet.coefficients[:] = [a.mid() for a in jet.coefficients]
+    return (x.constant, y.constant), (x.coefficients[1:], y.coefficients[1:])
+
+
+def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
+    """Solve u - u(t + omega) = f - <f> on the grid, with <u> = 0."""
+    waves = transform([a.mid() for a in values], len(divisors) - 1)
+    solved = [(a / b).mid() for a, b in zip(waves[1:], divisors[1:], strict=True)]
+    return real_values([acb(0), *solved], len(values))
+
+
+def _det(a, b) -> arb:
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def _normal(point, tangent, centre) -> tuple[arb, arb]:
+    """Return N = -(K - c)/det(K - c, L)."""
+    x, y = (a - b for a, b in zip(point, centre, strict=True))
+    size = _det((x, y), tangent)
+    return -x / size, -y / size

@@ -1,0 +1,50 @@
+"""Certificates of the energies at which orbits are born, double their period, or lose an impact."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from flint import arb, ctx
+
+from study.enclosure.surface import ball_of
+
+from ..checks.events import doubling, grazing
+from ..checks.periodic import BITS
+from ..enclosure.fixed_point import energy_at, trace_at
+from ..enclosure.newton import System, newton
+from .certificate_text import ball_header, row
+from .ellipticity import bisected_theta
+from .periodic import DIGITS, with_largest_radius
+
+_STEPS = 9  # of Newton's method from doubles
+
+
+def propose_resonance(theorem) -> str:
+    """Return a certificate of the fixed point's resonance at a rotation number."""
+    k, g, rotation = (theorem.bounds[name] for name in ("k", "g", "rotation"))
+    with ctx.workprec(BITS):
+        wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
+        theta, field = bisected_theta(lambda it: trace_at(ball_of(k), it) > wanted)
+        energy = row([energy_at(ball_of(k), ball_of(g), theta)], DIGITS)
+    return ball_header("resonance", k, g) + f"event = {energy}\n{field}"
+
+
+def propose_doubling(theorem, near: Sequence[str]) -> str:
+    """Return a certificate of a period doubling near an energy and a position."""
+    return _propose("period doubling", theorem, near, doubling, "period")
+
+
+def propose_grazing(theorem, near: Sequence[str]) -> str:
+    """Return a certificate of a grazing orbit near an energy and perhaps a y."""
+    return _propose("grazing orbit", theorem, near, grazing, "halves")
+
+
+def _propose(kind: str, theorem, near: Sequence[str], equations: Callable, bound: str) -> str:
+    """Return a certificate of an event with the largest radius that the checker accepts."""
+    k, g = theorem.bounds["k"], theorem.bounds["g"]
+    system: System = partial(equations, k, g, **{bound: theorem.bounds[bound]})
+    with ctx.workprec(BITS):
+        values = [arb(value) for value in near]
+        for _ in range(_STEPS):
+            values = [value.mid() for value in newton(system, values)]
+        event = f"event = {row(values, DIGITS)}\n"
+    return with_largest_radius(theorem, ball_header(kind, k, g) + event)

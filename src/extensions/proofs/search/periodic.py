@@ -1,0 +1,65 @@
+"""Certificates of periodic orbits: centres from Newton's method, and the largest square box."""
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from math import ceil, sqrt
+
+from flint import arb, ctx
+
+from study.enclosure.surface import Surface
+
+from ..checks.periodic import newton_image
+from . import approximate_orbits
+from .certificate_text import ball_header, header, row, rows
+
+BITS = 160
+DIGITS = 36  # the checker compares thirty of them with the orbit
+_LARGEST, _SMALLEST = 2, 12  # minus the decimal exponents of the radii that are tried
+
+
+def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[arb]]:
+    """Improve points (x, y) near a periodic orbit, by Newton's method on midpoints."""
+    points, least = [[arb(a).mid() for a in point] for point in points], arb(2) ** (16 - ctx.prec)
+    for _ in range(steps):
+        points = [[a.mid() for a in point] for point in newton_image(surface, points)]
+        # a coordinate that is no larger than rounding errors is 0
+        points = [[a if abs(a) > least else arb(0) for a in point] for point in points]
+    return points
+
+
+def propose(theorem, points: Sequence | None = None) -> str:
+    """Return a certificate of an orbit near points (x, y), by default those of a symmetric orbit.
+
+    Its radius is the largest for which the checker accepts it.
+    """
+    surface = theorem.bounds["surface"]
+    if points is None:
+        points = approximate_orbits.points_of(theorem, theorem.bounds["type"])
+    with ctx.workprec(BITS):
+        centres = centre_rows(polished(surface, points))
+    return with_largest_radius(theorem, header("periodic orbit", surface), centres)
+
+
+def centre_rows(points: Sequence) -> str:
+    """Return the field with an orbit's points."""
+    return rows("points", (row(point, DIGITS) for point in points))
+
+
+def with_largest_radius(theorem, before: str, after: str = "") -> str:
+    """Return a text with the largest radius of one digit that the checker accepts, or the smallest.
+
+    The line with the radius stands between `before` and `after`. What holds for a radius must hold
+    for smaller ones.
+    """
+    sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]
+    texts = [f"{before}radius = {size}\n{after}" for size in sizes]
+    holds = theorem.holds_for_any_radius
+    return texts[bisect_left(texts, True, hi=len(texts) - 1, key=holds)]
+
+
+def propose_only_fixed_point(theorem) -> str:
+    """Return the certificate that there is one fixed point at each energy up to the theorem's."""
+    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
+    theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
+    fields = f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
+    return ball_header("only fixed point", k, g) + fields

@@ -1,0 +1,191 @@
+"""Proofs on request: of symmetric orbits, horseshoes on these, and invariant curves."""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.inputs import number
+from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.flight import NotProvedError
+from study.enclosure.surface import Exact, Surface, exact
+
+from ..checks import curve, horseshoe, periodic
+from ..checks.certificate import Finding
+from ..search import approximate_orbits
+from ..search import curve as curve_search
+from ..search import horseshoe as horseshoe_search
+from ..search import periodic as orbit_search
+from .statements import Theorem
+
+
+def prove_orbit(
+    ball: Ball | Surface, orbit: xr.Dataset, energy: Exact | None = None
+) -> periodic.Orbit:
+    """Prove that a periodic orbit exists, is alone in a box, and of which type it is.
+
+    Parameters
+    ----------
+    ball : Ball or Surface
+        The doubles k and g of a Ball are taken as exact; a Surface has exact numbers.
+    orbit : xarray.Dataset
+        One orbit of `symmetric_orbits`: x, xdot, udot on `point`, type.
+    energy : int, Fraction, Decimal or str, optional
+        Exact energy of a Ball's orbit; by default the double in the orbit's attributes.
+
+    Returns
+    -------
+    checks.periodic.Orbit
+        Enclosures points (x, y), impacts and trace; type; radius, the largest of one digit for
+        which the orbit is proved to be the only one.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+
+    Examples
+    --------
+    >>> from pseudorigid import symmetric_orbits
+    >>> from pseudorigid.dynamics.ball import Ball
+    >>> orbit = symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 1).isel(orbit=0)
+    >>> prove_orbit(Surface("1/5", "1/25", "1/100"), orbit).type
+    'elliptic'
+    """
+    surface, points, kind = _request(ball, orbit, energy)
+    name = f"the {kind} orbit of period {len(points)} at {surface}"
+    bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
+    theorem = Theorem(name, name, periodic.check, bounds)
+    with _reported(name):
+        return theorem.prove(orbit_search.propose(theorem, points)).parts["orbit"]
+
+
+def prove_horseshoe(
+    ball: Ball | Surface, orbit: xr.Dataset, *, side: str, energy: Exact | None = None
+) -> tuple[str, Finding]:
+    """Prove a horseshoe on a hyperbolic orbit by its outer or inner symmetric connection.
+
+    Parameters
+    ----------
+    ball, orbit
+        As for `prove_orbit`.
+    side : {"outer", "inner"}
+        The unstable branches of the connection, on this side at the orbit's first point.
+    energy : int, Fraction, Decimal or str, optional
+        As for `prove_orbit`.
+
+    Returns
+    -------
+    str, checks.certificate.Finding
+        The certificate, and the result of its checker: digits, margins, parts.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+
+    References
+    ----------
+    Zgliczynski and Gidea, Covering relations for multidimensional dynamical systems, J.
+    Differential Equations 202 (2004). Kokubu, Wilczak and Zgliczynski, Rigorous verification of
+    cocoon bifurcations in the Michelson system, Nonlinearity 20 (2007).
+    """
+    if side not in ("outer", "inner"):
+        raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
+    surface, points, kind = _request(ball, orbit, energy)
+    if kind != "hyperbolic":
+        raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
+    radius = prove_orbit(ball, orbit, energy).radius
+    bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
+    name = f"the horseshoe at {surface}"
+    theorem = Theorem(name, name, horseshoe.check, bounds)
+    with _reported(name):
+        text = horseshoe_search.propose(theorem, side, points=points)
+        return text, theorem.prove(text)
+
+
+def prove_curve(
+    ball: Ball | Surface, energy: Exact | float, rotation_number: float
+) -> tuple[str, Finding]:
+    """Prove an invariant curve around the elliptic fixed point, which no orbit ever crosses.
+
+    Parameters
+    ----------
+    ball : Ball or Surface
+        The doubles k and g of a Ball are taken as exact; of a Surface only its exact k and g count.
+    energy : int, Fraction, Decimal, str or float
+        Total energy. It is exact, also the double that a float is.
+    rotation_number : float
+        Clockwise turns per impact, between 0 and 1. The curve has a number within 5e-4 of it whose
+        continued fraction ends in ones: its partial quotients are the first ones of this number's.
+        A number too close to a fraction of small integers is refused.
+
+    Returns
+    -------
+    str, checks.certificate.Finding
+        The certificate, and the result of its checker. `digits` has the enclosures "rotation
+        number", "area" and "share", that of the section inside. `parts` has "polygons", the
+        vertices (x, y) of a polygon between the fixed point and the curve; no orbit that starts
+        inside it ever leaves the curve's inside.
+
+    Raises
+    ------
+    ValueError
+        One line that says what cannot be proved and why.
+
+    References
+    ----------
+    de la Llave, Gonzalez, Jorba and Villanueva, KAM theory without action-angle variables,
+    Nonlinearity 18 (2005).
+
+    Examples
+    --------
+    >>> from pseudorigid.dynamics.ball import Ball
+    >>> prove_curve(Ball(k=0.2, g=0.04), 0.01, 1.5)
+    Traceback (most recent call last):
+    ...
+    ValueError: rotation_number = 1.5 is not allowed: one number between 0 and 1
+    """
+    rotation = number(
+        "rotation_number", rotation_number, "one number between 0 and 1", lambda v: 0.0 < v < 1.0
+    )
+    if isinstance(energy, float) and not math.isfinite(energy):
+        raise ValueError(f"energy = {energy} is not allowed: a finite number")
+    exact_energy = exact("energy", Fraction(energy) if isinstance(energy, float) else energy)
+    k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
+    surface = Surface(k, g, exact_energy)
+    name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
+    bounds = {"radius": Fraction("1e-6"), "share": Fraction(0), "error": Fraction(1)}
+    theorem = Theorem(name, name, curve.check, bounds | {"surface": surface, "period": 1})
+    with _reported(name):
+        return curve_search.search(theorem, rotation)
+
+
+@contextmanager
+def _reported(name: str) -> Iterator[None]:
+    """Raise ValueError, with the name of what was to be proved, where a proof fails."""
+    try:
+        yield
+    except (NotProvedError, ValueError, ArithmeticError) as error:
+        raise ValueError(f"{name} cannot be proved: {error}") from None
+
+
+def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, list[list[float]], str]:
+    """Return the surface, the points (x, y) and the type of a requested orbit."""
+    if "orbit" in orbit.dims:
+        raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
+    if isinstance(ball, Surface):
+        surface = ball
+    else:
+        energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
+        surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
+    near, states = approximate_orbits.ball(surface), states_of(orbit)
+    actual, expected = float(np.ravel(near.energy(*states))[0]), float(surface.energy)
+    if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
+        raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")
+    return surface, chart(near.k, *states).T.tolist(), str(orbit["type"].item())

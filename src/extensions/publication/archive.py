@@ -1,0 +1,303 @@
+"""Archives of what is published and what it was made from, and comparison of a tree with them.
+
+An archive is one tar file. The same files give the same bytes: names are sorted, there are no
+times and no owners, modes follow from names, and nothing is compressed. An archive with packages
+also has the sources of this tree and the locked packages, so that its unpacked folder runs
+`./reproduce` without a network.
+"""
+
+import hashlib
+import io
+import json
+import os
+import tarfile
+import tempfile
+from collections.abc import Collection, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from pipeline.checks import manifest, published_sets, verify
+from pipeline.checks.difference import Comparison, dataset_difference
+from pipeline.checks.published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_sums
+from pipeline.config.paths import PAPER, PUBLISHED, Config
+from pipeline.declaration import extensions
+from pipeline.records import files
+from pipeline.records.artifacts import ArtifactError, load
+from pipeline.records.files import FileError, file_hash, read_bytes
+from pipeline.records.pictures import PictureError, difference
+from pipeline.records.record import SHAPE, git, read_record, record_path
+
+TOP = "pseudorigid"  # the folder in the tar
+ABOUT = "README.txt"
+PACKAGES = "packages"  # the folder of the locked packages; `reproduce` installs from it
+_EXECUTABLES = ("reproduce", ".ci/run")
+EXPLORER = "results/explorer.html"  # if there is an explorer
+# Files of the tree that say what the results were made from.
+_INPUTS = (
+    *("config.yaml", "Snakefile", "LICENSE", "CITATION.cff", "workflow/rules/*.smk"),
+    *("src/extensions/*/scenes.yaml", "src/extensions/*/rules.smk"),
+    "src/extensions/*/certificates/*.toml",
+)
+_ABOUT_TEXT = Path(__file__).with_suffix(".txt")
+
+_WITH_PACKAGES = f"""\
+Draw all figures again here, without a network (src/extensions/publication/rebuild.md says how to do
+it by hand):
+
+    ./reproduce
+
+The packages in {PACKAGES}/ are those of requirements/, for the machine and the version of Python
+that the name of the archive has.
+
+"""
+
+Contents = dict[str, bytes]  # path of a file -> its bytes
+
+
+class ArchiveError(ValueError):
+    """An archive cannot be made or read. The message is one line."""
+
+
+def write(root: Path, checked: Config, path: Path | str, packages: Collection[Path] = ()) -> str:
+    """Write the archive of the tree at `root`, whole or not at all, and return its sha256.
+
+    With `packages`, files of the locked packages, it also has these and the tree's sources. Raises
+    ArchiveError if results are missing or not current, if published files are not the committed
+    ones, or if `path` is a file that is no archive.
+    """
+    path = Path(path)
+    if os.path.isdir(path):
+        raise ArchiveError(f"{path} is a folder")
+    if os.path.exists(path):  # another archive may be replaced, anything else is the user's
+        read(path)
+    left_out = refuse_unpublished(root, checked)
+    print(*left_out, sep="\n", end="\n" * bool(left_out))
+    archived = contents(root, checked, packages)
+    with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
+        for name, data in archived.items():
+            entry = tarfile.TarInfo(f"{TOP}/{name}")
+            entry.size, entry.mode = len(data), 0o755 if name in _EXECUTABLES else 0o644
+            tar.addfile(entry, io.BytesIO(data))
+    return str(file_hash(path))
+
+
+def refuse_unpublished(root: Path, checked: Config) -> list[str]:
+    """Raise ArchiveError for a result that is not current, or a file that is not the committed one.
+
+    Figures and data of sets that are made on request may be missing. Returns a line for each scene
+    that cannot be made.
+    """
+    left_out = []
+    for findings in verify.verify(root, checked):
+        published_set = findings.published_set
+        if problem := findings.not_published(root, partial=published_set.on_request):
+            raise ArchiveError(f"{problem}: run {published_set.command}")
+        if unlisted := published_set.unlisted(root):
+            raise ArchiveError(unlisted[0])  # which accept does not mend
+        if problems := [*findings.problems, *_uncommitted(findings)]:
+            raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
+        left_out += findings.left_out
+    return left_out
+
+
+def _uncommitted(findings: verify.Findings) -> Iterator[str]:
+    """Yield a line for each published file that is new or not the committed one."""
+    for name, layers in findings.layers.items():
+        if layers is None or name in findings.differences:
+            words = "; ".join((layers or {"file": "new"}).values())
+            yield f"{findings.published_set.folder}/{name} is not the committed one: {words}"
+
+
+def contents(root: Path, checked: Config, packages: Collection[Path] = ()) -> Contents:
+    """Return the files that an archive of this tree has, as far as they exist."""
+    archived = {f"{PACKAGES}/{_short(file.name)}": read_bytes(file) for file in packages}
+    datasets: list[str] = []
+    paths = _sources(root) if archived else []
+    for pattern in _INPUTS:
+        paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
+    for published_set in published_sets.committed_sets(checked):
+        paths += published_set.texts
+        if not manifest.is_present(root, published_set):
+            continue
+        names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]
+        paths += [f"{published_set.folder}/{name}" for name in names]
+        data = sorted({path for stages in published_set.data.values() for path in stages.values()})
+        present = [path for path in data if (root / path).is_file()]
+        datasets += [f"{len(present)} of {len(data)} datasets of {published_set.command}"]
+        paths += present
+        for path in (*present, *published_set.drawn.values()):
+            if (root / path).is_file():
+                archived[record_path(path)] = _public_record(root, path)
+    archived |= {path: read_bytes(root / path) for path in paths if (root / path).is_file()}
+    if "explorer" in extensions():
+        from extensions.explorer import page
+
+        try:
+            archived[EXPLORER] = page.render(checked, root).encode()
+        except ValueError as error:
+            raise ArchiveError(str(error)) from None
+    more, about = _WITH_PACKAGES if packages else "", _ABOUT_TEXT.read_text(encoding="utf-8")
+    about = about.format(sets=", ".join(datasets), packages=more)
+    archived[ABOUT] = about.encode()
+    archived = dict(sorted(archived.items()))
+    sums = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
+    return archived | {SUMS: format_sums(sums).encode()}
+
+
+def _sources(root: Path) -> list[str]:
+    """Return the paths of the files that git tracks in this tree."""
+    listed = git("ls-files", "-z", root=root)
+    if listed is None:
+        raise ArchiveError("an archive with packages needs git, which lists this tree's sources")
+    return [path for path in listed.decode().split("\0") if path and (root / path).is_file()]
+
+
+def _public_record(root: Path, path: str) -> bytes:
+    """Return the record of a result without commit and Python, which belong to one machine."""
+    try:
+        record = read_record(root, record_path(path))
+    except ValueError:
+        return b""
+    public = {name: record[name] for name in SHAPE}
+    return (json.dumps(public, sort_keys=True, indent=1) + "\n").encode()
+
+
+def read(path: Path | str) -> Contents:
+    """Return the regular files of an archive, each checked by its sum. Nothing is written."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise ArchiveError(f"{path}: no archive: it is no regular file")
+    try:
+        with files.open_regular(path) as file, tarfile.open(fileobj=file, mode="r:") as tar:
+            archived = {entry.name.removeprefix(f"{TOP}/"): _content(tar, entry) for entry in tar}
+    except FileError as error:
+        raise ArchiveError(str(error)) from None
+    except (tarfile.TarError, OSError, ValueError, MemoryError) as error:
+        raise ArchiveError(f"{path}: no archive, or damaged: {error}") from None
+    if SUMS not in archived:
+        raise ArchiveError(f"{path}: not made by ./reproduce archive, or damaged: no {SUMS}")
+    sums = _parsed(archived.pop(SUMS))
+    for name in sorted({*sums, *archived}):
+        if name not in archived or hashlib.sha256(archived[name]).hexdigest() != sums.get(name):
+            shown = name if name in archived else repr(name)  # a listed name may be any text
+            raise ArchiveError(f"{path}: damaged: {shown} does not fit {SUMS}")
+    return archived
+
+
+def _content(tar: tarfile.TarFile, entry: tarfile.TarInfo) -> bytes:
+    """Return the bytes of a regular file with a plain name."""
+    plain = entry.type == tarfile.REGTYPE and not entry.issparse() and _is_plain(entry.name)
+    file = tar.extractfile(entry) if plain else None
+    if file is None:
+        raise tarfile.TarError(f"./reproduce archive did not write {entry.name!r:.100}")
+    return file.read()
+
+
+def _is_plain(name: str) -> bool:
+    """Return whether a path from elsewhere stays below the folder that it starts from."""
+    return name.isprintable() and not {"", ".", ".."} & {*name.split("/")}
+
+
+def _short(name: str) -> str:
+    """Return the name of a wheel, with as many of its platforms as a tar has room for."""
+    while len(name) > tarfile.LENGTH_NAME:
+        stem, _, platforms = name.removesuffix(".whl").rpartition("-")
+        name = f"{stem}-{platforms.partition('.')[2]}.whl"
+    return name
+
+
+def _parsed(sums: bytes) -> dict[str, str]:
+    """Return file -> sha256 of an archive's SHA256SUMS."""
+    lines = (line.split("  ", 1) for line in sums.decode("utf-8", "replace").splitlines())
+    return {line[1]: line[0] for line in lines if len(line) == 2}
+
+
+def _read_folder(folder: Path, checked: Config) -> Contents:
+    """Return the files of another tree, or of an unpacked archive, that an archive would have."""
+    try:
+        manifest.read(folder, PUBLISHED[PAPER])
+        archived = contents(folder, checked)
+        if (folder / EXPLORER).is_file():  # otherwise the page of its config and its manifest
+            archived[EXPLORER] = read_bytes(folder / EXPLORER)
+        # An archive may have files that this tree's config does not name.
+        for name in _parsed(read_bytes(folder / SUMS)) if (folder / SUMS).is_file() else ():
+            if name not in archived and _is_plain(name) and (folder / name).is_file():
+                archived[name] = read_bytes(folder / name)
+    except (ChecksumError, FileError) as error:
+        expected = "no tree of this project, and no archive of it that was unpacked"
+        raise ArchiveError(f"{folder} is {expected}: {error}") from None
+    del archived[SUMS]
+    return archived
+
+
+def compare(root: Path, checked: Config, path: Path) -> int:
+    """Compare this tree with an archive, an unpacked one, or another tree; print a line a file.
+
+    Returns 0 if both have the same files with the same bytes. Raises ArchiveError if `path` is none
+    of these.
+    """
+    theirs = _read_folder(path, checked) if path.is_dir() else read(path)
+    absent = f"not in the {'folder' if path.is_dir() else 'archive'}"
+    ours = contents(root, checked)
+    if any(name.startswith(f"{PACKAGES}/") for name in theirs):  # it has the sources too
+        ours |= {name: read_bytes(root / name) for name in _sources(root)}
+    for name in [name for name in theirs if name.startswith(f"{PACKAGES}/")]:
+        del theirs[name]  # their hashes are in requirements/
+    for name in (SUMS, ABOUT):  # these list the datasets that exist
+        ours.pop(name, None)
+        theirs.pop(name, None)
+    names = sorted({*ours, *theirs})
+    counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
+    width, sets = max(map(len, names)), published_sets.committed_sets(checked)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ours.keys() & theirs.keys():  # `_layers` compares files
+            if ours[name] != theirs[name] or name.endswith(f"/{published_sets.MANIFEST}"):
+                files.write_whole(Path(folder, name), theirs[name])
+        for name in names:
+            state = "identical" if ours.get(name) == theirs.get(name) else "differs"
+            if name not in theirs or name not in ours:
+                state = absent if name not in theirs else "missing here"
+            counts[state] += 1
+            print(f"{name:{width}}  {state}")
+            if state == "differs":
+                for layer, words in _layers(root, sets, name, Path(folder)).items():
+                    print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
+    print("", ", ".join(f"{n} {state}" for state, n in counts.items() if n), sep="\n")
+    return int(counts["identical"] < len(names))
+
+
+def _largest_difference(ours: xr.Dataset, theirs: xr.Dataset) -> float:
+    """Return the largest difference of two numbers at the same place of a variable."""
+    gaps = [0.0]
+    for name in ours.variables.keys() & theirs.variables.keys():
+        a, b = ours.variables[name], theirs.variables[name]
+        if a.shape == b.shape and a.dtype.kind in "iuf" and b.dtype.kind in "iuf":
+            gaps.append(float(np.nanmax(np.abs(a.values - b.values), initial=0.0)))
+    return max(gaps)
+
+
+def _layers(root: Path, sets: list[PublishedSet], path: str, other: Path) -> dict[str, str]:
+    """Return layer -> how a file of this tree differs from its copy in the folder `other`."""
+    layers: dict[str, str] = {}
+    layer = "data" if path.endswith(".nc") else "drawing"
+    try:
+        if layer == "data":
+            ours, theirs = load(root / path), load(other / path)
+            words = dataset_difference(root, path, manifest.describe_data(theirs))
+            size = f"numbers differ by at most {_largest_difference(ours, theirs):.3g}"
+            return {"data": f"{words}; {size}" if words else "the same in other bytes"}
+        folder, name = os.path.split(path)
+        for published_set in sets:
+            if folder == published_set.folder and name in published_set.drawn:
+                with suppress(ChecksumError):
+                    committed = manifest.read(other, folder)
+                    layers = Comparison(root, published_set, committed).layers(name) or {}
+                image = root / published_set.results / "differences" / name
+                if "file" not in layers:
+                    words = difference(root / path, other / path, image)[0]
+                    layers["drawing"] = f"{path}: {words}"
+    except (ArtifactError, PictureError, FileError) as error:
+        layers[layer] = str(error)
+    return layers

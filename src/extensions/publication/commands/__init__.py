@@ -1,0 +1,1 @@
+"""Commands that publish the figures and what they were made from."""

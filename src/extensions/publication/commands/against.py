@@ -1,0 +1,19 @@
+"""./reproduce verify --against PLACE: compare file by file with an archive or another tree."""
+
+import os
+
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.session import CommandLineError, one_line
+from pipeline.records.sources import ROOT
+
+from .. import archive
+
+
+def run(args: Arguments) -> int:
+    """Print how each file compares, and return 0 if all are the same."""
+    other = args.start / args.against
+    # Path.exists raises an error for a name that is too long or in a folder without access.
+    if not args.against or not os.path.exists(other):
+        raise CommandLineError(f"verify: no archive or folder {args.against or repr('')}")
+    with one_line("verify: ", archive.ArchiveError):
+        return archive.compare(ROOT, args.checked, other)

@@ -1,0 +1,29 @@
+"""./reproduce article: set the replication article from the results."""
+
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.packages import add_packages
+from pipeline.cli.session import interruptible, locked, one_line
+from pipeline.records.files import write_whole
+from pipeline.records.sources import ROOT
+
+from .. import archive, citation
+
+ARTICLE = "results/article.pdf"
+NUMBERS = "results/article/numbers.json"
+
+
+def run(args: Arguments) -> int:
+    """Set the article; results must be current, and figures the committed ones."""
+    with locked(), interruptible(), one_line("article: "):
+        archive.refuse_unpublished(ROOT, args.checked)  # before the download
+    add_packages("article")
+    from ..article import numbers, typesetting
+
+    with locked(), interruptible(), one_line("article: "):
+        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.checked))
+        pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
+        write_whole(ROOT / ARTICLE, pdf)
+    print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")
+    for words in citation.missing(citation.read()):
+        print(f"to be filled in in {citation.CITATION}: {words}")
+    return 0

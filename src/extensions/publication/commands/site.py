@@ -1,0 +1,107 @@
+"""./reproduce site: write one folder with the report, the explorer and the article."""
+
+import os
+import shutil
+from pathlib import Path
+
+from pipeline.cli import figures
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.packages import add_packages
+from pipeline.cli.session import UsageError, interruptible, locked, one_line
+from pipeline.config import PAPER
+from pipeline.records.sources import ROOT
+
+from .. import archive
+
+SITE = "results/site"
+# Name in the menu of the report -> the file beside it.
+_BESIDE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
+# A web server shows this page for the folder itself.
+_INDEX = """\
+<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="refresh" content="0; url=report.html">
+<title>Dynamics of a pseudo-rigid ball: report, article and explorer</title>
+</head>
+<body>
+<ul>
+<li><a href="report.html">Report</a></li>
+<li><a href="article.html">Article</a> (<a href="article.pdf">PDF</a>)</li>
+<li><a href="explorer.html">Explorer</a></li>
+</ul>
+</body>
+</html>
+"""
+# In the explorer, which also exists alone and then has no links.
+_LINKS = (
+    '<nav><a href="report.html">Report</a> · <a href="article.html">Article</a></nav>\n</header>'
+)
+
+
+def run(args: Arguments) -> int:
+    """Make missing results, then the folder, whole or not at all."""
+    with locked():
+        files = figures.of_scenes(args.checked, PAPER)
+        status = figures.make(args.checked, PAPER, files, args)
+        if status or args.makes_nothing:
+            return status
+        with one_line("site: "):
+            archive.refuse_unpublished(ROOT, args.checked)  # before the download
+            _refuse_others(ROOT / SITE)
+    add_packages("article")
+    part = ROOT / SITE.replace("site", f".site.{os.getpid()}.part")
+    with locked(), interruptible(), one_line("site: "):
+        try:
+            _write(part, args)
+            _replace(part, ROOT / SITE)
+        except OSError as error:
+            raise UsageError(f"{error.filename}: cannot be written: {error.strerror}") from None
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+    size = sum(file.stat().st_size for file in (ROOT / SITE).rglob("*") if file.is_file())
+    print(f"\n{SITE}/  {size / 1e6:.1f} MB: open {SITE}/index.html, or serve the folder")
+    return 0
+
+
+def _refuse_others(folder: Path) -> None:
+    """Raise ValueError for a file that this command did not write: it would be deleted."""
+    own = [*folder.glob("*.html"), folder / "article.pdf", *(folder / PAPER).glob("*.nc")]
+    others = [file for file in sorted(folder.rglob("*")) if file.is_file() and file not in own]
+    if others:
+        raise ValueError(f"{others[0]} is not of this command: move it away")
+
+
+def _write(folder: Path, args: Arguments) -> None:
+    """Write all files of the site into a new folder."""
+    from extensions.explorer import page as explorer
+    from pipeline.checks.report import page
+
+    from ..article import numbers, typesetting
+
+    data = sorted((ROOT / "results" / PAPER).glob("*.nc"))
+    (folder / PAPER).mkdir(parents=True)
+    for file in data:
+        shutil.copyfile(file, folder / PAPER / file.name)
+    numbers_file = folder / "numbers.json"
+    numbers_file.write_text(numbers.numbers_of(ROOT, args.checked), encoding="utf-8")
+    files = {
+        "index.html": _INDEX.encode(),
+        "report.html": page.render(ROOT, args.checked, _BESIDE).encode(),
+        "explorer.html": explorer.render(args.checked).replace("</header>", _LINKS, 1).encode(),
+        "article.pdf": typesetting.typeset(ROOT, numbers_file),
+        "article.html": typesetting.web_page(ROOT, numbers_file),
+    }
+    numbers_file.unlink()
+    for name, content in files.items():
+        (folder / name).write_bytes(content)
+
+
+def _replace(part: Path, folder: Path) -> None:
+    """Put a new folder in the place of an old one, which is deleted."""
+    old = part.with_name(part.name + ".old")
+    if folder.exists():
+        folder.rename(old)
+    part.rename(folder)
+    shutil.rmtree(old, ignore_errors=True)

@@ -1,0 +1,103 @@
+"""The commands of ./reproduce: those of the core, and with them those of extensions.
+
+`reproduce` prints its help before anything is installed: only the standard library is used here.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from .declaration import Command, SnakemakeCommand, extensions, names, switch
+
+
+def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[str, Any]]:
+    return name, {"nargs": "?", "help": text, "metavar": metavar or name.upper()}
+
+
+# Required arguments that argparse treats as optional: without one, the command itself lists the
+# possible names.
+REQUIRED = ("variant", "a", "b")
+_FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
+COMMANDS = {
+    "list": Command("every figure, chart and dataset that can be made, and the state of its file"),
+    "variant": SnakemakeCommand(
+        "make the figures of a variant of config.yaml, in results/NAME/figures/",
+        _name("variant", "a variant of config.yaml", "NAME"),
+        names("figure", _FIGURES),
+    ),
+    "compare": SnakemakeCommand(
+        "show what differs between two variants, figure by figure",
+        _name("a", "a variant of config.yaml, or paper"),
+        _name("b", "another one"),
+        names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
+        module="compare",
+    ),
+    "study": SnakemakeCommand(
+        "compare speed and accuracy with other methods, in more_figures/study/",
+        scenes="study",
+        packages="study",
+        details=" Installs the packages of the other methods first (once).",
+    ),
+    "report": SnakemakeCommand(
+        "write one HTML page: figures, numbers beside the paper's, corrections, run times",
+        module="report",
+    ),
+    "verify": Command(
+        "check whether everything is as committed, and if not, show what differs",
+        switch("--strict", "exit with status 1 for notes too"),
+        switch("--committed", "compare committed files alone: nothing has to be computed here"),
+        details=" The layers are config, source, environment, data, drawing and file. The exit "
+        "status is 1 for other bytes, for results that this tree did not make, and for figures of "
+        "the paper that were not computed here; other differences are notes.",
+    ),
+    "accept": Command(
+        "make the present figures the committed ones",
+        details=" Includes other published pictures that were made, and prints what changed.",
+    ),
+    "clean": Command(
+        "delete generated results; committed files stay",
+        names("folder", "variants, or other folders of results/; without a name, all"),
+        switch("--yes", "do not ask"),
+    ),
+    "benchmark": Command(
+        "measure speeds and print a table of their ratios",
+        module="program",
+        details=" Installs the packages of the study first (once).",
+    ),
+    "test": Command(
+        "run the test suite (arguments go to pytest)",
+        module="program",
+        details=" Installs the packages of the tests first (once).",
+    ),
+    "help": Command(
+        "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")
+    ),
+}
+_MAKING = ("list", "variant", "compare", "study", "report")  # listed first, before extensions
+DEFAULT_COMMAND = SnakemakeCommand(
+    "Draw the paper's figures from config.yaml into paper_figures/, unless they are current.",
+    names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
+    switch("--version", "print the versions of this project and of snakemake"),
+)
+
+
+@cache
+def all_commands() -> dict[str, Command]:
+    """Return the commands of the core and of extensions."""
+    more = {k: v for extension in extensions().values() for k, v in extension.commands.items()}
+    first = {name: COMMANDS[name] for name in _MAKING}
+    return first | more | {k: v for k, v in COMMANDS.items() if k not in _MAKING}
+
+
+def options_of(command: str | None) -> list[tuple[str, dict[str, Any], str]]:
+    """Return the options that extensions add to a command of the core."""
+    return [e.options[command] for e in extensions().values() if command and command in e.options]
+
+
+def module_of(command: Command, name: str, given: Mapping[str, Any]) -> str:
+    """Return the module that runs a command with these arguments."""
+    for option, _, module in options_of(name):
+        if given.get(option.strip("-").replace("-", "_")) is not None:
+            return module
+    module = command.module or name
+    return module if "." in module else f"pipeline.cli.commands.{module}"

@@ -1,0 +1,68 @@
+"""Kinds of chart of the study, whose states and methods are fixed."""
+
+from typing import Literal
+
+from ..fields import NoFormats
+from ..scene import Picture
+
+
+class Work(Picture):
+    """error and failures of each method against its cost"""
+
+    stages = ("work",)
+    drawn_by = "study.charts.work"
+
+    states: Literal["uniform", "grazing"]
+    """Set of states before the flights: over the whole section, or close to grazing."""
+    cost: Literal["evaluations", "seconds"] = "evaluations"
+    """What is drawn across: evaluations of the gap a flight, or its seconds on this machine."""
+
+
+class MeasuredWork(Work):
+    """error and failures of each method, with external solvers, against its cost"""
+
+    stages = ("work_all",)
+    drawn_by = "study.charts.work"
+
+
+class Edges(Picture):
+    """the share of failures near grazing and near a touch of the floor"""
+
+    stages = ("edges",)
+    drawn_by = "study.charts.edges"
+
+
+class MeasuredEdges(Picture):
+    """the share of failures near grazing and near a touch of the floor, with external solvers"""
+
+    stages = ("edges_all",)
+    drawn_by = "study.charts.edges"
+
+
+class Energy(Picture):
+    """the drift of the energy, and the impacts missed"""
+
+    stages = ("drift",)
+    drawn_by = "study.charts.energy"
+
+
+class Separation(Picture):
+    """the distance of each method's orbit from the proved one"""
+
+    stages = ("drift",)
+    drawn_by = "study.charts.separation"
+
+
+class FigureErrors(Picture):
+    """the error of each figure by each method"""
+
+    stages = ("needs",)
+    drawn_by = "study.charts.figure_errors"
+
+
+class MissedImpacts(Picture):
+    """data of the impacts that each method misses, without a picture"""
+
+    stages = ("missed_all",)
+
+    formats: NoFormats = []  # type: ignore[assignment]

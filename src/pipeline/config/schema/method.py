@@ -1,0 +1,48 @@
+"""The methods of a scene: scan and bisection, and those of extensions."""
+
+from collections.abc import Mapping
+from functools import reduce
+from operator import or_
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Tag
+
+from ...declaration import extensions, imported
+from .fields import TAGS, Block, allowed
+
+
+class Scan(Block):
+    """a mapping with the keys scan and tolerance"""
+
+    scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
+    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected. A
+    smaller step misses fewer impacts and takes longer; a ball whose impact is missed falls through
+    the floor. 0.1 is a typical choice."""
+    tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
+    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding, and
+    scenes with manifolds allow no more."""
+
+
+def _of_extensions() -> dict[str, type[Block]]:
+    """Return the classes of further methods by the key that only they have."""
+    found = {}
+    for extension in extensions().values():
+        for key, place in extension.methods.items():
+            found[key] = imported(place)
+    return found
+
+
+_BY_KEY = _of_extensions()
+METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
+
+
+def _tag(value: Any) -> str:
+    """Return the tag of the method that a value is an attempt at."""
+    keys = value if isinstance(value, Mapping) else ()
+    return next((TAGS[i] for i, key in enumerate(_BY_KEY, 1) if key in keys), TAGS[0])
+
+
+_WORDS = ["a mapping with the keys scan and tolerance", *(f"{{{key}: true}}" for key in _BY_KEY)]
+_TAGGED = [Annotated[block, Tag(TAGS[i])] for i, block in enumerate(METHOD_BLOCKS.values())]
+_UNION: Any = Annotated[reduce(or_, _TAGGED), Discriminator(_tag)] if _BY_KEY else Scan
+Method: Any = Annotated[_UNION, allowed(", or ".join(_WORDS))]

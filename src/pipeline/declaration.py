@@ -1,0 +1,164 @@
+"""What the core and an extension declare: stages, sets of scenes, commands; and the extensions.
+
+An extension is a folder of src/extensions with a module `extension.py`, which has an `Extension`
+called EXTENSION. Files beside it are found by their names:
+
+    kinds.py          kinds of picture: the fields of their scenes
+    scenes.yaml       blocks of config.yaml that it ships, and variants
+    rules.smk         rules of its stages and pictures
+    captions.toml     captions of its pictures
+    examples.yaml     a small scene of each kind, for the docs and the tests
+    datasets.toml     small runs of its stages, for docs/data.md
+    README.md         its page of documentation
+
+`reproduce` prints its help before anything is installed: only the standard library is used here,
+and in each `extension.py`.
+"""
+
+import importlib
+from collections.abc import Mapping
+from functools import cache, partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+FOLDER = Path(__file__).resolve().parents[1] / "extensions"
+
+
+class Stage(NamedTuple):
+    """A function that computes a dataset from fields of a scene and from other datasets.
+
+    It is called as f(ball, energy, *inputs, **fields), without ball and energy for scenes that have
+    none. A function with the keyword `progress` is given one that reports the share done, and one
+    with `folder` keeps finished parts there.
+    """
+
+    function: str  # module.function
+    fields: str = ""  # the scene's fields that it takes, as far as the scene has them
+    inputs: tuple[str, ...] = ()  # stages whose datasets it takes
+    follows: bool = False  # it follows orbits, so that a scene's `method` decides its data too
+    # A function block -> blocks of config of the parts that are computed each by itself, and the
+    # function that computes one. `function` then joins them.
+    parts: str = ""
+    part: str = ""
+    paper: str = ""  # a function that adds what it takes of the paper's scenes, and their datasets
+    reads: str = ""  # a data file, as a template of its fields, if it reads no other one
+    measured: bool = False  # its data are times of this machine, and are never compared
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the fields."""
+        return tuple(self.fields.split())
+
+
+class SceneSet(NamedTuple):
+    """Scenes that are drawn by one command and published in one folder."""
+
+    folder: str  # of the published files; empty if nothing is published
+    command: str  # that makes them
+    heading: str = ""  # in docs/figures.md
+    key: str = ""  # of config.yaml, whose block has the scenes; empty if a function gives them
+    scenes: str = ""  # this function: module.function
+    kind: str = ""  # of a scene that does not say its kind
+    texts: tuple[str, ...] = ()  # other files that the command writes
+
+
+class Command:
+    """A command: its line in the list of commands, its arguments, and the module that runs it.
+
+    Each argument is a name with the keyword arguments of argparse's add_argument. A module in
+    pipeline.cli.commands has a name without a dot. `scenes` names the set of scenes that it makes,
+    `packages` a list in requirements/ that it installs first, and `needs` other extensions.
+    """
+
+    def __init__(
+        self,
+        line: str,
+        *arguments: tuple[str, dict[str, Any]],
+        module: str | None = None,
+        details: str = "",
+        runs_snakemake: bool = False,
+        scenes: str = "",
+        packages: str = "",
+        needs: tuple[str, ...] = (),
+    ) -> None:
+        self.line, self.arguments, self.module, self.details = line, arguments, module, details
+        self.runs_snakemake, self.scenes = runs_snakemake, scenes
+        self.packages, self.needs = packages, needs
+
+
+# Such a command also reads -n and --cores, and what follows -- goes to snakemake.
+SnakemakeCommand = partial(Command, runs_snakemake=True, module="figures")
+
+
+def names(name: str, text: str) -> tuple[str, dict[str, Any]]:
+    """Declare an argument for any number of names."""
+    return name, {"nargs": "*", "help": text}
+
+
+def switch(name: str, text: str) -> tuple[str, dict[str, Any]]:
+    """Declare an option without a value."""
+    return name, {"action": "store_true", "help": text}
+
+
+class Extension(NamedTuple):
+    """What an extension adds, beside the files in its folder."""
+
+    needs: tuple[str, ...] = ()  # other extensions without which its modules cannot be loaded
+    stages: Mapping[str, Stage] = {}
+    sets: Mapping[str, SceneSet] = {}  # by their folders in results/
+    commands: Mapping[str, Command] = {}
+    # Command of the core -> name, keyword arguments and module of a further option. If the option
+    # is given, this module runs the command.
+    options: Mapping[str, tuple[str, dict[str, Any], str]] = {}
+    removed: Mapping[tuple[str, str], str] = {}  # command, option -> what to do instead
+    blocks: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
+    methods: Mapping[str, str] = {}  # key of a scene's `method` -> the class of its block
+    exact: Mapping[str, Mapping[str, str]] = {}  # method -> stage -> the function that computes it
+    reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
+    report: str = ""  # a module with a part of the report
+    benchmark: str = ""  # a module with rows of the benchmark
+    generated: tuple[str, ...] = ()  # patterns of files in results/ that its commands write
+
+
+@cache
+def _declared() -> dict[str, Extension]:
+    """Return what each folder of src/extensions declares."""
+    folders = [file.parent.name for file in sorted(FOLDER.glob("*/extension.py"))]
+    return {
+        name: importlib.import_module(f"extensions.{name}.extension").EXTENSION for name in folders
+    }
+
+
+@cache
+def extensions() -> dict[str, Extension]:
+    """Return the extensions that are there with all that they need, each after what it needs."""
+    declared, found = _declared(), dict[str, Extension]()
+
+    def add(name: str) -> bool:
+        if name in declared and name not in found and all(map(add, declared[name].needs)):
+            found[name] = declared[name]
+        return name in found
+
+    for name in declared:
+        add(name)
+    return found
+
+
+def lacking(command: str) -> str | None:
+    """Return an extension that is not there and that a command needs, or None."""
+    for extension in _declared().values():
+        if command in extension.commands:
+            needed = (*extension.needs, *extension.commands[command].needs)
+            return next((name for name in needed if name not in extensions()), None)
+    return None
+
+
+def imported(name: str) -> Any:
+    """Return what a name MODULE.NAME stands for."""
+    module, _, last = name.rpartition(".")
+    return getattr(importlib.import_module(module), last)
+
+
+def files(name: str) -> list[Path]:
+    """Return the files of this name in the folders of extensions, in the order of these."""
+    return [file for each in extensions() if (file := FOLDER / each / name).is_file()]

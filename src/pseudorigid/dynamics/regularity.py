@@ -1,0 +1,46 @@
+"""Criteria that tell regular orbits from chaotic ones.
+
+The length exp(G) of a tangent vector grows in proportion to the number of impacts n on a regular
+orbit, and like exp(lambda n), with a Lyapunov exponent lambda > 0, on a chaotic one.
+
+The *growth* of an orbit of n impacts is the mean of G over its last quarter less the mean of G over
+its second quarter. It is ln(7/3) = 0.85 on average on a regular orbit of any length, and lambda n/2
+on a chaotic one. An orbit is regular if its growth is below GROWTH_THRESHOLD.
+
+From exponents of whole orbits the growth cannot be computed. A second criterion serves for these:
+an orbit is regular if its largest exponent is at most `regular_bound`.
+tests/dynamics/test_regularity.py checks that both criteria agree.
+"""
+
+import numpy as np
+
+from ..kernel.arithmetic import log
+
+# Half the threshold still exceeds a regular orbit's 0.85.
+GROWTH_THRESHOLD = 2.2
+# `verdict` decides on an orbit before its end only if the verdict holds with the threshold divided
+# and multiplied by this factor; `regular_strict` and `regular_lenient` are shares with these two.
+MARGIN_FACTOR = 2.0
+# Before its end an orbit is called regular only if the winding numbers of its halves differ by
+# less (turns an impact): weighted Birkhoff averages converge fast on quasi-periodic orbits only.
+WINDING_TOLERANCE = 1e-7
+# Before its end an orbit is called chaotic only if G is larger than this: on a regular orbit G is
+# about ln n after n impacts, 9.7 after 16,000.
+MIN_CHAOTIC_G = 15.0
+
+
+def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
+    """Return which orbits are regular by their growth.
+
+    `exponent` is that of `rotation.winding`: the growth divided by half the number of impacts.
+    """
+    return exponent * (0.5 * impacts) < GROWTH_THRESHOLD
+
+
+def regular_bound(length: int) -> float:
+    """Upper bound of a regular orbit's exponents over a whole orbit, 3 ln n/n.
+
+    ln n/n is the exponent of a tangent vector that grows exactly like n; the factor of 3 leaves
+    room for any other constant of proportionality.
+    """
+    return 3.0 * log(float(length)) / length

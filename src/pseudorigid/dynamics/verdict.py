@@ -1,0 +1,105 @@
+"""Classification of orbits as regular or chaotic, as soon as the verdict is safe.
+
+All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
+on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
+vector (`analyses.regularity`), and the difference between the winding numbers of the two halves,
+which are weighted Birkhoff averages as in `analyses.rotation`.
+
+Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
+numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and
+the logarithm of the tangent vector's length is above MIN_CHAOTIC_G. At the end an undecided orbit
+is regular if its growth is below GROWTH_THRESHOLD. An orbit with an exactly grazing impact, where
+the map has no derivative, is not regular.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .regularity import GROWTH_THRESHOLD, MARGIN_FACTOR, MIN_CHAOTIC_G, WINDING_TOLERANCE
+from .tangent_orbits import SIZE, begin, propagate_with_tangent, weight
+
+FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
+# Verdict on an orbit and what it rests on. `strict` and `lenient` are the verdicts with half and
+# with twice the threshold.
+VERDICT = [
+    ("regular", bool),
+    ("strict", bool),
+    ("lenient", bool),
+    ("winding", float),  # turns an impact
+    ("growth", float),
+    ("exponent", float),  # of a tangent vector, over FIRST_LENGTH without its first quarter
+    ("followed", np.int64),  # impacts
+]
+
+
+def lengths_to_decide(impacts: int) -> list[int]:
+    """Lengths at which orbits are classified, the last one `impacts`."""
+    lengths = [FIRST_LENGTH]
+    while lengths[-1] < impacts:
+        lengths.append(2 * lengths[-1])
+    return [*lengths[:-1], impacts]
+
+
+def classify_orbits(k, states, centre, expected, impacts) -> np.recarray:
+    """Follow orbits for at most `impacts` impacts, at least 4, and return their VERDICT (n,).
+
+    `states` are x, v, w (n,) just before an impact, lengths in g R. `centre` (n,) is the x of the
+    point at y = 0 around which turns are counted, and `expected` (n,) the turns of an impact, or
+    NaN.
+    """
+    lengths = lengths_to_decide(impacts)
+    turning, growing = windows(lengths)
+    shared = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # ends of the exponent's impacts
+    growing = np.concatenate([growing, shared])
+    orbits = begin(k, states, centre, expected)
+    turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
+    verdicts = np.zeros(len(centre), VERDICT).view(np.recarray)
+    undecided = np.arange(len(centre))
+    start = 0
+    for level, length in enumerate(lengths):
+        propagate_with_tangent(orbits, k, start, length, turning, growing, turned, growth)
+        turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
+        (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
+        if not start:
+            verdicts.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
+        strict = grown < GROWTH_THRESHOLD / MARGIN_FACTOR
+        if length < impacts:
+            regular = strict & (np.abs(winding[1] - winding[2]) < WINDING_TOLERANCE)
+            chaotic = (grown > MARGIN_FACTOR * GROWTH_THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_G)
+            decided = regular | chaotic | np.isnan(grown)
+            strict = lenient = regular
+        else:
+            regular, lenient = grown < GROWTH_THRESHOLD, grown < MARGIN_FACTOR * GROWTH_THRESHOLD
+            decided = np.ones(undecided.size, bool)
+        values = {"regular": regular, "strict": strict, "lenient": lenient}
+        values |= {"winding": winding[0], "growth": grown, "followed": length}
+        for name, value in values.items():
+            verdicts[name][undecided] = value
+        start, undecided = length, undecided[~decided]
+        if not undecided.size:
+            break
+        # Indexing by a mask changes the order in memory, for which all kernels compile again.
+        orbits, turned, growth = (np.compress(~decided, a, 1) for a in (orbits, turned, growth))
+    return verdicts
+
+
+def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Return windows, as (first impact, length), over which orbits of m lengths are averaged.
+
+    Turns (3 m, 2) are averaged over each length and its two halves; the logarithm of the tangent
+    vector (2 m, 2) over the second and the last quarter.
+    """
+    turning, growing = [], []
+    for length in lengths:
+        half, quarter = length // 2, length // 4
+        turning += [(0, length), (0, half), (length - half, half)]
+        growing += [(quarter, quarter), (length - quarter, quarter)]
+    return np.array(turning), np.array(growing)
+
+
+def means(turning, growing, turned, growth) -> tuple[np.ndarray, np.ndarray]:
+    """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
+    weights = np.array([[weight(length)] for _, length in turning])
+    late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]
+    return (turned / weights).reshape(-1, 3, turned.shape[1]), late - early

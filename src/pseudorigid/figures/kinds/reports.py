@@ -1,0 +1,76 @@
+"""What each kind of picture reports: quantity -> value as text, measured in its datasets.
+
+A function has the name of a kind and takes the scene's block and the datasets by their stages.
+"""
+
+from typing import Any
+
+import xarray as xr
+
+from ..quantities import about_orbit, energy_of
+
+
+def portrait(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
+    """Count orbits and impacts; give their energy and how near they come to grazing."""
+    speed = float((orbits["xdot"] + orbits["udot"]).min())
+    return {
+        "orbits": f"{orbits.sizes['orbit']:,}",
+        "impacts": f"{orbits.sizes['point']:,}",
+        **energy_of(block, orbits),
+        "least speed of contact": f"{speed:.2g}",
+        "x": f"{float(orbits['x'].min()):.4f} to {float(orbits['x'].max()):.4f}",
+    }
+
+
+def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
+    """Describe the orbit, the times drawn, its period in time and its strain."""
+    from pseudorigid.dynamics.variables import of_type
+
+    t = motion["t"].values
+    orbit = of_type(periodic, block["type"])
+    return about_orbit(periodic, block) | {
+        "time": f"{t[0]:g} to {t[-1]:g}",
+        "time of one period": f"{float(orbit['total_time']):.6f}",
+        "impacts drawn": f"{motion.sizes['impact']:,}",
+        "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
+    }
+
+
+def tangle(
+    block: dict[str, Any], orbits: xr.Dataset, periodic: xr.Dataset, manifolds: xr.Dataset
+) -> dict[str, str]:
+    """Describe the orbit, and count its branches and their points."""
+    return about_orbit(periodic, block) | {
+        "branches": f"{manifolds.sizes['branch']:,}",
+        "points of the lines": f"{manifolds.sizes['vertex']:,}",
+    }
+
+
+def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) -> dict[str, str]:
+    """Describe the orbit, the window and the point."""
+    quantities, attributes = about_orbit(periodic, block), manifolds.attrs
+    for name in ("x", "xdot"):
+        ends = attributes[f"window_{name}"]
+        quantities[f"window, {name}"] = "{:.7g} to {:.7g}".format(*ends)
+    for name in ("x", "xdot"):
+        quantities[f"{name} of the point"] = f"{attributes[f'point_{name}']:.7f}"
+    return quantities
+
+
+def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
+    """Give the final exponents, and mean and spread of the largest ones."""
+    import numpy as np
+
+    from pseudorigid.dynamics.variables import final_exponents
+
+    last = final_exponents(lyapunov)
+    largest = np.sort(last[:, 0])
+    spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
+    rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
+    rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
+    return {
+        "largest exponent": rows[0],
+        "their mean": f"{np.mean(largest):.4f}{spread}",
+        "all three of an orbit, at the end": "; ".join(rows[1:]),
+        "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
+    }

@@ -1,0 +1,269 @@
+"""The charts of the study: work and precision, where methods fail, and what each figure needs."""
+
+import math
+import re
+from functools import partial
+
+import numpy as np
+
+from pseudorigid.figures.axes.limits import decades
+from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
+
+# Colour and mark of each family of methods, or of a method in charts that draw one family's
+# methods apart; similar methods have similar colours.
+STYLES = {
+    "certified march": (style.VERMILION, "o"),
+    "scan 0.5 + bisection": (style.SKY, "o"),
+    "scan 0.2 + bisection": ("#3d94d4", "o"),
+    "scan 0.1 + bisection": (style.BLUE, "o"),
+    "scan 0.05 + bisection": ("#1d5a9b", "o"),
+    "scan 0.02 + bisection": ("#123f78", "o"),
+    "scan 0.01 + bisection": ("#0b2a55", "o"),
+    "time stepping": (style.ORANGE, "o"),
+    "scan 0.1 + brentq": (style.BLUE, "s"),
+    "RK45": ("#6b6b6b", "v"),
+    "DOP853": (style.BLACK, "^"),
+    "DOP853, steps <= 0.1": (style.BLACK, "D"),
+    "LSODA": ("#6b6b6b", "s"),
+    "Radau": ("#a0a0a0", "D"),
+    "heyoka, any direction": (style.PURPLE, "^"),
+    "heyoka, positive direction": (style.GREEN, "^"),
+    "scan 0.1, 1e-03": ("#ecc3da", "o"),
+    "scan 0.1, 1e-06": (style.PURPLE, "o"),
+    "scan 0.1, 1e-09": ("#8f4772", "o"),
+    "engine 1e-03": ("#a86f00", "o"),
+}
+LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
+_ZERO = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
+_MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
+_COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
+_FLAT = 0.02  # share below which a panel has room for the key
+_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
+_COLUMNS, _LINE = 3, 42  # of a key; pixels: height of its lines
+method_key = partial(key, columns=_COLUMNS, size=7.0)
+
+
+@style.pinned()
+def work(scene, data):
+    """Draw a work-precision diagram for one set of states: error and failures against cost.
+
+    Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
+    the right roots, if at most one root in a hundred is wrong. Below is the share of wrong roots.
+    """
+    which, cost = ("uniform", "grazing").index(scene["states"]), scene["cost"]
+    data, families = data.isel(set=which), list(dict.fromkeys(data["family"].values))
+    entries, wrong = _entries(families, families), data["wrong"].values
+    sheet, top = chart_sheet(1030, entries)
+    across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
+    error = _axis_with_zero(_ZERO, 0, "Relative error of the flight time")
+    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
+    shares = (0, 0.2, 0.4, 0.6) if wrong.max() > 0.1 else (0, 0.05, 0.1)
+    share = Axis((0.0, shares[-1]), shares, "Share of wrong roots")
+    lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
+    letters(sheet, upper.frame, lower.frame)
+    _break_above_zero(upper)
+    if (wrong <= _MAX_WRONG_SHARE).any():
+        corner(sheet, upper.frame, "hollow: worst right root")
+    for family, (_, color, marker) in zip(families, entries, strict=True):
+        part = data.isel(method=data["family"].values == family)
+        x, wrong = part[cost].values, part["wrong"].values
+        median, worst = (_zero_at_end(part[name].values, _ZERO) for name in ("median", "worst"))
+        reliable = wrong <= _MAX_WRONG_SHARE
+        upper.line(x, median, color=color, lw=0.9)
+        upper.line(x[reliable], worst[reliable], color=color, lw=0.5, ls="--")
+        upper.dots(x[reliable], worst[reliable], color, hollow=True, marker=marker)
+        upper.dots(x, median, color, marker=marker)
+        lower.line(x, wrong, color=color, lw=0.9)
+        lower.dots(x, wrong, color, marker=marker)
+    method_key(sheet, entries, top - 965)
+    return sheet.figure
+
+
+@style.pinned()
+def edges(scene, data):
+    """Draw the failing share against the distance from grazing, and the height of a maximum.
+
+    A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
+    in which no method fails, if there is one.
+    """
+    methods = _entries(data["name"].values, data["family"].values)
+    flat = [(v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _FLAT][:1]
+    sheet, top = chart_sheet(1075 if flat else 1100 + _LINE * len(methods))
+    gap, frames = 40, []
+    wide = (RIGHT - LEFT - gap) / 2
+    grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
+    sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
+    maximum = "touch", "depth", sides, name, (-14, -2)
+    for row, (variable, exponent, sides, name, limits) in enumerate((grazing, maximum)):
+        x = [float(f"1e-{n}") for n in data[exponent].values]
+        across = Axis(limits, range(*limits, 4), "", True)
+        for side, text in enumerate(sides):
+            left, high = LEFT + side * (wide + gap), top - row * 540
+            up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
+            frames.append((left, high - 360, left + wide, high))
+            panel = Panel(sheet, frames[-1], across, up, grid=(variable, side) not in flat)
+            if side:
+                middle = left - gap / 2, high - 360 - 16 * POINT
+                sheet.text(*middle, name, ha="center", va="top", size=8.0)
+            title(sheet, frames[-1], text if side else f"Share failing, {text}", size=8.0)
+            for (_, color, marker), share in zip(methods, data[variable].values, strict=True):
+                panel.line(x, share[side], color=color, lw=0.9)
+                panel.dots(x, share[side], color, size=2.6, marker=marker)
+            if (variable, side) in flat:
+                method_key(sheet, methods, high - 30, columns=1, left=left + 30)
+    letters(sheet, *frames)
+    if not flat:
+        method_key(sheet, methods, top - 1040, columns=1)
+    return sheet.figure
+
+
+@style.pinned()
+def energy(scene, data):
+    """Draw the energy drift of each method, and the impacts missed against the last drift.
+
+    In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
+    """
+    entries = _methods_with_merged_scans(data)
+    named = list(dict.fromkeys(entries))
+    sheet, top = chart_sheet(1135, named)
+    drift = _axis_with_zero(_ZERO, 1, "Largest relative error of the energy so far")
+    upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
+    across = decades((-13, 1), "Largest relative error of the energy after all impacts")
+    powers = ["0", *(rf"$10^{e}$" for e in range(5))]
+    up = Axis((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
+    lower = Panel(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
+    letters(sheet, upper.frame, lower.frame)
+    _break_above_zero(upper)
+    _break_above_zero(lower)
+    shaded, _ = lower.place([1e-13, 1e-6], 1.0)
+    wide = (shaded[1] - shaded[0]) / POINT
+    lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
+    for i, (_, color, marker) in enumerate(entries):
+        drift = data["drift"].values[i]
+        upper.line(data["record"].values, _zero_at_end(drift, _ZERO), color=color, lw=0.9)
+        end = drift[-1], max(float(data["missed"].values[i]), 0.1)
+        lower.dots(*end, color, marker=marker)
+        if entries.count(entries[i]) > 1:
+            lower.note(*end, _scan_step(data["name"].values[i]), shift=(3, 3.5))
+    lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
+    method_key(sheet, named, top - 1075)
+    return sheet.figure
+
+
+@style.pinned()
+def separation(scene, data):
+    """Draw the distance of each method's orbit from the proved one, from `failures.orbits`."""
+    sheet, top = chart_sheet(975)
+    across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
+    up = _axis_with_zero(_ZERO, 0, "Median distance in $x$ from the proved orbit")
+    panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
+    _break_above_zero(panel)
+    entries = _methods_with_merged_scans(data)
+    for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
+        panel.line(data["impact"].values, _zero_at_end(distance, _ZERO), color=color, lw=0.9)
+    method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
+    return sheet.figure
+
+
+@style.pinned()
+def figure_errors(scene, data):
+    """Draw the error of each figure by each method in units of the largest invisible error.
+
+    Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
+    two cheapest methods that suffice.
+    """
+    scenes, families = data.sizes["scene"], data["family"].values
+    sheet = Sheet(style.COLUMN, 75 * (4 + scenes))
+    top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
+    middles = [scenes - 0.5 - i for i in range(scenes)]
+    names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
+    up = Axis((0, scenes), middles, labels=names)
+    across = _axis_with_zero(-16, 6, "Error of the picture / what it can hide")
+    panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
+    _break_above_zero(panel, across=True)
+    panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
+    heading = "Evaluations an impact, of the two cheapest that suffice"
+    corner(sheet, (LEFT, bottom, sheet.wide - 15, top), heading)
+    methods = [text for text, *_ in _entries(data["name"].values, families)]
+    for i, middle in enumerate(middles):
+        row = data.isel(scene=i)
+        errors = _zero_at_end(row["error"].values / float(row["limit"]), -16)
+        missed = row["missed"].values > 0
+        for family, error, hollow in zip(families, errors, missed, strict=True):
+            panel.dots(error, middle, STYLES[family][0], hollow=hollow)
+        circles = np.where(missed, " \N{WHITE CIRCLE}", "")
+        named = list(zip(row["evaluations"].values, methods, circles, strict=True))
+        best = int(row["cheapest"])
+        others = [named[j] for j in np.flatnonzero(row["good"].values) if j != best]
+        second = "{1}: {0:.0f}{2}".format(*min(others)) if others else "no other"
+        y = float(panel.place(1.0, middle)[1][0])
+        for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
+            sheet.text(740, y + shift, text, size=7.0)
+    entries = dict.fromkeys(_entries(families, families))
+    method_key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 135)
+    return sheet.figure
+
+
+def chart_sheet(least, entries=()):
+    """Return a sheet for a height in pixels and a key, and the upper end of its first frame."""
+    lines = math.ceil(len(entries) / _COLUMNS)
+    high = 75 * math.ceil((least + lines * _LINE) / 75)  # whole quarters of an inch
+    return Sheet(style.COLUMN, high), high - 70
+
+
+def _axis_with_zero(low, high, name):
+    """Return an axis of decades whose lower end stands for zero."""
+    ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
+    labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
+    return Axis((low, high), ticks, name, True, labels)
+
+
+def _zero_at_end(values, zero):
+    """Raise values to the decade that stands for zero."""
+    return np.maximum(values, float(f"1e{zero}"))
+
+
+def _break_above_zero(panel, across=False):
+    """Mark the gap between zero and the powers of ten on an axis that has both."""
+    left, bottom, *_ = panel.frame
+    start, level = (left, bottom) if across else (bottom, left)
+    for shift, rise, color, points in ((0, 0, "white", 1.6), *_STROKES):
+        along = [start + 30 + shift + end for end in (-5, 5)]
+        off = [level - rise, level + rise]
+        ends = (along, off) if across else (off, along)
+        panel.sheet.draw(*ends, color=color, lw=points, zorder=3.5)
+
+
+def _entries(names, families):
+    """Return an entry of the key, (text, colour, mark), for each method or family."""
+    pairs = zip(names, families, strict=True)
+    return [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
+
+
+def _methods_with_merged_scans(data):
+    """Return an entry for each method; scans of one tolerance look alike and share theirs."""
+    entries, scans = _entries(data["name"].values, data["family"].values), {}
+    for i, name in enumerate(data["name"].values):
+        if name.startswith("scan "):
+            scans.setdefault(name.partition(", ")[2], []).append((i, _scan_step(name)))
+    for tolerance, scan in scans.items():
+        if len(scan) > 1:
+            text = _printed(tolerance, f"scan {scan[0][1]} to {scan[-1][1]}")
+            for i, _ in scan:
+                entries[i] = (text, style.BLUE, "o")
+    return entries
+
+
+def _scan_step(name):
+    """Return STEP of a method named "scan STEP, TOLERANCE"."""
+    return name.partition(", ")[0].removeprefix("scan ")
+
+
+def _printed(name, family):
+    """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
+    family = family.removesuffix(" + bisection").removesuffix(" direction")
+    setting = re.search(r"1e-0?(\d+)$", name)
+    text = family.replace("<=", "\N{LESS-THAN OR EQUAL TO}")
+    return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text

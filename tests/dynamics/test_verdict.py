@@ -1,0 +1,76 @@
+"""Verdicts on orbits: early ones are final, and growth is that of a product of Jacobians."""
+
+import numpy as np
+import pytest
+
+from extensions.atlas import cell
+from pseudorigid import Ball
+from pseudorigid.dynamics import fixed_point, verdict
+
+K, E = 0.2, 6.25
+
+
+def classify(states, impacts):
+    """Verdicts on states, with turns around the fixed point."""
+    x, _, rotation = fixed_point.numbers(K, E)
+    count = len(states[0])
+    return verdict.classify_orbits(K, states, np.full(count, x), np.full(count, rotation), impacts)
+
+
+@pytest.mark.parametrize(
+    ("impacts", "lengths"),
+    [(4000, [500, 1000, 2000, 4000]), (4001, [500, 1000, 2000, 4000, 4001]), (300, [300]),
+     (500, [500])],
+)  # fmt: skip
+def test_lengths_double_up_to_the_last(impacts, lengths):
+    assert verdict.lengths_to_decide(impacts) == lengths
+
+
+def test_an_early_verdict_is_that_of_a_longer_run():
+    states = cell.sunflower_points(K, E, 300)
+    short, long = classify(states, 2000), classify(states, 8000)
+    early = short.followed < 2000
+    assert 0.8 < early.mean() < 1.0
+    for name in ("regular", "strict", "lenient", "winding", "growth", "exponent", "followed"):
+        assert np.array_equal(getattr(short, name)[early], getattr(long, name)[early])
+    assert np.array_equal(short.strict[early], short.lenient[early])
+    assert np.all(long.followed[~early] > 1000)
+
+
+def test_growth_is_that_of_a_product_of_jacobians():
+    impacts = 400
+    states = np.array(cell.sunflower_points(K, E, 6))
+    verdicts = classify(states, impacts)
+    ball = Ball(k=K, g=1.0)
+    for i, start in enumerate(states.T):
+        state = start
+        vector, logs = np.array([0.0, K * state[2], -state[1]]), []
+        for _ in range(impacts):
+            vector = ball.jacobian(*state) @ vector
+            state = ball.impact(*state)[:3]
+            logs.append(np.log(np.abs(vector).sum()))
+        growth = np.mean(logs[300:]) - np.mean(logs[100:200])
+        assert verdicts.growth[i] == pytest.approx(growth, abs=1e-4)
+        assert verdicts.exponent[i] == pytest.approx((logs[399] - logs[99]) / 300, abs=1e-4)
+
+
+def test_undecided_orbits_keep_their_order_in_memory(monkeypatch):
+    """In another order all kernels that follow them would be compiled again."""
+    lengths, propagate = [], verdict.propagate_with_tangent
+
+    def checked(orbits, k, start, stop, *sums):
+        lengths.append(stop)
+        assert all(array.flags.c_contiguous for array in (orbits, *sums))
+        propagate(orbits, k, start, stop, *sums)
+
+    monkeypatch.setattr(verdict, "propagate_with_tangent", checked)
+    cell.cell(K, E, 50, 1000)
+    assert lengths == [500, 1000]
+
+
+def test_frozen_verdicts():
+    """Counts of 2,000 short orbits, of which some lie on either side of each threshold."""
+    shares = cell.cell(0.2, 9.0, 2000, 500)
+    counts = {name: round(2000 * float(shares[name])) for name in shares if "regular" in name}
+    expected = {"regular_strict": 333, "regular": 367, "regular_lenient": 379}
+    assert expected.items() <= counts.items()

@@ -1,0 +1,157 @@
+"""The pictures of sweeps show what was computed, where it belongs."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from legible import assert_text_is_whole_and_apart
+
+from extensions.atlas import cell
+from extensions.atlas.figures import atlas, raster
+from pseudorigid.dynamics import fixed_point
+from pseudorigid.figures.axes import limits
+from pseudorigid.figures.axes.panel import Axis
+from pseudorigid.figures.canvas import render, style
+
+PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
+WIDTH, HEIGHT = atlas.WIDE / 4, atlas.HIGH // 3  # pixels of a cell of PLANE
+# The lower ends of the two panels of PLANE.
+LOWER = 320
+UPPER = LOWER + 3 * HEIGHT + 225
+LINE = {"k": [0.2], "g": 0.04, "energy": [0.625 * i for i in range(1, 21)]}
+
+
+def dataset(sweep, **given):
+    """Return the dataset of a sweep with 0.5 in each variable that is not given."""
+    shape = (len(sweep["k"]), len(sweep["energy"]))
+    values = {name: np.full(shape, 0.5) for name in cell.VARIABLES if name != "chains"} | given
+    data = {
+        name: (("k", "energy"), np.broadcast_to(value, shape)) for name, value in values.items()
+    }
+    return xr.Dataset(data, coords={"k": sweep["k"], "energy": sweep["energy"]})
+
+
+def image_of(sweep, **given):
+    """Return the pixels of a plane, from the lower left."""
+    return render.pixels(atlas.plane(sweep, dataset(sweep, **given)))[::-1]
+
+
+def commonest(image, row, column, bottom):
+    """Return the commonest colour around a place of a cell of PLANE where no curve is."""
+    across, up = int(atlas.LEFT + (column + 0.3) * WIDTH), int(bottom + (row + 0.3) * HEIGHT)
+    patch = image[up - 12 : up + 13, across - 12 : across + 13].reshape(-1, 3)
+    colors, counts = np.unique(patch, axis=0, return_counts=True)
+    return "#" + bytes(colors[counts.argmax()]).hex()
+
+
+def colours(name):
+    return ["#" + bytes(row).hex() for row in raster.palette(name)]
+
+
+def test_a_cell_has_the_colour_of_its_value():
+    share = np.linspace(-0.2, 0.99, 12).reshape(3, 4)
+    share[1, 1] = 1.7
+    exponent = np.where(share > 0.9, np.nan, 0.4 * share)
+    image, scale = image_of(PLANE, regular=share, exponent=exponent), colours("viridis")
+    for row, column in np.ndindex(3, 4):
+        wanted = scale[min(max(int(share[row, column] * 64), 0), 63)]
+        assert commonest(image, row, column, UPPER) == wanted
+    assert commonest(image, 2, 3, LOWER) == style.GRID  # no sea
+
+
+def test_cells_fill_whole_pixels():
+    # At these energies and k there is no curve.
+    sweep = PLANE | {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
+    share = np.random.default_rng(1).random((100, 160))
+    image, scale = image_of(sweep, regular=share), colours("viridis")
+    upper = LOWER + 600 + (UPPER - LOWER - 3 * HEIGHT)
+    for row in range(100):
+        for column in range(0, 160, 7):
+            x, y = atlas.LEFT + 5 * column, upper + 6 * row
+            patch = image[y + 2 : y + 4, x + 2 : x + 4].reshape(-1, 3)
+            wanted = scale[int(share[row, column] * 64)]
+            assert all("#" + bytes(pixel).hex() == wanted for pixel in patch)
+
+
+@pytest.mark.parametrize("name", ["viridis", "magma"])
+def test_a_scale_has_sixty_four_colours_in_order(name):
+    assert len(set(colours(name))) == 64
+    light = raster.palette(name).sum(axis=1, dtype=int)
+    assert light[0] < light[20] < light[40] < light[63]
+
+
+def test_a_resonance_is_drawn_where_the_closed_form_has_it():
+    across = atlas.LEFT + (np.log10(fixed_point.resonance(0.2, 1, 6)) + 1.5) / 4 * atlas.WIDE
+    up = int(UPPER + (0.2 - 0.05) / 0.3 * 3 * HEIGHT)
+    image = image_of(PLANE)
+    for shift, drawn in ((0, True), (-37, False)):
+        x = int(across) + shift
+        patch = image[up - 3 : up + 4, x - 3 : x + 4].reshape(-1, 3)
+        assert (patch.sum(axis=1).max() > 700) == drawn
+
+
+def drawn(figure, color, dots):
+    """Return the pixels (n, 2) of each artist in this colour: dots, or lines."""
+    parts = [a for a in figure.artists if color in (a.get_color(), a.get_markerfacecolor())]
+    parts = [a for a in parts if (a.get_marker() == "o") == dots]
+    return [np.column_stack(a.get_data()) * figure.dpi for a in parts]
+
+
+def test_the_line_is_drawn_with_its_bars_and_gaps():
+    """Shares 0 to 1 are at pixels 635 to 1145, exponents to 1.02 of the largest at 135 to 545."""
+    n = len(LINE["energy"])
+    share = np.linspace(0.9, 0.1, n)
+    value = np.where(np.arange(n) < 3, np.nan, np.linspace(0.1, 0.2, n) + 0.01 * (np.arange(n) % 2))
+    given = {"regular": share, "regular_low": share - 0.05, "regular_high": share + 0.08}
+    given |= {"exponent": value, "exponent_low": value - 0.04, "exponent_high": value + 0.05}
+    figure = atlas.line(LINE, dataset(LINE, **given, exponent_error=0.01))
+    energy = np.array(LINE["energy"]) * 0.04**2
+    across = 110 + 900 * energy / (1.02 * energy[-1])
+
+    def places(at, heights):
+        return pytest.approx(np.column_stack([at, heights]), abs=0.3)
+
+    blue, red = style.BLUE, style.VERMILION
+    assert max(drawn(figure, blue, True), key=len) == places(across, 635 + 510 * share)
+    bars = np.concatenate(drawn(figure, blue, False))
+    ends = np.ravel(np.column_stack([share - 0.05, share + 0.08]))
+    assert bars == places(np.repeat(across, 2), 635 + 510 * ends)
+    height = 410 / (1.02 * (np.nanmax(value) + 0.05))
+    (dots,) = drawn(figure, red, True)
+    assert dots == places(across[3:], 135 + height * value[3:])
+    for color, low, high in ((red, -0.0196, 0.0196), (style.pale(red), -0.04, 0.05)):
+        bars = np.concatenate([line for line in drawn(figure, color, False) if len(line) == 2])
+        ends = np.ravel(np.column_stack([value[3:] + low, value[3:] + high]))
+        assert bars == places(np.repeat(across[3:], 2), 135 + height * ends)
+
+
+def test_a_sweep_without_a_sea_can_be_drawn():
+    nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
+    wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # the edges of cells pass k = 0
+    long = LINE | {"energy": [0.625 * i for i in range(1, 60)]}
+    for sweep in (PLANE, wide, long):
+        figure = atlas.draw(sweep, dataset(sweep, **nothing))
+    assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "count", "wanted"),
+    [
+        (0, 1, 5, [0, 0.5, 1]),
+        (0, 0.03, 8, [0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03]),
+        (0.012, 0.332, 5, [0.1, 0.2, 0.3]),
+        (-2.5, 37, 5, [0, 10, 20, 30]),
+    ],
+)
+def test_ticks_are_round(low, high, count, wanted):
+    assert limits.ticks(low, high, count) == wanted
+
+
+def test_minor_ticks_and_edges_lie_between():
+    assert Axis((0.0, 1.2), [0.0, 0.5, 1.0]).minor_ticks().tolist() == [0.25, 0.75]
+    narrow = (0.02, 0.28)
+    assert Axis(narrow, [0.1, 0.2]).minor_ticks() == pytest.approx([0.05, 0.15, 0.25])
+    assert Axis(narrow, [0.1]).minor_ticks() == []
+    exponents = Axis((-1.1, 0.4), (), decades=True).minor_ticks()
+    assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
+    assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
+    assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]

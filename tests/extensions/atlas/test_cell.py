@@ -1,0 +1,146 @@
+"""A cell of a sweep, the closed forms of the fixed point, and blocks, which change no data."""
+
+import math
+from itertools import product
+
+import numpy as np
+import pytest
+from content import content_hash
+
+from extensions.atlas import blocks, cell, grid
+from pseudorigid import Ball, lyapunov_spectrum
+from pseudorigid.dynamics import fixed_point, tangent_orbits
+
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 40, "impacts": 1000, "block": 2}
+
+
+@pytest.mark.parametrize("k", [0.02, 0.2, 1 / 3, 1.0])
+@pytest.mark.parametrize("e", [-0.4, 0.01, 0.625, 6.25, 40.0])
+def test_the_closed_forms_are_those_of_the_map(k, e):
+    theta = fixed_point.half_time(k, e)
+    assert fixed_point.energy(k, theta) == pytest.approx(e, rel=1e-12, abs=1e-12)
+    state = (fixed_point.place(k, theta), theta, theta / k)
+    ball = Ball(k=k, g=1.0)
+    assert ball.impact(*state) == pytest.approx((*state, 2 * theta), rel=1e-9, abs=1e-9)
+    (a, _), (_, d) = ball.chart_jacobian(*state)
+    assert fixed_point.trace(k, theta) == pytest.approx(a + d, rel=1e-8, abs=1e-8)
+
+
+def test_the_rotation_number_and_its_resonances():
+    assert fixed_point.rotation(0.0) == pytest.approx(0.25, abs=1e-15)
+    assert fixed_point.rotation(-1.0) == pytest.approx(1 / 3, abs=1e-15)
+    assert math.isnan(fixed_point.rotation(-2.1))
+    for k, q in ((0.05, 8), (0.2, 6), (0.3, 3)):
+        theta = fixed_point.half_time(k, fixed_point.resonance(k, 1, q))
+        assert fixed_point.rotation(fixed_point.trace(k, theta)) == pytest.approx(1 / q, rel=1e-9)
+
+
+def test_the_angle_is_that_of_atan2():
+    rng = np.random.default_rng(3)
+    for a, b in [*rng.normal(size=(2000, 2)), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1)]:
+        angle = tangent_orbits.angle(float(a), float(b))
+        assert angle == pytest.approx(math.atan2(b, a), abs=1e-14)
+    assert tangent_orbits.angle(0.0, 0.0) == 0.0
+
+
+def test_starts_are_even_in_area_and_have_the_energy():
+    k, e, count = 0.2, 6.25, 4000
+    x, v, w = cell.sunflower_points(k, e, count)
+    assert Ball(k=k, g=1.0).energy(x, v, w) == pytest.approx(np.full(count, e))
+    y = (v - k * w) / math.sqrt((1 + k) * (2 * e + 1 / k))
+    x = (x - 1 / k) / math.sqrt((2 * e + 1 / k) / k)
+    assert y.min() >= 0
+    for left, width in ((-0.5, 0.5), (0.1, 0.3), (0.6, 0.2)):
+        part = np.mean((x > left) & (x < left + width) & (y < 0.4))
+        assert part == pytest.approx(width * 0.4 / (math.pi / 2), abs=6 / math.sqrt(count) / 10)
+
+
+@pytest.mark.parametrize(
+    ("count", "interval"), [(8, (0.4902, 0.9433)), (0, (0.0, 0.2775)), (10, (0.7225, 1.0))]
+)
+def test_wilsons_interval(count, interval):
+    assert cell.wilson(count, 10) == pytest.approx(interval, abs=1e-4)
+
+
+def test_fractions_are_the_simplest_nearby():
+    winding = np.array([1 / 6, 1 / 6 + 2e-5, 2 / 12, 3 / 23, 0.0, 0.41421356])
+    turns, periods = cell.fractions(winding)
+    assert periods.tolist() == [6, 0, 6, 23, 1, 0]
+    assert turns.tolist() == [1, 0, 1, 3, 0, 0]
+
+
+def test_the_energy_of_figure_2_has_six_islands_and_a_sea():
+    numbers = cell.cell(0.2, 6.25, 300, 4000)
+    assert (numbers["chain_turns"], numbers["chain_period"]) == (1, 6)
+    assert 0.14 < numbers["regular"] < 0.20
+    assert numbers["regular_low"] < 0.17 < numbers["regular_high"]
+    assert numbers["regular_lenient"] - numbers["regular_strict"] < 0.01
+    assert numbers["trace"] == pytest.approx(0.8632851929828689, rel=1e-12)
+    assert 1 / numbers["rotation"] == pytest.approx(5.5876195834, rel=1e-9)
+
+
+def test_no_orbit_is_chaotic_near_rest():
+    numbers = cell.cell(0.2, -1.4, 40, 1000)
+    assert numbers["regular"] == 1.0 and math.isnan(numbers["exponent"])
+    numbers = cell.cell(0.2, -2.49999999, 20, 400)  # rotation numbers are near 0
+    assert numbers["rotation"] < 1e-4 and numbers["chain_period"] == 0
+
+
+def test_the_exponent_is_that_of_long_orbits():
+    numbers = cell.cell(0.2, 6.25, 1500, 500)
+    # 64 orbits of 1e7 impacts give 0.23171 +- 0.00007
+    assert numbers["exponent"] == pytest.approx(0.23171, abs=4 * numbers["exponent_error"])
+    assert 0.001 < numbers["exponent_error"] < 0.003
+    assert numbers["exponent_low"] < numbers["exponent"] < numbers["exponent_high"]
+
+
+def test_the_energy_of_figure_8_has_chains_and_a_wider_interval_for_the_threshold():
+    numbers = cell.cell(0.2, 0.625, 400, 1000)
+    assert numbers["chains"][9] > 2 and numbers["chains"][11] > 2
+    assert 0.62 < numbers["regular"] < 0.76
+    low, _ = cell.wilson(round(400 * numbers["regular_strict"]), 400)
+    _, high = cell.wilson(round(400 * numbers["regular_lenient"]), 400)
+    assert (numbers["regular_low"], numbers["regular_high"]) == (low, high)
+    assert numbers["regular_strict"] < numbers["regular"] < numbers["regular_lenient"]
+
+
+@pytest.mark.slow
+def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
+    """The random orbits have other starts and longer runs, and exponents of the spectrum."""
+    random = np.random.default_rng(2024)
+    inside, off = 0, []
+    for _ in range(10):
+        k, e = float(random.uniform(0.012, 0.332)), float(10 ** random.uniform(-0.5, 1.6))
+        numbers, ball = cell.cell(k, e, 200, 8000), Ball(k=k, g=1.0)
+        centre, radius = ball.section(e)
+        angle, share = 2 * math.pi * random.random(600), np.sqrt(random.random(600))
+        y = radius * math.sqrt(k * (1 + k)) * share * np.sin(angle)
+        states = ball.state_xy(centre + radius * share * np.cos(angle), y, e)
+        half, whole = lyapunov_spectrum(ball, states, 20_000, 2)["exponent"].values[:, :, 0]
+        chaotic = 20_000 * whole - 10_000 * half > 5  # ln 2 = 0.69 on regular orbits
+        inside += numbers["regular_low"] <= 1 - chaotic.mean() <= numbers["regular_high"]
+        error = math.hypot(numbers["exponent_error"], np.std(whole[chaotic]) / chaotic.sum() ** 0.5)
+        off.append((numbers["exponent"] - whole[chaotic].mean()) / error)
+    assert inside >= 9
+    assert np.max(np.abs(off)) < 4 and abs(np.mean(off)) < 1
+
+
+def joined(size):
+    """The dataset of the small sweep, computed in blocks of this size."""
+    sweep = SMALL | {"block": size}
+    parts = [blocks.block_of_cells_of_a_sweep(**part) for part in grid.parts(sweep)]
+    return blocks.cells_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
+
+
+def test_the_size_of_blocks_does_not_change_the_bytes():
+    assert len({content_hash(joined(size)) for size in (1, 2, 4, 5, 100)}) == 1
+
+
+def test_the_dataset_has_each_cell_at_its_coordinates_with_the_bits_that_it_has_alone():
+    data = joined(4)
+    assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
+    assert set(data.data_vars) == set(cell.VARIABLES)
+    for k, energy in product(SMALL["k"], SMALL["energy"]):
+        here = data.sel(k=k, energy=energy)
+        for name, value in cell.cell(k, energy, SMALL["starts"], SMALL["impacts"]).items():
+            assert np.array_equal(here[name].values, value, equal_nan=True)

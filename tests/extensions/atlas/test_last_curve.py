@@ -1,0 +1,81 @@
+"""The last invariant curve: convergents, residues on both sides of breakup, choice of nobles."""
+
+import math
+
+import numpy as np
+import pytest
+from independent_solver import periodic_point
+from sections import BALL
+from slowly import slowly
+
+from extensions.atlas import last_curve
+from pseudorigid import Ball
+
+ENERGY = 0.01
+
+
+def test_convergents_of_noble_numbers():
+    assert last_curve.fractions([0, 1], 5) == [(1, 1), (1, 2), (2, 3), (3, 5), (5, 8)]
+    assert last_curve.value([0, 1]) == pytest.approx(0.5 * (math.sqrt(5.0) - 1.0), rel=1e-15)
+    for noble in ([0, 5, 1, 15], [0, 5, 1, 17]):
+        p, q = last_curve.fractions(noble, 8)[-1]
+        assert abs(p / q - last_curve.value(noble)) < 1.0 / (q * q)
+
+
+@pytest.fixture(scope="module")
+def edge():
+    nobles = [[0, 5, 1, 15], [0, 5, 1, 17]]
+    return last_curve.last_curve(BALL, ENERGY, 6, (-0.2, -0.0325639), 60_000, 100, nobles)
+
+
+def test_residues_on_either_side_of_breakup(edge):
+    size = np.abs(edge["residue"].values)
+    assert edge["period"].values.min() >= 50
+    assert size[0, -1] < 0.01 < 0.1 * size[0, 1]
+    assert np.all(np.diff(size[1, 1:]) > 0.0) and size[1, -1] > 10.0
+    assert np.all(edge["closure"].values < 1e-7)
+    assert float(edge["orbit_rotation"].values[0]) == pytest.approx(
+        float(edge["rotation"].values[0]), abs=2e-6
+    )
+
+
+@pytest.mark.parametrize("noble, convergent", [(0, 0), *slowly((1, 1))])
+def test_a_residue_is_that_of_newtons_method_in_sixty_digits(edge, noble, convergent):
+    orbit = edge.isel(noble=noble, convergent=convergent)
+    period, turns = int(orbit["period"]), int(orbit["turns"])
+    start = BALL.start(float(orbit["place"]), ENERGY)
+    (x, v, w), product = periodic_point(BALL, ENERGY, start, period)
+    assert abs(float(v - w * BALL.k)) < 1e-10 and abs(float(x) - start[0]) < 1e-9
+    assert math.gcd(turns, period) == 1
+    residue = float((3 - product[0, 0] - product[1, 1] - product[2, 2]) / 4)
+    assert float(orbit["residue"]) == pytest.approx(residue, rel=1e-3)
+
+
+def test_rotation_numbers_that_no_orbit_has_are_refused():
+    with pytest.raises(ValueError, match=r"no symmetric orbit of rotation number 1/5 = 0.2"):
+        last_curve.last_curve(BALL, ENERGY, 2, (-0.2, -0.1), 100, 10, [[0, 4, 1]])
+
+
+@pytest.mark.parametrize(
+    ("ball", "energy", "between"),
+    [(BALL, 0.005, (-0.2, 0.3)), (BALL, 0.011, (-0.2, 0.1)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2)),
+     (Ball(0.1, 0.02), 0.002, (0.1, 0.9))],
+)  # fmt: skip
+def test_nobles_are_chosen_on_either_side_of_the_last_curve(ball, energy, between):
+    """Residues fall for the inner number and not for the outer one."""
+    found = last_curve.last_curve(ball, energy, 4, between, 4000, 10)
+    inside, outside = np.abs(found["residue"].values[:, -1])
+    assert inside < 0.25 < outside
+    assert np.all(found["closure"].values < 1e-9)
+
+
+def test_a_noble_number_between_two_numbers():
+    for ends in ((0.16, 0.17), (0.2346, 0.2345), (0.3, 0.3 + 1e-9), (1 / 3, 0.333)):
+        noble = last_curve.noble_between(*ends)
+        assert min(ends) < last_curve.value(noble) < max(ends)
+
+
+@pytest.mark.parametrize("between", [(0.55, 0.65), (-0.4, -0.3)])
+def test_a_part_without_the_last_curve_is_refused(between):
+    with pytest.raises(ValueError, match=r"^between = .* is not allowed: begin among curves"):
+        last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10)

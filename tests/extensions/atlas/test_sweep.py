@@ -1,0 +1,158 @@
+"""Runs of sweeps: progress, mistakes, and faults that are repaired to the same bytes."""
+
+import hashlib
+import os
+import shutil
+import signal
+
+import pytest
+from project import fresh_tree, of_scenes, wait_for
+from runs import rows
+
+from extensions.atlas import cell, command
+from pipeline import config
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.session import UsageError
+from pipeline.config import paths
+from pipeline.config.build_specs import build_specs
+from pipeline.records.artifacts import load
+from pipeline.records.build_spec import BuildSpec
+from snakemake_logger_plugin_reproduce import parts
+
+SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
+BOTH = ["png", "svg"]
+
+
+def specs():
+    """Build specifications of a sweep of six cells."""
+    return build_specs(checked(plane=SMALL), ["atlas"])
+
+
+def checked(**sweeps):
+    return config.check(of_scenes("fig3", sweeps=sweeps))
+
+
+@pytest.mark.parametrize(
+    ("name", "sweeps", "line"),
+    [
+        ("lime", {"plane": SMALL, "line": SMALL}, "no sweep lime: did you mean line"),
+        (None, {}, "sweeps: empty"),
+    ],
+)
+def test_a_sweep_that_is_not_in_the_config_is_one_line(name, sweeps, line):
+    names = [name] if name else []
+    args = Arguments(word="sweep", sweep=names, slurm=False, options=[])
+    args.config = checked(**sweeps)
+    with pytest.raises(UsageError, match=line):
+        command.run(args)
+
+
+def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
+    monkeypatch.setattr(parts, "PAUSE", 0.0)
+    first, second, third = (paths.part_path("results/atlas/sweep_plane.nc", i) for i in range(3))
+    other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
+    progress = parts.Parts(specs() | {other.result: other}, {second, third, other.result})
+    assert progress.done(second) == "plane: 2 of 3 blocks"
+    assert progress.done(third) == "plane: 3 of 3 blocks"
+    monkeypatch.setattr(parts, "PAUSE", 1000.0)
+    progress = parts.Parts(specs(), {first, second, third})
+    lines = [progress.done(path) for path in (first, second, third)]
+    assert lines == ["plane: 1 of 3 blocks", None, "plane: 3 of 3 blocks"]
+    assert parts._duration(9971) == "2 h 46 min" and parts._duration(183) == "3 min 3 s"
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the project with one small sweep."""
+    return fresh_tree(tmp_path / "a fresh clone", of_scenes("fig3", sweeps={"small": SMALL}))
+
+
+def set_sweep(tree, block):
+    tree.write(tree.document() | {"sweeps": {"small": block}})
+
+
+def hashes(tree):
+    """File -> sha256 of the sweep's data."""
+    files = (tree.path / "results" / "atlas").rglob("*.nc")
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+
+def times(tree):
+    """File -> its time of change, of the sweep's data."""
+    files = (tree.path / "results" / "atlas").rglob("*.nc")
+    return {file.name: file.stat().st_mtime_ns for file in files}
+
+
+def test_damaged_files_alone_are_made_again(tree):
+    tree.make_here("results/atlas/sweep_small.nc")
+    before, content = times(tree), hashes(tree)
+    assert len(before) == 4
+    assert rows(tree.succeed("sweep", "small")) == {"results/atlas/sweep_small.nc": "current"}
+    assert times(tree) == before
+    folder = tree.path / "results" / "atlas"
+    damaged = ["sweep_small.nc", sorted(folder.glob("sweep_small.*.nc"))[1].name]
+    for name in damaged:
+        (folder / name).write_bytes((folder / name).read_bytes()[:3000])
+    out = tree.succeed("sweep")
+    for name in damaged:
+        assert f"results/atlas/{name}: changed after it was made: made again" in out
+    assert "small: 3 of 3 blocks" in out
+    assert rows(out) == {"results/atlas/sweep_small.nc": "recomputed"}
+    assert hashes(tree) == content
+    assert {name for name in before if times(tree)[name] != before[name]} == set(damaged)
+
+
+@pytest.mark.slow
+def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
+    tree.succeed("sweep", "-c", "1")
+    before = hashes(tree)["sweep_small.nc"]
+    set_sweep(tree, SMALL | {"block": 4})
+    tree.succeed("sweep", "-c", "1")
+    assert hashes(tree)["sweep_small.nc"] == before
+    set_sweep(tree, SMALL | {"energy": [0.3, 2.0, 7.0]})
+    shutil.rmtree(tree.path / ".snakemake")  # its memory of parameters
+    tree.succeed("sweep", "-c", "1")
+    data = load(tree.path / "results" / "atlas" / "sweep_small.nc")
+    assert data["energy"].values.tolist() == [0.3, 2.0, 7.0]
+    one = cell.cell(0.1, 7.0, SMALL["starts"], SMALL["impacts"])
+    assert data.sel(k=0.1, energy=7.0)["exponent"] == one["exponent"]
+
+
+@pytest.mark.slow
+def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
+    tree.succeed("sweep", "-c", "1")
+    wanted = hashes(tree)
+    folder = tree.path / "results" / "atlas"
+    shutil.rmtree(folder)
+    process = tree.start("sweep", "-c", "1", start_new_session=True)
+    wait_for(lambda: list(folder.glob("sweep_small.*.nc")))
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    present = hashes(tree)
+    assert 0 < len(present) < 4
+    assert present.items() <= wanted.items()
+    tree.succeed("sweep", "-c", "1")
+    assert hashes(tree) == wanted
+
+
+def test_slurm_needs_sbatch(monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    args = Arguments(word="sweep", sweep=[], slurm=True, options=[])
+    args.config = checked(small=SMALL)
+    with pytest.raises(UsageError, match="--slurm: there is no sbatch on this machine"):
+        command.run(args)
+
+
+@pytest.mark.slow
+def test_the_atlas_is_drawn_and_published(tree):
+    line = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
+    plane = SMALL | {"k": [0.19, 0.21]}
+    tree.write(tree.document() | {"sweeps": {"small": plane, "one": line | {"formats": BOTH}}})
+    tree.succeed("atlas", "-c", "1")
+    for name in ("small.png", "one.png", "one.svg"):
+        drawn = (tree.path / "results/atlas/figures" / name).read_bytes()
+        assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
+        assert drawn.startswith((b"\x89PNG", b"<?xml"))
+    before = times(tree)
+    tree.succeed("atlas", "-c", "1")
+    assert times(tree) == before

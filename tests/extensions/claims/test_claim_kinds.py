@@ -1,0 +1,184 @@
+"""The pictures of claims, proofs and families: each is reproducible and shows its data."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from legible import assert_text_is_whole_and_apart, frames_of
+from samples import module
+from sections import BALL
+from small_curve import SMALL
+
+from extensions.families.families import families
+from extensions.families.shares import shares
+from extensions.proofs.escape import escape
+from extensions.proofs.theorems import scenes
+from pseudorigid import symmetric_orbits
+from pseudorigid.dynamics.manifolds import scene_manifolds
+from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.ragged_rows import rows
+from pseudorigid.figures.canvas.render import pixels, render
+
+SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
+FAMILIES = SCENE | {
+    "picture": "families", "parameter": "energy", "span": [0.004, 0.02], "period": 6, "levels": 8,
+    "drawn": 6, "step": 0.002, "starts": 40, "impacts": 1000,
+}  # fmt: skip
+AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
+SCENES = {
+    "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
+    "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
+    "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4]},
+}  # fmt: skip
+# A kind, the number of one of its datasets, a variable, and a change of it that must show.
+CHANGES = [
+    ("spread", 0, "exponent", lambda v: v + 0.003),
+    ("clusters", 0, "dependence", lambda v: 0.5 * v),
+    ("rotation", 0, "rotation", lambda v: v + 2e-3),
+    ("jumps", 0, "y", lambda v: 0.9 * v),
+    ("flux", 0, "branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
+    ("last_curve", 0, "residue", lambda v: 3.0 * v),
+    ("control", 0, "class_share", lambda v: 0.5 * v),
+    ("twist", 0, "twist", lambda v: 1.1 * v),
+    ("curves", 0, "x", lambda v: v + 0.005),
+    ("horseshoe", 1, "image_p", lambda v: 1.1 * v),
+    ("graph", 0, "corner_x", lambda v: v + 0.005),
+    ("escape", 0, "distance", lambda v: v * np.linspace(1, 2, v.shape[1])),
+    ("curves", 0, "saddle_x", lambda v: v + 0.01),
+    ("families", 0, "x", lambda v: v + 0.02),
+    ("families", 0, "trace", lambda v: v + 0.2),
+    ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
+    ("families", 0, "event_x", lambda v: v + 0.03),
+    ("families", 0, "end_kind", lambda v: np.full(v.shape, "range", dtype=object)),
+    ("families", 1, "regular", lambda v: 0.5 * v),
+]
+KINDS = list(dict.fromkeys(kind for kind, *_ in CHANGES))
+
+
+def families_along(parameter, span, levels, step, starts, impacts):
+    held = families(BALL, 0.01, parameter, span, 6, levels)
+    with pytest.MonkeyPatch.context() as patch:  # not drawn, and takes seconds
+        patch.setattr("extensions.families.shares.breakup", lambda *_: np.nan)
+        return held, shares(BALL, 0.01, held, parameter, span, step, starts, impacts)
+
+
+def curves():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
+        data = scenes.scene_curves(BALL, 0.01, [0.17865])
+    return data, scene_orbits(BALL, 0.01, [0.1, 0.9], [200, 800])
+
+
+def horseshoe():
+    six = symmetric_orbits(BALL, 0.01, 6)
+    saddle, both = (six, 6, "hyperbolic"), {side: {"length": 0.5} for side in ("outer", "inner")}
+    resolution = {"distance": 0.05, "bend": 40}
+    manifolds = scene_manifolds(BALL, 0.01, *saddle, resolution, branches=both)
+    return manifolds, scenes.scene_horseshoe(BALL, 0.01, *saddle, "outer")
+
+
+OTHERS = {
+    "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
+    "curves": curves,
+    "horseshoe": horseshoe,
+    "escape": lambda: [escape(BALL, 0.0374, [0.0, 1e-4], 0.01, 16, 2000)],
+    "graph": lambda: [
+        scenes.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
+    ],
+    "families": lambda: families_along("energy", FAMILIES["span"], 8, 0.002, 40, 1000),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def data(request):
+    """(kind) -> the datasets that it draws."""
+    others = {"spread": ["fig7/lyapunov"], "jumps": ["fig2/orbits"]}
+
+    @cache
+    def data(kind):
+        if kind in OTHERS:
+            return OTHERS[kind]()
+        datasets = request.getfixturevalue("datasets")
+        return [datasets[name] for name in (f"{kind}/{kind}", *others.get(kind, []))]
+
+    return data
+
+
+def draw(name, datasets, **changes):
+    return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_picture_is_reproducible_and_fits_a_column(data, name):
+    first = draw(name, data(name))
+    for extension in ("png", "svg"):
+        assert render(first, extension) == render(draw(name, data(name)), extension)
+    image = pixels(first)
+    assert image.shape[1] == style.COLUMN
+    ink = np.any(image != 255, axis=2)
+    assert 0.01 < ink.mean() < 0.6
+    for side in (ink[0], ink[-1], ink[:, 0], ink[:, -1]):  # the sheet cuts nothing off
+        assert not side.any()
+    letters = [text for text in first.texts if "mathbf" in text.get_text()]
+    frames = 5 if name == "control" else len(frames_of(first))  # one letter for all portraits
+    assert len(letters) == (frames if frames > 1 else 0)
+
+
+@pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
+def test_a_change_of_the_data_shows(data, name, index, variable, change):
+    changed = [*data(name)]
+    values = change(changed[index][variable].values)
+    changed[index] = changed[index].assign(
+        {variable: changed[index][variable].copy(data=values)}
+    )  # fmt: skip
+    assert np.any(pixels(draw(name, changed)) != pixels(draw(name, data(name))))
+
+
+@pytest.mark.parametrize(("name", "change"), [("families", {"drawn": 1}), ("twist", {"marks": []})])
+def test_a_change_of_the_scene_shows(data, name, change):
+    other = pixels(draw(name, data(name), **change))
+    assert np.any(other != pixels(draw(name, data(name))))
+
+
+def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
+    along_k = families_along("k", [0.18, 0.22], 4, 0.01, 20, 500)
+    other = draw("families", along_k, parameter="k", span=[0.18, 0.22], step=0.01)
+    for figure in (draw("families", data("families")), other):
+        assert_text_is_whole_and_apart(figure, margin=1, slack=5)
+
+
+def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
+    held, regular = data("families")
+    span, energy = rows(held)[0], held["energy"].values
+    residue = np.full(energy.size, 0.5)
+    residue[span] = np.linspace(0.5, 4.0, residue[span].size)
+    figure = draw("families", [held.assign(trace=("point", 2.0 - 4.0 * residue)), regular])
+    marks = [line for line in figure.artists if line.get_marker() in ("^", "v")]
+    places = np.hstack([line.get_data() for line in marks]) * style.DPI
+    (x,) = places[0][(places[1] > 340) & (places[1] < 695)]  # in the lowest panel
+    low, high = FAMILIES["span"]
+    leaves = np.interp(1.6, residue[span], energy[span])
+    assert x == pytest.approx(125 + 875 * (leaves - low) / (high - low), abs=0.1)
+
+
+def test_lines_of_energies_differ_in_colour_or_dash_and_neighbours_in_both(data):
+    many = data("rotation")[0].isel(energy=[0, 1] * 5)
+    figure = draw("rotation", [many.assign(energy=("energy", [0.003 * i for i in range(10)]))])
+    lines = [line for line in figure.artists if line.get_linewidth() == 1.0]
+    inks = [(line.get_color(), line.get_linestyle()) for line in lines]
+    assert len(set(inks)) == 10 and len({color for color, _ in inks}) == 8
+    assert [dash for _, dash in inks[:8]] == ["-", "--"] * 4
+
+
+def test_names_of_plateaus_lie_within_their_panel(data, monkeypatch):
+    (rotation,) = data("rotation")
+    place, turns = (rotation[f"detail_{name}"].values for name in ("place", "rotation"))
+    last = int(np.argmax(place))
+    highest = round(1e5 * turns[last]), 100_000, place[last - 1], place[last]
+    monkeypatch.setattr(module("rotation"), "plateaus", lambda *_: [highest])
+    figure = draw("rotation", [rotation])
+    with style.pinned():
+        names = [text for text in figure.texts if "/100000" in text.get_text()]
+        boxes = [text.get_window_extent() for text in names]
+    assert boxes and all(box.y0 > 715 and box.y1 < 1065 and box.x1 < 1005 for box in boxes)

@@ -1,0 +1,149 @@
+"""Scenes of claims away from the committed ones: bounds, variants, names and unusual sizes."""
+
+import pytest
+from examples import (
+    OTHER,
+    PAPER,
+    SHELL,
+    assert_bounded,
+    assert_made_or_refused_in_one_line,
+    checked,
+    made,
+    no_clipping,
+)
+from project import SHIPPED, shipped
+from slowly import slowly
+
+from pipeline import config
+from pipeline.config.build_specs import build_specs
+
+CLUSTERS = ("clusters", {"orbits": 100, "impacts": 100_000, "resamples": 100_000})
+FLUX = ("flux", {"orbits": 1000, "impacts": 10_000})
+CONTROL = ("control", {"orbits": 100_000, "resamples": 100, "impacts": 3_333_333})
+JUMPS, ROTATION, SPREAD = ("jumps", {}), ("rotation", {}), ("spread", {})
+LAST_CURVE = (
+    "last_curve",
+    {"nobles": [[0, 5, 1, 15], [0, 5, 1, 17]], "impacts": 10_000_000, "drawn": 5_000_000},
+)
+LONG_CUT = ("clusters", {"ball": PAPER, "energy": 0.01, "cuts": [4, 8]})
+
+
+@pytest.mark.parametrize(
+    ("scene", "beyond", "line"),
+    [
+        (CLUSTERS, {"impacts": 100_001}, "impacts: 100001 ... here 100000"),
+        (CLUSTERS, {"orbits": 101, "impacts": 100}, "resamples: 100000 ... here 99009"),
+        (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "energy:  ... flights up to 1000000/omega"),
+        (CLUSTERS, {"between": [0.68, 0.55]}, "between: [0.68, 0.55] ... two increasing"),
+        (CLUSTERS, {"lags": 99, "impacts": 100, "orbits": 2}, "lags: 99 ... impacts - 2 = 98"),
+        (LONG_CUT, {"cuts": [4, 10]},
+         "cuts[1]: 10 ... below 8.367, which no flight at this energy"),
+        (CONTROL, {"shown": 0.02}, "shown: 0.02 ... one of strengths: 0.01, 0.05"),
+        (CONTROL, {"strengths": [0.05, 0.01]}, "strengths:  ... a rising list"),
+        (CONTROL, {"impacts": 3_333_334}, "impacts: 3333334 ... at most 10000000"),
+        (CONTROL, {"drawn": 3_333_334}, "drawn: 3333334 ... at most impacts = 3333333"),
+        (CONTROL, {"resamples": 101}, "resamples: 101 ... here 100"),
+        (FLUX, {"period": 5}, "period: 5 ... a multiple of 2"),
+        (FLUX, {"orbits": 1001}, "impacts: 10000 ... here 9990"),
+        (JUMPS, {"energies": [0.001, 9]}, "energies[1]: 9 ... k/2 - g = 0.1466"),
+        (LAST_CURVE, {"drawn": 5_000_001}, "drawn: 5000001 ... at most 10000000"),
+        (LAST_CURVE, {"nobles": [[0, 1000, 1000, 1000]], "convergents": 6},
+         "nobles[0]:  ... to 10000000, not 8005016005"),
+        (LAST_CURVE, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
+        (LAST_CURVE, {"between": [0.2, 0.2]}, "between: [0.2, 0.2] ... two fractions that differ"),
+        (ROTATION, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
+        (SPREAD, {"blocks": 30}, "blocks: 30 ... a divisor of length = 2000"),
+    ],
+)  # fmt: skip
+def test_beyond_its_bound(scene, beyond, line):
+    assert_bounded("claims", *scene, beyond, line)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("rotation", {}),
+        ("clusters", {}),
+        ("jumps", {}),
+        ("rotation", {"ball": OTHER, "energy": 0.008, "energies": [0.002, 0.012]}),
+        ("clusters", {"ball": {"k": 0.3, "g": 0.005}, "energy": 0.01, "lags": 20,
+                      "cuts": [10, 20, 30, 35, 40, 45, 50]}),
+        ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0005]}),
+        ("last_curve", {"ball": PAPER, "energy": 0.01, "between": [-0.2, -0.0325639],
+                        "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
+        ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
+        *slowly(
+            ("rotation", {"detail": [-0.25, -0.24999]}),
+            ("control", {"ball": OTHER, "energy": 0.008, "strengths": [0.02], "shown": 0.02}),
+            ("last_curve",
+             {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2], "convergents": 8}),
+            ("spread", {"regular_impacts": 1_000_000}),
+        ),
+    ],
+)  # fmt: skip
+def test_no_data_are_clipped_to_the_frame(name, change):
+    with no_clipping():
+        made(checked(name, **change))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("rotation", {"starts": 2, "impacts": 100, "detail": [0.5, 0.6], "detail_impacts": 100}),
+        ("rotation", {"ball": SHELL, "energy": 0.01, "energies": [-0.0001], "detail": [0.5, 0.9]}),
+        ("rotation", {"ball": PAPER, "energy": 0.05, "energies": [0.055]}),
+        ("spread", {"ball": PAPER, "energy": 0.01, "length": 10_000}),
+        ("spread", {"orbits": 4, "length": 1000, "blocks": 2, "starts": [0.3], "impacts": 2000}),
+        ("clusters", {"orbits": 2, "impacts": 1000, "lags": 1, "resamples": 10}),
+        ("clusters", {"ball": PAPER, "energy": 0.001, "cuts": [3]}),
+        ("control", {"ball": PAPER, "energy": -0.003999, "period": 12}),
+        ("control", {"ball": PAPER, "energy": 0.05, "strengths": [1e-6, 0.5], "shown": 0.5}),
+        ("control", {"orbits": 10, "impacts": 64, "drawn": 1, "resamples": 10}),
+        ("jumps", {"ball": PAPER, "energy": 0.00177, "energies": [0.00176], "sides": 4}),
+        ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2]}),
+        ("last_curve", {"nobles": [[0, 5, 1, 15]]}),
+    ],
+)
+def test_unusual_values_are_drawn_or_refused_in_one_line(name, change):
+    assert_made_or_refused_in_one_line(checked(name, **change))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("change", "sides"),
+    [({"ball": PAPER, "energy": 0.009}, 2), ({"ball": PAPER, "energy": 0.011}, 1),
+     ({"ball": PAPER, "energy": 0.002, "period": 10}, 2),
+     ({"ball": {"k": 0.3, "g": 0.02}, "energy": 0.002}, 1)],
+)  # fmt: skip
+def test_flux_has_the_lobes_that_exist_and_says_why_others_do_not(change, sides):
+    block = checked("flux", **({"between": [0.6, 0.7]} | change))
+    _, numbers, _ = made(block)
+    assert len(numbers["lobes"].split(", ")) == sides
+    if sides == 1:
+        assert numbers["no outer lobes"].startswith("a jump of the map cuts the branch")
+    assert ("no inner region" in numbers) == (block["ball"]["k"] == 0.3)
+
+
+def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
+    document = shipped()
+    document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
+    document["scenes"]["along_energy"] = document["families"]["energy"]
+    against_k = {"parameter": "k", "span": [0.1, 0.3], "step": 0.01}
+    document["scenes"]["against_k"] = document["scenes"]["along_energy"] | against_k
+    document |= {"variants": {"v": {"scale": 2}}, "claims": {}, "families": {}}
+    scenes = config.check(document).variants["v"]
+    assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
+    assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
+    families = scenes["along_energy"]
+    assert (families["span"], families["step"]) == ([-0.0156, 0.2396], 0.002)
+    assert (scenes["against_k"]["span"], scenes["against_k"]["step"]) == ([0.1, 0.3], 0.01)
+
+
+def test_results_have_the_names_of_their_scenes_and_steps():
+    names = {path: (s.scene, s.step) for path, s in build_specs(config.load(SHIPPED)).items()}
+    assert names["results/claims/last_curve_last_curve.nc"] == ("last_curve", "last_curve")
+    assert names["results/theorems/derivations_derivations.nc"] == ("derivations", "derivations")
+    assert names["results/theorems/theorem_six-elliptic.nc"] == ("six-elliptic", "theorem")
+    assert names["results/atlas/sweep_plane.0012.nc"] == ("plane", "block 12")
+    assert names["results/atlas/sweep_plane.nc"] == ("plane", "data")

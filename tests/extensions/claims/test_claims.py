@@ -1,0 +1,490 @@
+"""The claims: each has a check, each check can fail, and CLAIMS.md has what they found."""
+
+import json
+import os
+import re
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from project import of_scenes
+
+from extensions.claims import command as claim_verdicts
+from extensions.claims import ledger as claims
+from extensions.claims.ledger import VERDICTS, chaos, schema
+from extensions.claims.ledger.schema import CORRECTED, FALSE, HOLDS, PROVED, UNCHECKED, UNDECIDED
+from extensions.proofs import THEOREMS
+from extensions.proofs.kinds import theorems
+from pipeline import config
+from pipeline.cli.session import UsageError
+from pipeline.config import ConfigError
+from pipeline.records.sources import ROOT
+from pseudorigid import Ball
+
+PAPER_TEXT = "PAPER_TEXT"  # the environment variable that names the paper's text
+ALL = range(1, 74)
+CERTIFIED = sorted(name for name, scene in theorems().items() if "theorem" in scene)
+
+
+ALGEBRA = {1, 5, 8, 9, 10, 12, 15, 18, 47, 48, 53, 64, 68, 71}  # settled by computer algebra
+PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
+EXPECTED = {
+    FALSE: {14, 33},
+    CORRECTED: {3, 4, 6, 7, 11, 13, 17, 19, 22, 23, 34, 37, 40, 44, 50, 59, 67},
+    UNDECIDED: {30, 52, 62, 63, 70},
+    UNCHECKED: {51, 57, 58},
+    PROVED: ALGEBRA,
+}
+
+
+@pytest.mark.parametrize("proofs", ["", PROVED])
+def test_verdicts_without_and_with_all_proofs(datasets, proofs):
+    expected = {n: word for word, numbers in EXPECTED.items() for n in numbers}
+    if proofs:
+        expected |= dict.fromkeys(PROVED_BY_THEOREMS, PROVED) | {63: CORRECTED, 70: HOLDS}
+    verdicts = claims.judge_claims(datasets, dict.fromkeys(claims.required_theorems(), proofs))
+    assert {v.number: v.verdict for v in verdicts} == dict.fromkeys(ALL, HOLDS) | expected
+
+
+def test_all_theorems_of_invariant_curves_are_used():
+    near = {name for name in CERTIFIED if name.startswith("twist-")} - {"twist-zero"}
+    sized = {name for name in CERTIFIED if name.startswith("curve-")}
+    assert set(claims.CLAIMS[52].theorems) == near | sized
+    assert set(claims.CLAIMS[70].theorems) == near - {"twist-one-zero"}
+
+
+@pytest.mark.parametrize("number", [23, 28, 42, 43, 52])
+def test_shares_inside_curves_are_said_only_of_proved_theorems(datasets, number):
+    """The share is the bound of the theorem whose certificate was checked, and no other."""
+    claim = claims.CLAIMS[number]
+    sized = [name for name in claim.theorems if name.startswith("curve-")]
+    others = dict.fromkeys(claim.theorems, PROVED)
+    for name in sized:
+        share = f"more than {float(THEOREMS[name].bounds['share'])}"
+        only = others | dict.fromkeys(sized, "not proved")
+        assert "more than 0." not in claim.judge(datasets, only).value
+        assert share in claim.judge(datasets, only | {name: PROVED}).value
+
+
+def test_every_theorem_is_cited_by_a_claim():
+    assert claims.required_theorems() == CERTIFIED
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"defect": lambda v: v + 1e-6},  # no map has the reversor
+        {"defect": lambda v: 0.0 * v},  # the maps without it have it too
+        {"class_high": lambda v: v + 0.2},  # regular orbits may remain with neither
+        {"class_low": np.zeros_like, "wander": np.zeros_like},  # the reversor may keep an area
+    ],
+)
+@pytest.mark.parametrize("energy", ["control", "control_low"])
+def test_the_control_separates_the_properties_at_both_energies(datasets, energy, change):
+    claim = claims.CLAIMS[50]
+    wrong = datasets | changed(f"{energy}/control", **change)(datasets)
+    assert claim.judge(wrong, {}).verdict == UNDECIDED
+    assert claim.judge(datasets, {}).verdict == CORRECTED
+
+
+def test_the_count_leaves_out_what_cannot_be_checked():
+    rows = [
+        schema.Verdict(n, "1", "a", word, "a", "", "", [])
+        for n, word in enumerate((HOLDS, UNCHECKED))
+    ]
+    assert "1 checkable statements, and on 1 more" in claims.render(rows)
+
+
+def test_all_statements_are_there_and_whole():
+    assert list(claims.CLAIMS) == list(ALL)
+    for claim in claims.CLAIMS.values():
+        words = claim.quote or claim.paraphrase
+        assert words == " ".join(words.split())
+        assert 5 < len(words) < 260 and words.isascii() and "..." not in words
+
+
+def squeezed(text):
+    """Text without what a transcript changes: spaces, hyphens at line ends, quotation marks."""
+    return re.sub(r"[\s\-\N{RIGHT SINGLE QUOTATION MARK}']", "", text)
+
+
+@pytest.mark.skipif(PAPER_TEXT not in os.environ, reason=f"{PAPER_TEXT} names no text")
+def test_quotes_are_the_papers_words():
+    text = squeezed(Path(os.environ[PAPER_TEXT]).read_text(encoding="utf-8"))
+    for claim in claims.CLAIMS.values():
+        assert (squeezed(claim.quote or claim.paraphrase) in text) == bool(claim.quote), (
+            claim.number
+        )
+
+
+# -- a wrong dataset changes the verdict ----------------------------------------------------------
+
+
+def broken(*names):
+    """Let formulas of the derivations hold neither as printed nor corrected."""
+
+    def change(datasets):
+        dataset = datasets["derivations"].copy(deep=True)
+        for name in names:
+            row = dataset["formula"].values.tolist().index(name)
+            dataset["printed"].values[row] = dataset["corrected"].values[row] = 0
+        return {"derivations": dataset}
+
+    return change
+
+
+def changed(name, **values):
+    """Replace variables of a dataset by functions of their values."""
+
+    def change(datasets):
+        dataset = datasets[name].copy(deep=True)
+        for variable, make in values.items():
+            dataset[variable] = dataset[variable].copy(data=make(dataset[variable].values.copy()))
+        return {name: dataset}
+
+    return change
+
+
+def attributes(name, **values):
+    return lambda datasets: {name: datasets[name].assign_attrs(values)}
+
+
+def shortened(name, **parts):
+    return lambda datasets: {name: datasets[name].isel(parts)}
+
+
+def first_to(value):
+    def make(values):
+        values.reshape(-1)[0] = value
+        return values
+
+    return make
+
+
+def weak_orbit(values):
+    values[:, int(np.argmax(values[:, :, 0].mean(axis=0)))] *= 0.01
+    return values
+
+
+def short_line(values):
+    return np.linspace(0.0, 1e-3, values.size)
+
+
+HUNDREDTH = partial(np.multiply, 0.01)
+CONSTANT = dict.fromkeys(("regular", "regular_low", "regular_high"), lambda v: 0.0 * v + 0.5)
+ONE_WAY = {"rotation": lambda v: np.linspace(0.18, 0.17, v.size).reshape(v.shape)}
+WRONG = {
+    1: broken("uncoupled"),
+    2: changed("clusters/clusters", strain_energy=HUNDREDTH, kinetic_energy=lambda v: 9.0 * v),
+    3: broken("shell"),
+    4: attributes("fig2/orbits", k=0.3),
+    5: changed("fig2/orbits", tau=lambda v: 1.001 * v),
+    6: broken("contact_speed"),
+    7: broken("impulsive_forces"),
+    8: broken("jump_conditions"),
+    9: broken("impulse_without_stiffness"),
+    10: broken("scaling"),
+    11: broken("scaled_impulse"),
+    12: broken("flights"),
+    13: broken("impact_map"),
+    14: changed("jumps/jumps", length=np.zeros_like),
+    15: changed("clusters/clusters", energy_error=first_to(1e-6)),
+    16: changed("fig8/orbits", xdot=np.negative, udot=np.negative),
+    17: broken("bound"),
+    18: changed("clusters/clusters", least_strain=first_to(-1.01)),
+    19: attributes("as_published/fig7/lyapunov", impacts_missed=0),
+    20: shortened("fig2/orbits", orbit=slice(0, 7)),
+    21: changed("fig3/periodic", type=first_to("hyperbolic")),
+    22: shortened("fig4/periodic", orbit=slice(0, 1)),
+    23: changed("rotation/rotation", detail_rotation=lambda v: np.linspace(0.17, 0.171, v.size)),
+    24: changed("fig4/motion", t=lambda v: 0.9 * v),
+    25: changed("fig4/periodic", trace=lambda v: v + 0.01),
+    26: changed("flux/flux", sine=first_to(1e-12)),
+    27: changed("flux/flux", area=first_to(1e-4)),
+    28: changed("last_curve/last_curve", residue=np.ones_like),
+    29: attributes("fig6/manifolds", point_x=0.2121),
+    31: changed("flux/flux", target=lambda v: np.array([0, 1])),
+    32: changed("clusters/clusters", flights=lambda v: np.full_like(v, v.max())),
+    33: changed("clusters/clusters", dependence_low=np.zeros_like),
+    34: changed("spread/spread", entered_least=lambda v: v // 2),
+    35: changed("spread/spread", regular_exponent=lambda v: v + 0.2),
+    36: changed("spread/spread", exponent=lambda v: v + 0.05 * np.eye(v.shape[1], 1)),
+    37: broken("exponents"),
+    38: broken("jacobian"),
+    39: shortened("fig7/lyapunov", orbit=slice(0, 2)),
+    40: changed("spread/spread", exponent=lambda v: 1.2 * v),
+    41: changed("spread/spread", exponent=np.abs),
+    42: changed("atlas/line", regular_low=np.zeros_like),
+    43: changed("atlas/line", **CONSTANT),
+    44: changed("atlas/line", **CONSTANT),
+    45: changed("rotation/rotation", exponent=np.zeros_like),
+    46: changed("atlas/plane", regular_high=np.ones_like),
+    47: broken("one_form"),
+    48: broken("area"),
+    49: changed("rotation/rotation", **ONE_WAY),
+    50: changed("control_low/control", class_low=np.zeros_like),
+    53: broken("flights"),
+    54: broken("softness"),
+    55: changed("flux/flux", sea_inside=first_to(0.1)),
+    56: changed("rotation/rotation", rotation=lambda v: v + 1e-3 * np.sin(np.arange(v.shape[1]))),
+    59: broken("modes"),
+    60: changed("fig5/manifolds", **dict.fromkeys(("x", "xdot", "udot"), short_line)),
+    61: changed("spread/spread", exponent=lambda v: v + 0.1),
+    62: changed("spread/spread", entered_least=lambda v: v // 2),
+    63: changed("jumps/jumps", length=np.zeros_like),
+    64: broken("flow"),
+    65: changed("atlas/plane", **dict.fromkeys(CONSTANT, lambda v: 0.0 * v + v[:1])),
+    66: changed("spread/spread", exponent=weak_orbit),
+    67: broken("euler_tensor"),
+    68: broken("jump_conditions"),
+    69: changed("fig4/periodic", type=lambda v: np.array(["elliptic", "other", "hyperbolic"])),
+    71: broken("flow"),
+}  # fmt: skip
+
+
+def test_every_check_of_data_has_a_wrong_dataset():
+    assert set(WRONG) == {number for number, claim in claims.CLAIMS.items() if claim.data}
+
+
+@pytest.mark.parametrize("number", WRONG)
+def test_a_wrong_dataset_changes_the_verdict(datasets, number):
+    claim = claims.CLAIMS[number]
+    proofs = dict.fromkeys(claims.required_theorems(), PROVED)
+    right = claim.judge(datasets, proofs)
+    wrong = claim.judge(datasets | WRONG[number](datasets), proofs)
+    undecided = right.verdict == wrong.verdict == UNDECIDED  # for another reason
+    assert wrong.value != right.value if undecided else wrong.verdict != right.verdict
+
+
+CITED = [(n, name) for n, claim in claims.CLAIMS.items() for name in claim.theorems]
+
+
+@pytest.mark.parametrize(("number", "name"), CITED)
+def test_each_proof_changes_the_rows_that_cite_it(datasets, number, name):
+    claim = claims.CLAIMS[number]
+    proofs = dict.fromkeys(claim.theorems, PROVED)
+    assert claim.judge(datasets, proofs | {name: "not proved"}) != claim.judge(datasets, proofs)
+    assert claim.judge(datasets, {}).verdict != PROVED
+
+
+CASES = {
+    (14, "smooth"): changed("jumps/jumps", length=np.zeros_like),
+    (23, "no_gap"): WRONG[23],
+    (28, "no_break_up"): WRONG[28],
+    (50, "mixed"): WRONG[50],
+    (63, "smooth"): changed("jumps/jumps", length=np.zeros_like),
+    **{(number, "unproved"): lambda datasets: {} for number in (30, 52, 63, 70)},
+}
+
+
+def test_every_case_of_a_claim_has_its_sentence(datasets):
+    assert CASES.keys() == {(n, case) for n, claim in claims.CLAIMS.items() for case in claim.cases}
+    for (number, case), change in CASES.items():
+        claim = claims.CLAIMS[number]
+        proofs = {} if case == "unproved" else dict.fromkeys(claim.theorems, PROVED)
+        value = claim.judge(datasets | change(datasets), proofs).value
+        assert value.startswith(claim.cases[case].value.partition("{")[0])
+
+
+# -- CLAIMS.json and CLAIMS.md --------------------------------------------------------------------
+
+
+def test_the_committed_page_is_rendered_from_the_committed_verdicts():
+    text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
+    verdicts = claims.read_json(text)
+    assert [verdict.number for verdict in verdicts] == list(ALL)
+    assert claims.to_json(verdicts) == text
+    page = (ROOT / "CLAIMS.md").read_text(encoding="utf-8")
+    assert claims.render(verdicts) == claims.render(verdicts[::-1]) == page
+    titles = re.findall(r"^## (.*)$", page, flags=re.M)
+    assert titles == [word.capitalize() for word in VERDICTS]
+    for verdict in verdicts:
+        claim = claims.CLAIMS[verdict.number]
+        assert (verdict.place, verdict.statement) == (claim.place, claim.statement)
+        assert verdict.datasets == claim.data
+
+
+ROW = schema.Verdict(1, "1", "a", HOLDS, "a value", "", "", [])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{}",
+        "[1]",
+        '[{"number": 1}]',
+        claims.to_json([ROW]).replace(HOLDS, "true"),
+        claims.to_json([ROW]).replace("a value", ""),
+    ],
+)
+def test_what_is_no_list_of_verdicts_is_refused(text):
+    with pytest.raises(ValueError, match="validation error"):
+        claims.read_json(text)
+
+
+# Lines of claims.toml with a mistake: line -> (another, how the message begins).
+MISTAKES = {
+    'place = "2.1"\n': {
+        'plase = "2.1"\n': "claims.1.place: Field required",
+        "place = 2.1\n": "claims.1.place: Input should be a valid string",
+    },
+    "[claims.2]": {
+        "[claims.two]": "claims.two.[key]: Input should be a valid integer",
+        "[claims.1]": "Cannot declare ('claims', '1') twice (at line ",
+    },
+    '"fig2/orbits"': {
+        '"fig2/orbit"': "claims.4.data[1]: 'orbit' is not known: did you mean orbits?"
+    },
+    '["uncoupled"]': {'["couple"]': "claims.1.formulas[0]: 'couple' is not known: did you mean un"},
+    '"twist-zero"': {
+        '"twist-zer"': "claims.49.theorems[1]: 'twist-zer' is not known: did you mean twist-zero?"
+    },
+    'check = "model.homogeneous"\n': {
+        'check = "model.same"\n': "claims.4.check: 'model.same' is not known: did you mean model.",
+        'check = "model.homogeneous"\ntheorems = ["twist-zero"]\n': "claims.4.check: model.homog",
+        "": "claims.4: expected one of check, formulas and verdict",
+        'quote = "x"\nverdict = "holds"\n': "Cannot overwrite a value",
+        'paraphrase = "x"\n': "claims.4: expected either quote or paraphrase",
+    },
+    'verdict = "holds"': {'verdict = "hold"': "claims.72.verdict: Input should be 'does not hold'"},
+    'data = ["derivations"]': {
+        'data = ["atlas/line"]': "claims.1: formulas are in one dataset: expected d"
+    },
+    '"undecided" =': {'"unsettled" =': "verdicts.unsettled.[key]: Input should be 'does not hold'"},
+}
+
+
+@pytest.mark.parametrize(("text", "other"), [(a, b) for a in MISTAKES for b in MISTAKES[a]])
+def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other):
+    assert text in claims.TEXT
+    with pytest.raises(ConfigError) as error:
+        schema.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
+    assert error.value.lines[0].startswith(f"claims.toml: {MISTAKES[text][other]}")
+
+
+def test_every_check_and_every_verdict_is_used():
+    assert claims.CHECKS.keys() <= {claim.check for claim in claims.CLAIMS.values()}
+    assert set(VERDICTS) == set(schema.VERDICT_WORDS)
+
+
+def test_a_dataset_that_no_scene_makes_is_named_with_its_claim():
+    checked = config.check(of_scenes("fig3", "fig5"))
+    with pytest.raises(UsageError, match="makes fig2/orbits, which claim 4 needs"):
+        claim_verdicts.dataset_paths(checked, ["fig2/orbits"])
+
+
+@pytest.mark.parametrize(
+    ("value", "wrong"),
+    [
+        ("{shel}", "no number 'shel'"),
+        ("{shell", "expected '}'"),
+        ("{shell:y}", "Unknown format"),
+        ("{shell.x}", "'numpy.float64' object"),
+    ],
+)
+def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
+    claim = claims.CLAIMS[3].model_copy(update={"value": value})
+    with pytest.raises(ConfigError, match=f"^claims.toml: claims.3: {wrong}"):
+        claim.judge(datasets, {})
+
+
+def test_true_and_false_are_no_words_of_a_sentence():
+    found = schema.Outcome(HOLDS, {"seen": True})
+    changes = {"function": lambda *_: found, "value": "seen: {seen}", "data": []}
+    with pytest.raises(ConfigError, match="no number 'seen'"):
+        claims.CLAIMS[3].model_copy(update=changes).judge({}, {})
+
+
+# -- what single rows say -------------------------------------------------------------------------
+
+
+def test_the_derivative_beside_the_jump_curve_is_that_of_differences(datasets):
+    """Row 14: the numbers by differences of the map itself, on both sides."""
+    jumps, ball = datasets["jumps/jumps"], Ball(0.2, 0.04)
+    middle = jumps.sizes["point"] // 2
+    x, y = jumps["x"].values[0], -jumps["y"].values[0]
+    along = np.array([x[middle + 1] - x[middle - 1], y[middle + 1] - y[middle - 1]])
+    across = np.array([along[1], -along[0]]) / np.hypot(*along)
+    row, step = 1, 1e-7  # at a distance of 1e-3
+    distance = jumps["distance"].values[row]
+    norms = []
+    for side in (-1.0, 1.0):
+        point = np.array([x[middle], y[middle]]) + side * distance * across
+        images = []
+        for shift in step * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]]):
+            a, v, w, _ = ball.impact(*ball.state_xy(*(point + shift), 0.01))
+            images.append([a, v - 0.2 * w])
+        matrix = np.array([np.subtract(*images[:2]), np.subtract(*images[2:])]).T / (2 * step)
+        norms.append(np.linalg.norm(matrix, 2))
+    ours = [float(jumps[f"derivative_{side}"].values[row]) for side in ("missed", "touched")]
+    assert sorted(norms) == pytest.approx(ours, rel=1e-4)
+    touched = jumps["derivative_touched"].values
+    assert touched[-1] / touched[-3] == pytest.approx(10.0, rel=0.02)  # like h^-1/2
+    assert "like h^-0.50" in claims.CLAIMS[14].judge(datasets, {}).value
+
+
+def test_x_and_y_are_told_apart_where_clusters_are_compared(datasets):
+    """Row 33: each number is that of its own coordinate, and the widest interval is the error."""
+    clusters = datasets["clusters/clusters"]
+    verdict = claims.CLAIMS[33].judge(datasets, {})
+    of_y, of_x = verdict.value.split(". It explains")
+    for i, text in enumerate((of_x, of_y)):
+        correlation = clusters["correlation"].values[:, 0, i, i]
+        for numbers in (correlation, clusters["dependence"].values[:, 0, i]):
+            assert ", ".join(f"{number:.3f}" for number in numbers) in text
+    assert 0.005 < float(verdict.error.rpartition(" ")[2]) < 0.1
+
+
+def test_the_energy_share_is_defined_by_strain_and_kinetic_energy(datasets):
+    """Row 2: all of it strain energy where nothing moves."""
+    still = changed("clusters/clusters", kinetic_energy=np.zeros_like)(datasets)
+    assert "together 1.0000 is strain energy" in claims.CLAIMS[2].judge(datasets | still, {}).value
+
+
+def test_a_cell_is_mixed_only_where_its_interval_excludes_both_ends(datasets):
+    """Row 46: a rounding below 1 is no exclusion."""
+    low = np.full(datasets["atlas/plane"]["regular_low"].shape, 0.3)
+    high = np.full(low.shape, 1.0 - 2.0**-53)
+    high[0, 0], low[0, 1] = 0.9, 0.0
+    mixed = changed("atlas/plane", regular_low=lambda v: low, regular_high=lambda v: high)
+    value = claims.CLAIMS[46].judge(mixed(datasets), {}).value
+    assert "In 11 % of them the interval excludes 0 and 1" in value
+
+
+def test_rises_are_counted_by_the_share_and_its_intervals():
+    share = np.array([9.0, 5.0, 4.0, 4.5, 8.0, 8.0, 7.9, 3.0, 3.5])
+    assert chaos._rises(share, share - 0.4, share + 0.4) == [(2, 4)]
+    assert chaos._rises(share, share - 3.0, share + 3.0) == []
+    assert chaos._rises(share, share - 0.1, share + 0.1) == [(2, 4), (7, 8)]
+    # Wider intervals elsewhere move neither a minimum nor a maximum.
+    share = np.array([9.0, 4.0, 4.2, 8.1, 8.0, 1.0])
+    width = np.array([0.1, 0.9, 0.1, 0.9, 0.1, 0.1])
+    assert chaos._rises(share, share - width, share + width) == [(1, 3)]
+
+
+def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():
+    """Rows 42 to 44 of the committed CLAIMS.md and the page of the atlas round alike."""
+    text = (ROOT / "CLAIMS.json").read_text(encoding="utf-8")
+    rows = {row.number: row for row in claims.read_json(text)}
+    page = (ROOT / "src/extensions/atlas/README.md").read_text(encoding="utf-8")
+    rises = re.findall(r"(0\.\d+) at (0\.\d+)", rows[44].value)
+    assert len(rises) == 6
+    for share, energy in rises[:-1]:  # the last is where the line ends
+        assert f"{energy} ({share})" in page
+    for share, low, high, energy in re.findall(
+        r"(0\.\d+) \((0\.\d+) to (0\.\d+)\) at E = (0\.\d+)", rows[43].value
+    ):
+        assert re.search(rf"\| {energy} \([^|]*\) \| {share} \| {low} - {high} \|", page)
+    assert rows[42].error.replace(" to ", " - ") in page
+
+
+def test_missed_impacts_are_judged_by_the_contact_speeds_of_the_same_orbits(datasets):
+    """Row 19: condition (22) holds at every impact that the method finds, (21) between them not."""
+    value = claims.CLAIMS[19].judge(datasets, {}).value
+    least = float(re.search(r"at least (\S+)$", value)[1])
+    assert 0.0 < least < 0.05
+    lyapunov = datasets["as_published/fig7/lyapunov"]
+    method = json.loads(lyapunov.attrs["config"])["method"]
+    assert f"steps of {method['scan']:g}" in value

@@ -1,0 +1,102 @@
+"""Clusters of impacts and flight times, against loops, quadrature and a known random process."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+import scipy.integrate
+from sections import BALL
+
+from extensions.claims.analyses import clusters as clusters_module
+from extensions.claims.analyses.clusters import clusters
+from pseudorigid import orbit
+
+ENERGY = 0.01
+SEA = (0.55, 0.68)
+
+
+@pytest.fixture(scope="module")
+def clustering():
+    return clusters(BALL, ENERGY, SEA, 24, 1500, [4.0, 6.5], 2, 80, 7)
+
+
+def start_of(i):
+    """Start of one of the 24 orbits of `clustering`."""
+    return BALL.start(SEA[0] + (SEA[1] - SEA[0]) * (i + 0.5) / 24, ENERGY)
+
+
+@pytest.mark.parametrize("row, cut", [(0, 4.0), (1, 6.5)])
+def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
+    count, sizes, periods, pairs = 0, [], [], []
+    for i in range(24):
+        path = orbit(BALL, start_of(i), 1500)
+        x, tau = path["x"].values, path["tau"].values
+        y = path["xdot"].values - 0.2 * path["udot"].values
+        begun = [i for i in range(1500) if tau[i] > cut]
+        count += len(begun)
+        for first, then in itertools.pairwise(begun):
+            sizes.append(then - first)
+            periods.append(sum(tau[first + 1 : then + 1]))
+            pairs.append((x[first], y[first], x[then], y[then]))
+    assert int(clustering["count"].values[row]) == count
+    assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(np.mean(sizes))
+    assert float(clustering["period"].values[row]) == pytest.approx(np.mean(periods))
+    expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
+    np.testing.assert_allclose(clustering["correlation"].values[row, 0], expected, atol=1e-10)
+    for measure in ("correlation", "dependence"):
+        value, low, high = (clustering[f"{measure}{end}"].values for end in ("", "_low", "_high"))
+        assert np.all(low < high)
+        assert np.all((low <= value) & (value <= high)) or measure == "dependence"
+
+
+def test_the_histogram_has_every_flight(clustering):
+    assert int(clustering["flights"].sum()) == 24 * 1500
+    assert clustering.sizes["edge"] == clustering.sizes["bin"] + 1
+
+
+def test_energies_and_strains_are_those_of_quadrature(clustering):
+    state, energy, kinetic, time, low, high = start_of(0), 0.0, 0.0, 0.0, 0.0, 0.0
+    for _ in range(1500):
+        x, v, w = state
+        jump = 2.0 * (v + w) / 1.2
+        b, c = v - 0.2 * jump, w - jump
+        *state, tau = BALL.impact(*state)
+        t = np.linspace(0.0, tau, 4001)
+        u = c * np.sin(t) - x * np.cos(t)
+        energy += 0.1 * scipy.integrate.simpson(u * u, x=t)
+        rates = (b + 0.04 * t) ** 2 / 2 + 0.1 * (c * np.cos(t) + x * np.sin(t)) ** 2
+        kinetic += scipy.integrate.simpson(rates, x=t)
+        time += tau
+        low, high = min(low, u.min()), max(high, u.max())
+    first = clustering.isel(orbit=0)
+    assert float(first["time"]) == pytest.approx(time, rel=1e-12)
+    assert float(first["strain_energy"]) == pytest.approx(energy / time, rel=1e-9)
+    assert float(first["kinetic_energy"]) == pytest.approx(kinetic / time, rel=1e-9)
+    assert float(first["least_strain"]) == pytest.approx(low, abs=1e-6)
+    assert float(first["largest_strain"]) == pytest.approx(high, abs=1e-6)
+    assert np.all(clustering["energy_error"].values < 1e-14)
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.6])
+def test_memory_of_an_autoregressive_process(memory):
+    """a' = r a + sqrt(1 - r^2) noise has the correlation r^lag and the ratio r^(2 lag)."""
+    random = np.random.default_rng(3)
+    states = random.normal(size=(40, 2, 600))
+    for i in range(1, 600):
+        states[..., i] *= math.sqrt(1 - memory**2)
+        states[..., i] += memory * states[..., i - 1]
+    resampled = random.integers(0, 40, (100, 40))
+    correlation, dependence = clusters_module._memory(list(states), 2, resampled)
+    for lag in (1, 2):
+        expected = memory**lag * np.eye(2)
+        value, low, high = correlation[:, lag - 1]
+        np.testing.assert_allclose(value, expected, atol=0.03)
+        assert np.all(low - 0.02 < expected) and np.all(expected < high + 0.02)
+        # eight bins of a coordinate explain a little less than its value does
+        np.testing.assert_allclose(dependence[0, lag - 1], memory ** (2 * lag), atol=0.03)
+
+
+def test_a_cut_beyond_all_flights_is_refused():
+    with pytest.raises(ValueError, match=r"cuts = 9.0 is not allowed"):
+        clusters(BALL, ENERGY, SEA, 2, 50, [9.0], 1, 4, 1)

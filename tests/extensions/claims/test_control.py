@@ -1,0 +1,223 @@
+"""Perturbed maps: their closed formulas, areas, reversors, spirals and classes."""
+
+import math
+
+import numpy as np
+import pytest
+
+from extensions.atlas.cell import wilson
+from extensions.claims.analyses import control, perturbed_map
+from extensions.claims.analyses.perturbed_map import MAPS, apply, change
+from pseudorigid import Ball
+from pseudorigid.dynamics.regularity import GROWTH_THRESHOLD, regular
+from pseudorigid.dynamics.rotation import winding
+
+BALL, ENERGY, EPS = Ball(0.2, 0.04), 0.01, 0.1
+CHANGES = sorted({(form, keeps) for form, keeps, _ in MAPS.values()})
+
+
+def disk(count, inside=0.99):
+    """Complex points of the unit disk, some of them on its rim."""
+    number = np.arange(count)
+    radius = np.sqrt((number + 0.5) / count) * inside
+    angle = 2.399963229728653 * number
+    rim = np.exp(1j * angle[: count // 8])
+    return np.concatenate([radius * np.exp(1j * angle), rim])
+
+
+def twist(z, centre, turn):
+    """A, in complex numbers and as its docstring has it."""
+    t = turn * np.maximum(1.0 - np.abs(z - centre) ** 2 / 0.75**2, 0.0) ** 6
+    return centre + (z - centre) * (1.0 + 1j * t) / (1.0 - 1j * t)
+
+
+def moebius(z, c):
+    """M, in complex numbers and as its docstring has it."""
+    return (z + c) / (1.0 + np.conj(c) * z)
+
+
+def formula(form, keeps, z, eps=EPS, inverse=False):
+    """T or its inverse, in complex numbers and as the docstring has it."""
+    if form == "shift":
+        return moebius(z, (-1 if inverse else 1) * eps * (3 + 4j) / 5)
+    twists = {
+        "twist": [((-4 + 3j) / 20, 4.0)],
+        "stir": [((-4 - 3j) / 20, -2.0), ((-3 + 4j) / 20, 2.0)],
+    }[form]
+    frame = 0.0 if keeps else (-3 + 4j) / 10
+    z = moebius(z, frame)
+    for centre, turn in twists[::-1] if inverse else twists:
+        z = twist(z, centre, (-turn if inverse else turn) * eps)
+    return moebius(z, -frame)
+
+
+def derivatives(function, z, step=1e-5):
+    """The Jacobian (2, 2, n) of a function of the plane by central differences."""
+    columns = [(function(z + d) - function(z - d)) / (2.0 * step) for d in (step, 1j * step)]
+    return np.array([[c.real for c in columns], [c.imag for c in columns]])
+
+
+def applied(form, keeps, z, eps=EPS, mirrored=False):
+    """The images and Jacobians that the compiled code gives."""
+    out = np.array([apply(change(form, keeps, eps, mirrored), p.real, p.imag) for p in z])
+    return out[:, 0] + 1j * out[:, 1], out[:, 2:].T.reshape(2, 2, -1)
+
+
+def determinant(matrix):
+    return matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+
+
+def keeps_disk(function, z):
+    """Whether points of the disk stay in it, and points of the rim on the rim."""
+    image = np.abs(function(z))
+    rim = np.abs(np.abs(z) - 1.0) < 1e-12
+    return bool(np.all(image <= 1.0 + 1e-12) and np.all(np.abs(image[rim] - 1.0) < 1e-12))
+
+
+def has_no_symmetry(function, inverse, z):
+    """Whether R T R is neither T nor its inverse, by a tenth of the strength somewhere."""
+    mirrored = np.conj(function(np.conj(z)))
+    return all(np.max(np.abs(mirrored - f(z))) > 0.1 * EPS for f in (function, inverse))
+
+
+@pytest.mark.parametrize(("form", "keeps"), CHANGES)
+def test_changes_are_their_formulas_and_start_from_the_identity(form, keeps):
+    z = disk(400)
+    image, jacobian = applied(form, keeps, z)
+    assert np.max(np.abs(image - formula(form, keeps, z))) < 1e-14
+    assert 0.5 * EPS < np.max(np.abs(image - z)) < 2.0 * EPS
+    inside = np.abs(z) < 0.995
+    numeric = derivatives(lambda p: formula(form, keeps, p), z[inside])
+    assert np.max(np.abs(jacobian[:, :, inside] - numeric)) < 1e-7
+    assert (np.max(np.abs(determinant(jacobian) - 1.0)) < 1e-12) == keeps
+    image, jacobian = applied(form, keeps, z, 0.0)
+    assert np.array_equal(image, z)
+    assert np.array_equal(jacobian, np.broadcast_to(np.eye(2)[:, :, None], jacobian.shape))
+
+
+@pytest.mark.parametrize(("form", "keeps"), CHANGES)
+def test_changes_map_the_disk_onto_itself_and_have_no_symmetry(form, keeps):
+    z = disk(400)
+    function, inverse = (
+        lambda p, back=back: formula(form, keeps, p, inverse=back) for back in (False, True)
+    )
+    assert keeps_disk(function, z) and keeps_disk(inverse, z)
+    assert np.max(np.abs(inverse(function(z)) - z)) < 1e-13
+    assert has_no_symmetry(function, inverse, z)
+    mirrored = np.conj(inverse(np.conj(z)))
+    assert np.max(np.abs(applied(form, keeps, z, mirrored=True)[0] - mirrored)) < 1e-13
+
+
+def points(count=200):
+    z = disk(count, 0.9)[:count]
+    return np.stack([z.real, z.imag])
+
+
+def reversor_error(perturbed):
+    """Median distance of R F R F from the identity."""
+    image = points()
+    for _ in range(2):
+        image = control.images(perturbed, image)
+        image[1] = -image[1]
+    return float(np.median(np.hypot(*(image - points()))))
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_maps_keep_what_they_say(name):
+    perturbed = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS)
+    error, least = reversor_error(perturbed), control._defect(perturbed)
+    _, keeps_area, reversible = MAPS[name]
+    if reversible:
+        assert max(error, least) < 1e-13
+    else:
+        assert error > 0.03 * EPS and least > 0.1 * EPS
+    grown, area, _ = control._growths(perturbed, points(), [64])
+    assert np.isfinite(grown).all()
+    assert (np.max(np.abs(area)) < 1e-12) == keeps_area
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_a_perturbed_map_is_t_after_p_after_its_mirror(name):
+    """Against Ball.impact and the formulas in complex numbers."""
+    a, b = points()
+    z = a + 1j * b
+    form, keeps, reversible = MAPS[name]
+    if reversible:
+        z = np.conj(formula(form, keeps, np.conj(z), inverse=True))
+    centre, radius = BALL.section(ENERGY)
+    high = math.sqrt(BALL.k * (1.0 + BALL.k)) * radius
+    state = BALL.state_xy(centre + radius * z.real, high * z.imag, ENERGY)
+    x, v, w, _ = BALL.impact(*state)
+    z = formula(form, keeps, (x - centre) / radius + 1j * (v - BALL.k * w) / high)
+    image = control.images(perturbed_map.perturbed_map(BALL, ENERGY, name, EPS), points())
+    # a flight near a jump of the map turns a rounding into another impact
+    assert np.quantile(np.abs(image[0] + 1j * image[1] - z), 0.95) < 1e-11
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_jacobians_are_those_of_differences_and_areas_their_determinants(name):
+    perturbed = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS)
+    step, at = 1e-6, np.array([[-0.5], [0.3]])
+    _, jacobian = control._jacobian(perturbed, at, 2)
+    moved = at + step * np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
+    image = control.images(perturbed, moved, 2)
+    assert np.max(np.abs((image[:, ::2] - image[:, 1::2]) / (2 * step) - jacobian)) < 1e-7
+    out = np.empty((2, 1, 2))
+    windows, sums = np.array([[1, 1]]), np.zeros((2, 1, 1))
+    rows = control._begin(at)
+    perturbed_map.propagate(rows, *perturbed, 2, windows, *sums, out)
+    assert sums[1, 0, 0] == pytest.approx(math.log(determinant(jacobian)), abs=1e-12)
+    assert np.array_equal(out[:, :, -1], control.images(perturbed, at, 2))
+
+
+def test_without_a_change_classes_are_those_of_the_rotation_numbers_stage():
+    place = np.linspace(-0.9, 0.9, 60)
+    _, exponent = winding(BALL, ENERGY, place, 2000)
+    perturbed = perturbed_map.perturbed_map(BALL, ENERGY, "twist area", 0.0)
+    grown, area, _ = control._growths(perturbed, np.stack([place, 0.0 * place]), [2000])
+    assert np.mean((control.classes(grown, area)[0] == 0) == regular(exponent, 2000)) > 0.98
+    assert not area.any()
+
+
+def test_an_orbit_is_chaotic_or_a_spiral_or_regular():
+    low, high = 0.9 * GROWTH_THRESHOLD, 1.1 * GROWTH_THRESHOLD
+    grown = np.array([low, -5.0, low, low, high, high, math.nan])
+    area = np.array([0.0, low, high, -high, 0.0, -high, 0.0])
+    assert control.classes(grown, area).tolist() == [0, 0, 1, 1, 2, 2, 2]
+    for count in (0, 17, 500):
+        assert control._wilson(count, 500) == pytest.approx(wilson(count, 500), abs=1e-12)
+
+
+def test_what_becomes_of_the_islands():
+    told = []
+    fields = [0.03], 150, 4000, 6, [0.1], 0.03, 20, 40, 1
+    data = control.control(BALL, ENERGY, *fields, progress=lambda share, _: told.append(share))
+    assert told == [i / 20 for i in (0, *range(1, 20, 2))]
+    share = data["class_share"].isel(length=-1)
+    assert np.max(np.abs(share.sum("class").values - 1.0)) < 1e-12
+    kept = share.sel({"class": "regular"})
+    itself = float(kept[0, 0])
+    for name, (_, keeps_area, reversible) in MAPS.items():
+        changed = float(kept.sel(map=name, strength=0.03))
+        assert (changed > 0.8 * itself) if keeps_area or reversible else (changed < 0.2 * itself)
+        # with the reversor all regular orbits are on curves around symmetric points
+        symmetric = float(data["symmetric"].sel(map=name, strength=0.03))
+        assert (
+            symmetric == pytest.approx(changed, abs=0.01) if reversible else math.isnan(symmetric)
+        )
+    # the fixed point attracts or repels as the determinants say, and not if one property is kept
+    rate = data["rate"].values
+    linear = np.log(data["island_determinant"].values) / (2.0 * data["island"].values)
+    found = np.isfinite(rate)
+    assert found[:, :, 0].all() and np.array_equal(found, np.isfinite(linear) & found)
+    assert np.max(np.abs(rate - linear)[found]) < 2e-4
+    alone = np.array([any(has) for _, *has in MAPS.values()])
+    assert np.nanmax(np.abs(linear[alone, :, 0])) < 1e-9
+    assert np.all(
+        linear[[list(MAPS).index(f"{form} neither") for form in ("twist", "stir")], 1, 0] < 0.0
+    )
+    assert float(data["attraction"].sel(map="shift reversor", strength=0.03)) < -0.1
+    # areas along chaotic orbits wander if none is kept, and not at all if the area is
+    wander = data["wander"].sel(strength=0.03)
+    assert np.all(wander.sel(map=["twist area", "stir both"]).values < 1e-12)
+    assert np.all(wander.sel(map=["twist reversor", "stir reversor"]).values[:, -1] > 0.01)

@@ -1,0 +1,48 @@
+"""Rotation numbers at the fixed point and in islands, plateaus, and the main island's edge."""
+
+import numpy as np
+import pytest
+from sections import BALL
+
+from extensions.claims.analyses import rotation
+from pseudorigid import symmetric_orbits
+from pseudorigid.dynamics.regularity import regular
+
+ENERGY = 0.01
+
+
+def test_rotation_numbers_at_the_fixed_point_and_in_an_island():
+    six = symmetric_orbits(BALL, ENERGY, 6)
+    centre, radius = BALL.section(ENERGY)
+    island = (float(six["x"].values[0].max()) - centre) / radius  # on y = 0
+    fixed_at, fixed_rotation = rotation.symmetric_fixed_point(BALL, ENERGY)
+    turns, grown = rotation.winding(BALL, ENERGY, np.array([fixed_at + 1e-5, island]), 20_000)
+    assert turns[0] == pytest.approx(fixed_rotation, abs=1e-9)
+    assert turns[1] == pytest.approx(1.0 / 6.0, abs=1e-12)
+    assert np.all(regular(grown, 20_000))
+    one = symmetric_orbits(BALL, ENERGY, 1)
+    assert fixed_at * radius + centre == pytest.approx(float(one["x"].values[0, 0]), abs=1e-14)
+    assert fixed_rotation == pytest.approx(float(one["rotation_number"].values[0]), abs=1e-14)
+
+
+def test_plateaus_are_runs_of_one_fraction():
+    place = np.arange(40.0)
+    turns = 0.3 + 1e-3 * place
+    turns[10:14] = 4.0 / 13.0
+    turns[30:32] = 1.0 / 3.0  # too few starts
+    assert rotation.plateaus(place, turns) == [(4, 13, 10.0, 13.0)]
+    turns[12] = 0.31
+    assert rotation.plateaus(place, turns) == []
+
+
+def test_main_island_ends_at_two_chaotic_starts():
+    found = rotation.rotation(BALL, ENERGY, [0.026], 120, 3000, (-0.8, -0.7), 1000)
+    good = regular(found["exponent"].values[0], 3000)
+    size = rotation.island(found, 0)
+    assert good[:size].sum() >= size - 1
+    assert not good[size] and not good[size + 1]
+    # the separatrix of the period-six saddles crosses y = 0 at x = 0.18782
+    centre, radius = BALL.section(ENERGY)
+    assert found["place"].values[0, size - 1] < (0.18782 - centre) / radius
+    step = found["place"].values[0, 1] - found["place"].values[0, 0]
+    assert found["place"].values[0, size] > (0.18782 - centre) / radius - step

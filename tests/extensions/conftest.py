@@ -1,0 +1,41 @@
+"""Fixtures of the tests of extensions."""
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def derived(pickled):
+    """The dataset of all derivations, which takes seconds to compute."""
+    from claim_data import made
+
+    from extensions.proofs.derivations import derivations
+
+    return pickled("derivations", lambda: made(derivations))
+
+
+@pytest.fixture(scope="session")
+def flowing(pickled):
+    """The dataset of the flux, whose areas take seconds to compute."""
+    import claim_data
+
+    return pickled("flux", claim_data.flux_of_the_paper)
+
+
+@pytest.fixture(scope="session")
+def datasets(pickled, derived, flowing):
+    """All datasets that the checks of claims need, computed with little work."""
+    import claim_data
+
+    return pickled("claims", lambda: claim_data.datasets(derived, flowing))
+
+
+@pytest.fixture(scope="session")
+def packed(shared, accepted):
+    """The archive of `accepted`."""
+    from extensions.publication import archive
+    from pipeline import config
+
+    def pack(folder):
+        archive.write(accepted.path, config.load(accepted.config), folder / "a.tar")
+
+    return shared("archive", pack) / "a.tar"

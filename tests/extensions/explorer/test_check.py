@@ -1,0 +1,72 @@
+"""The page's own check of a machine, pressed in Chromium and in Firefox."""
+
+import numpy as np
+import pytest
+from project import SHIPPED, wait_for
+
+from extensions.explorer import page
+from extensions.explorer.compiled import build
+from pipeline import config
+from pseudorigid.kernel import arithmetic
+
+SAME = (
+    "Figure 2: the same bits here, in 45,000 impacts. "
+    "Figure 8: the same bits here, in 35,000 impacts."
+)
+NOTE = "return document.getElementById('check-note').textContent"
+RESOURCES = "return performance.getEntriesByType('resource').map(entry => entry.name)"
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """A function that opens the page from a file in a browser."""
+
+    def show():
+        (tmp_path / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
+        browser.open((tmp_path / "explorer.html").as_uri())
+        return browser
+
+    return show
+
+
+def checked(browser):
+    """Press the button, and return the answer."""
+    browser.run("document.querySelectorAll('details').forEach(e => e.open = true)")
+    browser.click("#check")
+    wait_for(lambda: "Figure 8: " in browser.run(NOTE), 120)
+    return browser.run(NOTE)
+
+
+def test_the_page_says_that_the_bits_are_the_same(opened):
+    browser = opened()
+    assert checked(browser) == SAME
+    assert browser.errors() == []
+    assert all(name.startswith(("blob:", "data:")) for name in browser.run(RESOURCES))
+
+
+def test_the_page_names_where_a_changed_kernel_begins_to_differ(opened, monkeypatch):
+    """One constant of the module has another last digit."""
+    constant = np.array(arithmetic._S1)
+    changed = np.nextafter(constant, 9.0).tobytes()
+    module = build.MODULE.read_bytes().replace(constant.tobytes(), changed)
+    monkeypatch.setattr(build, "current_module", lambda: module)
+    note = checked(opened())
+    assert "the same bits here" not in note
+    assert note.count("other bits here, in x of orbit ") == 2
+
+
+def test_a_browser_without_the_kernel_says_so(opened, monkeypatch):
+    monkeypatch.setattr(build, "current_module", lambda: b"no module")
+    text = opened().run("return document.body.innerText")
+    assert text.startswith("This page needs WebAssembly with SIMD") and text.count("\n") == 0
+
+
+def test_nothing_can_be_fetched(opened):
+    """The policy of the page forbids it, before the network is asked."""
+    script = """const forbidden = new Promise(done =>
+          document.addEventListener("securitypolicyviolation", e => done(e.effectiveDirective)));
+        fetch("http://127.0.0.1:9/").catch(() => null);
+        return await forbidden;"""
+    browser = opened()
+    assert browser.run(script) == "connect-src"
+    browser.errors()  # which report it

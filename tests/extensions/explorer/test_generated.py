@@ -1,0 +1,218 @@
+"""The page is one file with the same bytes everywhere, which nothing from elsewhere can reach."""
+
+import base64
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from contextlib import nullcontext
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from project import ROOT, SHIPPED
+
+from extensions.explorer import atlas, data, page
+from extensions.explorer import command as explore
+from extensions.explorer.command import EXPLORER
+from extensions.explorer.compiled import build
+from pipeline import config
+from pipeline.cli.arguments import Arguments
+from pipeline.config.schema.kinds import KINDS
+
+
+@pytest.fixture(scope="module")
+def text():
+    return page.render(config.load(SHIPPED))
+
+
+class _Elements(HTMLParser):
+    """The elements of a page: tag, attributes and, of scripts and styles, the text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append([tag, dict(attrs), ""])
+
+    def handle_data(self, data):
+        if self.cdata_elem:  # inside a script or a style
+            self.found[-1][2] += data
+
+
+def data_of(text):
+    """The text of the page's data, which is JSON."""
+    (data,) = (e[2] for e in _Elements(text).found if e[1].get("id") == "data")
+    return data
+
+
+def test_the_committed_copy_is_current(text):
+    """Renew it by .venv/bin/python -m extensions.explorer.page."""
+    assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
+
+
+def test_only_the_scripts_of_the_page_may_run(text):
+    elements = _Elements(text).found
+    (policy,) = (e[1]["content"] for e in elements if "http-equiv" in e[1])
+    rules = dict(rule.split(" ", 1) for rule in policy.split("; "))
+    assert rules["default-src"] == "'none'" and rules["worker-src"] == "blob:"
+    assert not {"connect-src", "frame-src", "font-src", "object-src"} & set(rules)
+    hashes = {"script": [], "style": []}
+    for tag, attributes, content in elements:
+        if tag in hashes and attributes.get("type", "module") == "module":
+            digest = base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()
+            hashes[tag].append(f"'sha256-{digest}'")
+    assert rules["script-src"].split() == ["'wasm-unsafe-eval'", *hashes["script"]]
+    assert len(hashes["script"]) == 2
+    assert rules["style-src"].split() == hashes["style"] and len(hashes["style"]) == 1
+    for tag, attributes, _ in elements:
+        assert "style" not in attributes and not any(name.startswith("on") for name in attributes)
+        for name in ("src", "href", "action", "data"):
+            assert not re.match(r"(?!#|data:)", attributes.get(name) or "#"), (tag, attributes)
+    assert tag  # it has elements
+    before = text[: text.index("Content-Security-Policy")]
+    assert "<script" not in before and "<style" not in before
+
+
+def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
+    """Another folder, locale, time zone and order of sets."""
+    tree = tmp_path / "another place"
+    for part in ("src", "paper_figures", "pyproject.toml", "CITATION.cff", "config.yaml"):
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+        tree.mkdir(exist_ok=True)
+        copy(ROOT / part, tree / part)
+    shutil.copy(SHIPPED, tree / "config.yaml")
+    (tree / "docs").mkdir()
+    settings = {"PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
+    subprocess.run(
+        [sys.executable, "-m", "extensions.explorer.page"],
+        env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
+        cwd=tmp_path,
+        check=True,
+    )
+    assert (tree / page.COPY).read_bytes() == text.encode()
+
+
+def test_the_page_follows_config_and_manifest(text, tmp_path):
+    document = config.load(SHIPPED)
+    document.variants["paper"]["fig2"]["energy"] = 0.0123
+    assert '"energy":0.0123' in page.render(document) and '"energy":0.0123' not in text
+    assert data.published_orbits(tmp_path) == []  # nothing is published yet
+    folder = tmp_path / "paper_figures"
+    folder.mkdir()
+    (folder / "MANIFEST.json").write_text('{"scenes": {"fig2": {}}}')
+    with pytest.raises(ValueError, match=r"^paper_figures/MANIFEST.json: broken: .*accept$"):
+        data.published_orbits(tmp_path)
+
+
+def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
+    variants = config.load(SHIPPED).variants
+    scenes = json.loads(data_of(text))["scenes"]
+    assert {"fig2", "jumps", "curves", "below/fig8", "thin-shell/fig2"} <= set(scenes)
+    assert "families" not in scenes and not any("exact" in name for name in scenes)
+    assert scenes["thin-shell/fig2"]["ball"]["k"] == 0.3333333333333333
+    for variant, blocks in variants.items():
+        for scene, block in blocks.items():
+            assert (data.address(variant, scene, block) in scenes) == (
+                "method" not in block and KINDS[block["picture"]].on_section
+            )
+
+
+def test_every_kind_of_picture_with_a_section_has_a_preset():
+    """A new kind needs an entry in web/presets.js, and a published scene one in presets.json."""
+    table = page.script("presets.js").partition("const PRESETS = {")[2].partition("\n};")[0]
+    assert set(re.findall(r"^  (\w+)[:(]", table, re.MULTILINE)) == {
+        name for name, kind in KINDS.items() if kind.on_section
+    }
+    scenes = data.collect(config.load(SHIPPED))
+    own = {name for name in scenes["scenes"] if "/" not in name}
+    assert {preset["name"] for preset in scenes["presets"]} == own
+
+
+def test_data_cannot_end_their_script(text):
+    document = config.load(SHIPPED)
+    document.variants["paper"]["fig2"]["title"] = "</script><script>alert(1)"
+    stored = json.loads(data_of(page.render(document)))
+    assert stored["scenes"]["fig2"]["title"] == "</script><script>alert(1)"
+
+
+def test_the_atlas_has_the_values_of_a_sweep():
+    """Each share is rounded to a step; one that is missing stays so."""
+    stored = atlas.stored()
+    k, energy = (np.array(stored[name]) for name in ("k", "energy"))
+    steps = np.frombuffer(base64.b64decode(stored["regular"]), np.uint8)
+    assert steps.size == k.size * energy.size
+    assert np.all(np.diff(k) > 0) and np.all(np.diff(energy) > 0)
+    assert np.all((steps <= atlas.STEPS) | (steps == atlas.MISSING))
+    if (ROOT / "results/atlas/sweep_plane.nc").is_file() and not changed_sweep():
+        assert atlas.rounded() == stored
+
+
+def changed_sweep():
+    """Whether the sweep here is not the published one."""
+    from pipeline.checks.manifest import describe_data
+    from pipeline.records.artifacts import load
+
+    committed = json.loads((ROOT / "more_figures/atlas/MANIFEST.json").read_text())
+    here = describe_data(load(ROOT / "results/atlas/sweep_plane.nc"))
+    return committed["data"]["sweep_plane.nc"]["variables"] != here["variables"]
+
+
+def test_explore_writes_the_page_and_opens_it(tmp_path, tree):
+    browser = tmp_path / "browser"
+    browser.write_text(f"#!/bin/sh\necho \"$1\" > '{tmp_path}/opened'\n")
+    browser.chmod(0o755)
+    result = tree.run("explore", "--no-open", BROWSER=str(browser))
+    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: open it in a browser")
+    assert not (tmp_path / "opened").exists()
+    written = (tree.path / EXPLORER).read_bytes()
+    result = tree.run("explore", BROWSER=str(browser))
+    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: opened in a browser")
+    assert (tmp_path / "opened").read_text().strip() == (tree.path / EXPLORER).as_uri()
+    assert (tree.path / EXPLORER).read_bytes() == written
+    tree.run("clean", "--yes")
+    assert not (tree.path / EXPLORER).exists()
+
+
+def test_an_edit_of_the_kernel_asks_for_another_module(tree):
+    """A comment does not; an operation does, in one line."""
+    file = tree.path / "src/pseudorigid/kernel/flight.py"
+    text = file.read_text()
+    file.write_text(f"{text}\n# A comment.\n")
+    assert tree.run("explore", "--no-open").returncode == 0
+    assert text.count("h4 = h2 * h2") == 1
+    file.write_text(text.replace("h4 = h2 * h2", "h4 = h2 * h2 + 0.0"))
+    result = tree.run("explore", "--no-open")
+    line = r"reproduce: the kernel was edited since .*: run \.venv/bin/python -m \S+build\n"
+    assert result.returncode == 1 and re.fullmatch(line, result.stdout)
+
+
+def test_the_module_is_the_recorded_one():
+    """Renew both by .venv/bin/python -m extensions.explorer.compiled.build."""
+    recorded = json.loads(build.RECORD.read_text())
+    assert recorded["sources"] == build.record()["sources"]
+    assert recorded["sha256"] == hashlib.sha256(build.MODULE.read_bytes()).hexdigest()
+
+
+@pytest.mark.slow
+def test_the_module_is_compiled_again_to_the_same_bytes():
+    if json.loads(build.RECORD.read_text())["environment"] != build.record()["environment"]:
+        pytest.skip("other versions of numba or llvmlite made the module")
+    assert build.compiled(build.WASM) == build.MODULE.read_bytes()
+
+
+def test_no_display_means_no_browser(monkeypatch, tmp_path):
+    (tmp_path / EXPLORER).parent.mkdir()
+    (tmp_path / EXPLORER).touch()
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(explore, "ROOT", tmp_path)
+    monkeypatch.setattr(explore, "locked", nullcontext)
+    monkeypatch.setattr(explore, "write", lambda checked: None)
+    monkeypatch.setattr(explore.webbrowser, "open", lambda *_: pytest.fail("opened"))
+    assert explore.run(Arguments(no_open=False, config={})) == 0

@@ -1,0 +1,539 @@
+"""The explorer's page in Chromium, used as a person uses it: pointer, touch, keys and fields."""
+
+import re
+
+import browsers
+import numpy as np
+import pytest
+from axe_core_python.selenium import Axe
+from person import WHOLE
+from project import SHIPPED, shipped, wait_for
+from selenium.webdriver import Keys
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+
+from extensions.claims.analyses.jumps import jumps
+from extensions.explorer import data
+from pipeline import config
+from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
+from pseudorigid.dynamics.regularity import regular
+from pseudorigid.dynamics.rotation import winding
+from pseudorigid.dynamics.variables import of_type
+
+pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
+BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
+K, G = BALL.k, BALL.g
+# Ask a job of a worker like the page's own.
+JOB = "const worker = new Computer(); const [job, values] = args; return worker.ask(job, values);"
+
+
+def test_the_first_picture_is_figure_2_with_python_s_facts(person):
+    scene = shipped()["scenes"]["fig2"]
+    rows = person.settled()
+    assert [row["impacts"] for row in rows] == scene["impacts"]
+    assert person.state()["preset"] == "fig2"
+    for row, start, impacts in zip(rows, scene["starts"], scene["impacts"], strict=True):
+        state = BALL.start(start, ENERGY)
+        exponent = float(lyapunov_spectrum(BALL, state, impacts, 1)["exponent"][0, 0])
+        assert float(row["exponent"]) == pytest.approx(exponent, rel=6e-4)
+        turns, rate = winding(BALL, ENERGY, np.array([start]), impacts)
+        verdict = "regular" if regular(rate, impacts)[0] else "chaotic"
+        assert row["verdict"] == verdict
+        if verdict == "regular":
+            assert float(row["rotation"]) == pytest.approx(turns[0], abs=2e-8)
+
+
+def test_a_backward_orbit_is_the_inverse_map_s(person):
+    person.clear_disk()
+    person.type("impacts", "300")
+    person.press("back")
+    person.click(0.31, 0.22)
+    assert "backwards" in person.settled()[0]["verdict"]
+    rows = person.saved()
+    state = tuple(float(rows[0][name]) for name in ("x", "xdot", "udot"))
+    reached = []
+    for _ in range(100):
+        *state, tau = BALL.inverse_impact(*state)
+        reached.append((*state, tau))
+    found = [[float(row[name]) for name in ("x", "xdot", "udot", "tau")] for row in rows[1:41]]
+    assert np.allclose(found, reached[:40], atol=1e-10)  # chaos: rounding grows from there
+    assert rows[1]["impact"] == "-1"
+    assert person.text("moment").startswith("t")
+
+
+def test_dragging_along_the_symmetry_line_shoots_a_fan(person):
+    person.clear_disk()
+    person.drag(person.spot(-0.4), person.spot(0.5))
+    rows = person.settled()
+    starts = [float(row["start"]) for row in rows]
+    assert len(rows) == 12
+    assert np.allclose(starts, np.linspace(starts[0], starts[-1], 12), atol=2e-4)
+    assert (starts[0], starts[-1]) == pytest.approx((-0.4, 0.5), abs=0.02)
+
+
+def test_dragging_turns_the_surface_and_moves_the_disk(person):
+    person.settled()
+    before = person.pixels()
+    person.drag((150, 120), (60, 80))
+    kind, azimuth, elevation, *_ = person.state()["view"].split(",")
+    assert kind == "surface"
+    assert float(azimuth) != 115
+    assert float(elevation) != 40
+    assert not np.array_equal(before, person.pixels())
+    person.press("as-disk")
+    person.drag(person.spot(0.2, 0.6), person.spot(0.4, 0.4))
+    view = person.state()["view"].split(",")
+    assert float(view[3]) == pytest.approx(-0.2, abs=0.02)
+    assert float(view[4]) == pytest.approx(0.2, abs=0.02)
+
+
+def test_the_wheel_zooms_without_limit_at_the_pointer(person):
+    person.press("as-disk")
+    person.pointer(person.spot(0.3, 0.2)).perform()
+    place = person.text("where")
+    origin = ScrollOrigin.from_element(person.find("section"), *person.spot(0.3, 0.2))
+    for _ in range(70):
+        person.chain().scroll_from_origin(origin, 0, -240).perform()
+    half = float(person.state()["view"].split(",")[5])
+    assert half < 1e-13
+    person.pointer((40, 40)).perform()
+    there = person.text("where")
+    values = [re.findall(r"[−\d.]+", text)[:2] for text in (place, there)]
+    for before, after in zip(*values, strict=True):
+        number = [float(text.replace("−", "-")) for text in (before, after)]
+        assert number[0] == pytest.approx(number[1], abs=3e-3)
+    person.pointer((40, 40)).click().perform()
+    assert person.settled()[-1]["impacts"] == 3000
+
+
+def fingers(person, kind, *points):
+    """Send touches at places in pixels from the middle of the section."""
+    left, top = person.run(
+        "const b = document.getElementById('section').getBoundingClientRect();"
+        "return [b.left + b.width / 2, b.top + b.height / 2]"
+    )
+    at = [{"x": left + x, "y": top + y, "id": i} for i, (x, y) in enumerate(points)]
+    command = person.driver.execute_cdp_cmd
+    command("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+
+def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
+    person.press("as-disk")
+    person.run("document.getElementById('section').scrollIntoView({block: 'center'})")
+    fingers(person, "touchStart", (-40, 60))
+    fingers(person, "touchStart", (-40, 60), (40, 60))
+    for reach in (60, 80, 120):
+        fingers(person, "touchMove", (-reach, 60), (reach, 60))
+    fingers(person, "touchEnd")
+    half = float(person.state()["view"].split(",")[5])
+    assert half == pytest.approx(WHOLE * 40 / 120, rel=0.1)
+    count = len(person.orbits())
+    fingers(person, "touchStart", (30, 50))
+    fingers(person, "touchEnd")
+    person.wait(lambda: len(person.orbits()) == count + 1)
+
+
+@pytest.fixture
+def phone(person):
+    """Someone with a phone."""
+    command = person.driver.execute_cdp_cmd
+    metrics = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+    command("Emulation.setDeviceMetricsOverride", metrics)
+    command("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    person.open(person.file)
+    yield person
+    command("Emulation.setTouchEmulationEnabled", {"enabled": False})
+    command("Emulation.clearDeviceMetricsOverride", {})
+
+
+# Whether the page stays at its top for a fifth of a second after it was put there.
+AT_TOP = """window.scrollTo(0, 0);
+return await new Promise(done => setTimeout(() => done(window.scrollY === 0), 200));"""
+
+
+def test_one_finger_scrolls_unless_it_turns(phone):
+    def swipe():
+        """Return how far the page scrolled, and the view."""
+        phone.wait(lambda: phone.run(AT_TOP))  # a fling of the swipe before may still scroll
+        fingers(phone, "touchStart", (60, 100))
+        for step in range(1, 9):
+            fingers(phone, "touchMove", (60 - 5 * step, 100 - 15 * step))
+        fingers(phone, "touchEnd")
+        return phone.run("return window.scrollY"), phone.state()["view"]
+
+    before = phone.state()["view"]
+    scrolled, view = swipe()
+    assert scrolled > 50 and view == before
+    assert len(phone.orbits()) == 8
+    phone.press("finger")
+    scrolled, view = swipe()
+    assert scrolled == 0 and view != before
+
+
+def test_no_control_on_a_phone_is_below_40_pixels(phone):
+    phone.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+    small = phone.run(
+        "return [...document.querySelectorAll('button, select, input, summary, textarea')]"
+        ".filter(n => n.getClientRects().length).map(n => [n.id || n.textContent,"
+        " (n.matches('[type=checkbox], [type=radio]') ? n.labels[0] : n).getBoundingClientRect()])"
+        ".filter(([, b]) => b.height < 40 || b.width < 40).map(([name]) => name)"
+    )
+    assert small == []
+
+
+def test_turning_fifty_thousand_points_is_smooth(person):
+    """Above 30 frames a second on an idle machine; the drawing of a frame takes less than 33 ms."""
+    starts = ";".join(f"{p:.3f}*834" for p in np.linspace(-0.9, 0.9, 60))
+    person.open(f"{person.file}#orbits={starts}")
+    person.settled()
+    frames = person.run(
+        "const box = document.getElementById('section'), b = box.getBoundingClientRect();"
+        "box.setPointerCapture = () => {};"
+        "const act = (kind, x) => box.dispatchEvent(new PointerEvent(kind, {pointerId: 1,"
+        " pointerType: 'mouse', clientX: b.left + x, clientY: b.top + 60, bubbles: true}));"
+        "act('pointerdown', 100); const taken = [];"
+        "for (let i = 1; i <= 40; i++) {"
+        " act('pointermove', 100 + 5 * i); const begin = performance.now();"
+        " await new Promise(requestAnimationFrame); taken.push(performance.now() - begin); }"
+        "act('pointerup', 300); return taken"
+    )
+    assert person.state()["view"].split(",")[1] != "115"
+    assert np.median(frames) < 33
+
+
+def test_the_keyboard_does_everything(person):
+    person.press("clear")
+    box = person.find("section")
+    person.run("document.getElementById('section').focus()")
+    box.send_keys(*[Keys.ARROW_RIGHT] * 3, *[Keys.ARROW_DOWN] * 2, Keys.ENTER)
+    assert len(person.settled()) == 1
+    person.wait(lambda: person.text("play") == "Pause")
+    box.send_keys(Keys.SPACE)
+    person.wait(lambda: person.text("play") == "Play")
+    view = person.state()["view"]
+    box.send_keys("+")
+    assert person.state()["view"] != view
+    box.send_keys("0", Keys.SHIFT + Keys.ARROW_LEFT)
+    assert person.state()["view"].split(",")[1] != "115"
+    box.send_keys(Keys.NULL, "f", *[Keys.ARROW_LEFT] * 3, "f")
+    assert len(person.settled()) == 13
+    box.send_keys(Keys.SPACE)
+    person.wait(lambda: person.text("play") == "Play")
+    curves = person.find("curves")
+    now = float(person.state()["t"])
+    curves.send_keys(Keys.ARROW_RIGHT)
+    assert float(person.state()["t"]) == pytest.approx(now + 0.16)
+    curves.send_keys(Keys.PAGE_UP)
+    assert float(person.state()["t"]) > now
+
+
+def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
+    person.settled()
+    before = person.pixels()
+    for name, text, words in [
+        ("k", "0", "k = 0 is not allowed"),
+        ("k", "", "nothing is not allowed"),
+        ("k", "1.2", "at most 1"),
+        ("g", "-1", "g = -1 is not allowed"),
+        ("g", "0.3", "between 0 and k"),
+        ("E", "0.07", "0.06"),
+        ("E", "1e", "a number"),
+        ("E", "-1", "−0.004"),
+    ]:
+        person.type(name, text)
+        assert words in person.text(f"{name}-error")
+        assert "\n" not in person.text(f"{name}-error")
+        assert person.find(name).get_attribute("aria-invalid") == "true"
+        person.type(name, {"k": "0.2", "g": "0.04", "E": "0.01"}[name])
+        assert person.text(f"{name}-error") == ""
+    person.settled()
+    assert np.mean(np.any(before != person.pixels(), axis=2)) < 1e-3
+    person.driver.find_element("css selector", "main details summary").click()
+    person.submit("start-x", "3")
+    assert "outside the section" in person.text("start-error")
+    person.submit("fan-count", "1")
+    assert "2 to 64" in person.text("fan-error")
+    person.type("impacts", "0")
+    assert "whole number" in person.text("impacts-error")
+    assert len(person.orbits()) == 8
+
+
+def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
+    person.settled()
+    starts = person.state()["orbits"]
+    person.type("E", "0.008")
+    rows = person.settled()
+    assert person.state()["orbits"] == starts
+    assert person.state()["E"] == "0.008"
+    exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, 0.008), 25000, 1)["exponent"]
+    assert float(rows[-1]["exponent"]) == pytest.approx(float(exponent[0, 0]), rel=6e-4)
+    person.run(
+        "const s = document.getElementById('k-slide'); s.value = Math.sqrt(0.25);"
+        "s.dispatchEvent(new Event('input', {bubbles: true}))"
+    )
+    person.wait(lambda: person.state()["k"] == "0.25")
+    assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
+
+
+def test_bounds_of_the_energy_follow_k_and_g(person):
+    """Eq. (31): -g^2/2k < E < k/2 - g."""
+    person.type("g", "0.05")
+    person.wait(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
+    slide = "const s = document.getElementById('E-slide'); s.value = args[0];"
+    slide += "s.dispatchEvent(new Event('input', {bubbles: true}))"
+    for end, bound in ((1, 0.05), (0, -0.00625)):
+        person.run(slide, end)
+        energy = float(person.find("E").get_attribute("value"))
+        assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
+        assert person.text("E-error") == ""
+    person.type("E", "0.03")
+    person.wait(lambda: person.state()["E"] == "0.03")
+    person.type("k", "0.15")  # k/2 - g = 0.025
+    assert "between −g²/2k = −0.008333 and k/2 − g = 0.025, eq. (31)" in person.text("E-error")
+    assert person.state()["k"] == "0.2"  # the last good picture stays
+
+
+def test_periodic_orbits_are_those_of_python(person):
+    for period in (1, 2, 5, 6):
+        expected = symmetric_orbits(BALL, ENERGY, period)
+        values = {"k": K, "g": G, "energy": ENERGY, "period": period}
+        found = person.run(JOB, "periodic", values)
+        assert [one["type"] for one in found] == expected["type"].values.tolist()
+        for row, one in enumerate(found):
+            orbit = expected.isel(orbit=row)
+            names = {"trace": "trace", "time": "total_time"}
+            if one["type"] == "elliptic":
+                names["rotation"] = "rotation_number"
+            for name, variable in names.items():
+                assert one[name] == pytest.approx(float(orbit[variable]), rel=1e-9, abs=1e-9)
+            xs = sorted(point[0] for point in one["points"])
+            assert np.allclose(xs, np.sort(orbit["x"].values), atol=1e-12)
+
+
+def test_a_person_finds_a_saddle_and_draws_its_branches(person):
+    person.unfold("periodic-panel")
+    person.press("find")
+    person.wait(lambda: "3 symmetric orbits" in person.text("periodic-note"))
+    listed = person.text("periodic")
+    assert "Period 6, hyperbolic" in listed
+    assert "2.53147" in listed
+    person.press("no-branches")
+    person.find("branch-length").submit()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    person.submit("branch-length", "-1")
+    assert "above 0" in person.text("branch-error")
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+@pytest.mark.parametrize("stable", [False, True])
+@pytest.mark.parametrize(("energy", "period", "length"), [(0.01, 6, 1.5), (0.001, 10, 0.3)])
+def test_branches_are_those_of_python(person, energy, period, length, side, stable):
+    saddle = of_type(symmetric_orbits(BALL, energy, period), "hyperbolic")
+    points = np.stack([saddle[name].values for name in ("x", "xdot", "udot")], axis=1).tolist()
+    expected = trace_manifold(BALL, energy, saddle, 1, stable=stable, side=side, length=length)
+    spec = {"saddle": 1, "stable": stable, "side": side, "length": length}
+    values = {"k": K, "g": G, "energy": energy, "points": points, "spec": spec}
+    take = "const line = await worker.ask(job, values);"
+    take += "return [line.x, line.xdot, line.udot].map(a => [...a])"
+    script = JOB.replace("return worker.ask(job, values)", take)
+    found, radius = np.array(person.run(script, "branch", values)), BALL.section(energy)[1]
+    reference = np.stack([expected[name].values for name in ("x", "xdot", "udot")])
+    assert found.shape == reference.shape
+    assert np.allclose(found, reference, rtol=0.0, atol=1e-12 * radius)
+
+
+def test_the_jump_curve_has_python_s_length(person):
+    expected = float(jumps(BALL, ENERGY, [0.001], 4000)["length"][0])
+    curve = person.run(JOB, "jump", {"k": K, "g": G, "energy": ENERGY})
+    assert curve["length"] == pytest.approx(expected, rel=1e-9)
+    person.unfold("periodic-panel")
+    person.press("jump")
+    person.wait(lambda: "0.404858" in person.text("jump-note"))
+    person.type("E", "0.001")
+    person.wait(lambda: "continuous" in person.text("jump-note"))
+
+
+def test_the_ball_in_time_steps_from_impact_to_impact(person):
+    person.choose("preset", "fig4")
+    person.wait(lambda: "impact 0" in person.text("moment"))
+    six = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
+    times = np.concatenate([[0.0], np.cumsum(six["tau"].values)])
+    views = "return ['#ball', '#curves', '#section .cursors'].map(s => document.querySelector(s)"
+    views += ".toDataURL())"
+    before = person.run(views)
+    for when in times[1:]:
+        person.press("next-impact")
+        assert float(person.state()["t"]) == pytest.approx(when, abs=1e-9)
+        now = person.run(views)  # one cursor in all views
+        assert all(a != b for a, b in zip(before, now, strict=True))
+        before = now
+    person.press("back-impact")
+    assert float(person.state()["t"]) == pytest.approx(times[-2], abs=1e-9)
+    person.press("play")
+    person.wait(lambda: float(person.state()["t"]) > times[-2] + 0.5)
+    person.press("play")
+    assert person.text("play") == "Play"
+
+
+def test_every_preset_draws_and_has_one_sentence(person):
+    options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
+    own, *names = person.run(options)
+    variants = config.load(SHIPPED).variants
+    published = {
+        scene
+        for name in ("paper", "claims", "proofs")
+        for scene, block in variants[name].items()
+        if block["picture"] not in data.NO_SECTION
+    }
+    assert own == "" and {name for name in names if "/" not in name} == published
+    assert set(names) == set(person.run("return Object.keys(JSON.parse(data.textContent).scenes)"))
+    seen = []
+    names = [name for name in names if "/" not in name]
+    for name in names:
+        person.choose("preset", name)
+        person.wait(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))
+        assert person.text("see").endswith(".")
+        seen.append(person.pixels().tobytes())
+        assert person.state()["preset"] == name
+    assert len(set(seen)) == len(names)
+
+
+def test_the_address_holds_the_whole_state(person):
+    person.choose("preset", "fig5")
+    person.settled()
+    person.press("as-disk")
+    person.press("by-verdict")
+    person.click(0.5, 0.3)
+    person.press("play")
+    person.settled()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    state = person.state()
+    where = person.run("return location.href")
+    picture = person.pixels()
+    person.open(where)
+    person.settled()
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    assert person.state() == state
+    assert np.mean(np.any(person.pixels() != picture, axis=2)) < 1e-3
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    ["k=0", "orbits=2*10", "E=9", "nonsense", "%E0%A4%A", "orbits=0.1*0", "view=cube,1,2,3,4,5"],
+)
+def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
+    person.open(f"{person.file}#{wrong}")
+    person.wait(lambda: "address" in person.text("hint"))
+    assert len(person.settled()) == 8
+
+
+@pytest.mark.parametrize("scene", ["fig8", "thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
+def test_the_name_of_a_scene_is_an_address(person, scene):
+    variant, name = scene.split("/") if "/" in scene else ("paper", scene)
+    block = config.load(SHIPPED).variants[variant][name]
+    person.open(f"{person.file}#{scene}")
+    person.wait(lambda: person.state().get("preset") == scene)
+    state = person.state()
+    shown = [float(state[field]) for field in ("k", "g", "E")]
+    assert shown == [*block["ball"].values(), block["energy"]]
+    if "starts" in block:
+        starts = [float(orbit.split("*")[0]) for orbit in state["orbits"].split(";")]
+        assert starts == block["starts"]
+    assert person.find("preset").get_attribute("value") == scene
+
+
+def test_points_of_a_scene_are_places(person):
+    """Starts of a scene may be points with x and y, or with x and xdot."""
+    x, y = BALL.section(ENERGY)[0] + 0.01, 0.02
+    xdot = float(BALL.state_xy(x, y, ENERGY)[1])
+    starts = [{"x": x, "y": y}, {"x": x, "xdot": xdot}, 0.5]
+    block = {"ball": {"k": K, "g": G}, "energy": ENERGY}
+    places = person.run("return args[0].map(s => placeOf(s, args[1]))", starts, block)
+    assert np.allclose(places[0], places[1], rtol=1e-9)
+    assert places[2] == [0.5, 0]
+
+
+def test_the_atlas_goes_to_a_ball_and_an_energy(person):
+    person.settled()
+    person.unfold("atlas-panel")
+    person.pointer((30, -20), "atlas").click().perform()
+    state = person.state()
+    assert float(state["k"]) != 0.2
+    k, g, energy = (float(state[name]) for name in ("k", "g", "E"))
+    assert energy < k / 2 - g
+    assert f"k = {state['k']}" in person.text("hint")
+    assert len(person.settled()) == 8
+
+
+def test_the_atlas_answers_to_keys(person):
+    person.settled()
+    person.unfold("atlas-panel")
+    canvas = person.find("atlas")
+    canvas.send_keys(*[Keys.ARROW_LEFT] * 3, *[Keys.ARROW_DOWN] * 2)
+    assert "k = 0.17, E/g² = 4.96: regular share" in person.text("atlas-note")
+    canvas.send_keys(Keys.ENTER)
+    person.wait(lambda: person.state()["k"] == "0.17")
+    assert float(person.state()["E"]) == pytest.approx(4.96 * 0.04**2)
+
+
+def test_the_view_is_saved_as_png(person):
+    person.settled()
+    person.unfold("record-panel")
+    person.press("png2")
+    person.wait(lambda: "section.png" in person.text("record-note"))
+
+
+@pytest.mark.parametrize("width", [360, 1280, 2000])
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_page_fits_and_is_legible(person, width, theme):
+    """An accessibility checker finds nothing, in any panel."""
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    person.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    try:
+        person.open(person.file)
+        if theme != person.run("return document.documentElement.dataset.theme"):
+            person.press("theme")
+        person.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+        room, needed = person.run(
+            "const e = document.documentElement; return [e.clientWidth, e.scrollWidth]"
+        )
+        assert needed <= room
+        broken = Axe().run(person.driver)["violations"]
+        assert [(rule["id"], node["html"]) for rule in broken for node in rule["nodes"]] == []
+        small = person.run(
+            "return [...document.querySelectorAll('button, select, input:not([type=range])')]"
+            ".map(n => [n.id, n.getBoundingClientRect()]).filter(([, b]) => b.width &&"
+            " (b.height < 24 || b.width < 24) && !(b.width >= 20 && b.height >= 20))"
+            ".map(([id]) => id)"
+        )
+        assert small == []
+    finally:
+        person.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
+    with browsers.started("firefox", tmp_path / "firefox", 1280, 1000) as firefox:
+        firefox.open(address)
+        rows = "return [...document.querySelectorAll('#orbits .facts')].map(n => n.textContent)"
+        wait_for(lambda: firefox.run(rows)[-1:] and "25,000" in firefox.run(rows)[-1])
+        exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, ENERGY), 25000, 1)["exponent"]
+        assert f"exponent {float(exponent[0, 0]):.4g} " in firefox.run(rows)[-1]
+        firefox.click("#section")
+        hint = "return document.getElementById('hint').textContent"
+        wait_for(lambda: firefox.run(hint).startswith("This orbit is"))
+        assert len(firefox.run(rows)) == 9
+        assert firefox.run("return document.getElementById('play').textContent") == "Pause"
+        half = (
+            "return Number(/view=([^&]*)/.exec(decodeURIComponent(location.hash))[1].split(',')[5])"
+        )
+        wait_for(lambda: "view" in firefox.run("return location.hash"))
+        before = firefox.run(half)
+        across, down = firefox.middle("#section")
+        apart = [[(across + side * d, down) for d in (30, 50, 90)] for side in (-1, 1)]
+        firefox.tap("touch", *apart)  # two fingers
+        wait_for(lambda: firefox.run(half) < 0.5 * before)
+        firefox.tap("touch", [(across, down)])
+        wait_for(lambda: len(firefox.run(rows)) == 10)
+        firefox.run("location.hash = 'flux'")
+        note = "return document.getElementById('branch-note').textContent"
+        wait_for(lambda: "24 branches" in firefox.run(note))
+        assert firefox.errors() == []

@@ -1,0 +1,105 @@
+"""Copy as a scene: the block for config.yaml has the picture of the page, to the last bit."""
+
+import numpy as np
+import pytest
+import yaml
+from project import fresh_tree, shipped
+
+from pipeline import config
+from pipeline.records.artifacts import load
+from pseudorigid import Ball
+from pseudorigid.dynamics.orbits import scene_orbits
+
+
+def copied(person, kind):
+    """Copy what is on the page as a scene of a kind, and return its name and its block."""
+    person.unfold("record-panel")
+    person.choose("scene-kind", kind)
+    person.press("copy-scene")
+    person.wait(lambda: "config.yaml" in person.text("scene-note"))
+    text = person.run("return document.getElementById('scene').value")
+    ((name, block),) = yaml.safe_load(text).items()
+    assert block["picture"] == kind
+    assert max(map(len, text.splitlines())) <= 100
+    return name, block
+
+
+def test_orbits_of_two_clicks_are_copied(person, tmp_path):
+    person.open(f"{person.file}#view=disk,115,40,0,0,1.12&next=300")
+    person.click(0.4, 0.3)
+    person.click(-0.2)
+    assert len(person.settled()) == 2
+    places = [start.split("*")[0].split(":") for start in person.state()["orbits"].split(";")]
+    assert np.allclose([*map(float, places[0]), float(places[1][0])], [0.4, 0.3, -0.2], atol=0.01)
+    name, block = copied(person, "portrait")
+    document = shipped() | {"scenes": {name: block}, "variants": {}}
+    (tmp_path / "config.yaml").write_text(yaml.safe_dump(document))
+    block = config.load(tmp_path / "config.yaml").variants["paper"][name]
+    orbits = scene_orbits(Ball(**block["ball"]), block["energy"], block["starts"], block["impacts"])
+    for variable, values in person.every_point().items():
+        assert np.array_equal(orbits[variable].values, values)
+
+
+@pytest.mark.slow  # it draws eight figures
+def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person, tmp_path):
+    scenes, orbits = {}, {}
+
+    def copy(kind):
+        name, scenes[name] = copied(person, kind)
+        if kind not in ("motion", "closeup", "exponents"):
+            orbits[name] = person.every_point()
+        return name
+
+    person.clear_disk()
+    person.type("impacts", "900")
+    person.click(-0.2)
+    person.drag(person.spot(0.1), person.spot(0.7))
+    person.settled()
+    copy("portrait")
+    copy("exponents")
+    zoomed(person)
+    copy("portrait")
+    person.press("home")
+    for field, value in (("k", "0.3"), ("g", "0.0251"), ("E", "0.0123456789")):
+        person.type(field, value)
+    person.settled()
+    copy("portrait")
+    person.choose("preset", "jumps")
+    person.settled()
+    copy("jumps")
+    person.choose("preset", "fig4")
+    person.wait(lambda: "3 symmetric" in person.text("periodic-note"))
+    motion = copy("motion")
+    person.choose("preset", "fig5")
+    person.settled()
+    tangle = copy("tangle")
+    person.choose("preset", "fig6")
+    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    copy("closeup")
+
+    assert len(scenes) == 8
+    tree = fresh_tree(tmp_path / "a tree", shipped() | {"scenes": scenes, "variants": {}})
+    result = tree.run(*[f"results/paper/figures/{name}.png" for name in scenes])
+    assert result.returncode == 0, result.stdout
+    for name, expected in orbits.items():
+        dataset = load(tree.path / f"results/paper/orbits_{name}.nc")
+        for variable, values in expected.items():
+            assert np.array_equal(dataset[variable].values, values), (name, variable)
+
+    assert (scenes[motion]["period"], scenes[motion]["type"]) == (6, "elliptic")
+    assert (scenes[tangle]["period"], scenes[tangle]["type"]) == (6, "hyperbolic")
+
+
+def zoomed(person):
+    """Zoom in until the view is a millionth of the section, and start orbits there."""
+    person.press("clear")
+    person.run(
+        "const s = document.getElementById('section'); s.scrollIntoView({block: 'center'});"
+        "const b = s.getBoundingClientRect();"
+        "for (let i = 0; i < 35; i++) s.dispatchEvent(new WheelEvent('wheel', {deltaY: -240,"
+        " clientX: b.left + 0.4 * b.width, clientY: b.top + 0.3 * b.height, cancelable: true}))"
+    )
+    assert float(person.state()["view"].split(",")[5]) < 1e-6
+    for at in ((0, 0), (40, -30), (-60, 20)):
+        person.pointer(at).click().perform()
+    assert len(person.settled()) == 3

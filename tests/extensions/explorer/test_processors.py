@@ -1,0 +1,117 @@
+"""The kernel, compiled for other processors, gives the bits of this one's, under emulation."""
+
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from doubles import bits
+from sections import sea
+
+from extensions.explorer.compiled import build
+from pseudorigid import Ball, orbit
+from pseudorigid.kernel import arithmetic, impact
+from pseudorigid.kernel.spectrum import push_frame, with_logarithms
+from study import states
+
+BALL, ENERGY = states.BALL, states.ENERGY
+IMPACTS, FOLLOWED, TOGETHER, ANGLES = 200_000, 2_000, 300, 200_000
+# Calls the entry points as the page does. Numba passes the places of a result and an exception.
+PROGRAM = """
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#define CALL(name, ...) if (name(result, &exception, __VA_ARGS__)) return 1
+typedef double *D;
+static double result[4];
+static void *exception;
+int history(D, void *, double, double, double, double, double, int, D);
+int follow(D, void *, D, double, double, int, D);
+int history_in_lanes(D, void *, D, int64_t *, int, double, double, int);
+int elementary(D, void *, double);
+static D read_doubles(size_t n) {
+    D values = malloc(8 * n);
+    return fread(values, 8, n, stdin) == n ? values : NULL;
+}
+int main(void) {
+    D state = read_doubles(3), rows = malloc(8 * 4 * IMPACTS), orbit = read_doubles(24);
+    CALL(history, state[0], state[1], state[2], 0.2, 0.04, IMPACTS, rows);
+    fwrite(rows, 8, 4 * IMPACTS, stdout);
+    CALL(follow, orbit, 0.2, 0.04, FOLLOWED, rows);
+    fwrite(orbit, 8, 24, stdout);
+    D lanes = read_doubles(30 * 264);
+    int64_t order[264];
+    CALL(history_in_lanes, lanes, order, 264, 0.2, 0.04, TOGETHER);
+    fwrite(lanes, 8, 4 * 264, stdout);
+    D angles = read_doubles(ANGLES);
+    for (int i = 0; i < ANGLES; i++) {
+        CALL(elementary, angles[i]);
+        fwrite(result, 8, 3, stdout);
+    }
+    return 0;
+}
+"""
+
+
+def followed(start):
+    """The 24 doubles of an orbit that has been followed, by numba's kernel."""
+    x, v, w = start
+    k, g, coefficients = BALL.k, BALL.g, impact.impact_coefficients(BALL.k)
+    vector, grown = np.array([0.0, k * w, -v]), 0.0
+    frame, lengths = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (1.0, 1.0, 1.0)
+    sums = (0.0, 0.0, 0.0)
+    for _ in range(FOLLOWED):
+        x, v, w, tau, *flight, _ = impact.step_with_flight(x, v, w, k, g, coefficients, None)
+        vector = np.array(impact.tangent(*vector, k, g, coefficients, x, w, *flight))
+        length = float(abs(vector[0]) + abs(vector[1]) + abs(vector[2]))
+        if not 1e-50 < length < 1e50:
+            grown += arithmetic.log(length)
+            vector = vector / length
+        *frame, lengths, sums = push_frame(*frame, lengths, sums, k, g, coefficients, x, w, *flight)
+    first = with_logarithms(sums, lengths)[0]
+    return [x, v, w, *vector, *sum(frame, ()), *lengths, *sums, tau, grown, first]
+
+
+def angles():
+    """Arguments that are the same on every machine, 1,000 of them beyond the largest angle."""
+    rng = np.random.default_rng(20)
+    exponents = rng.integers(1, 1023 + 20, ANGLES // 4) << 52
+    tiny = (rng.integers(0, 2**52, ANGLES // 4) | exponents).view(float)
+    ordinary = 200.0 * rng.random(ANGLES - ANGLES // 4 - 1000) - 100.0
+    return np.concatenate([ordinary, tiny, 10.0 ** rng.uniform(7, 300, 1000)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("processor", "triple"),
+    [("aarch64", "aarch64-unknown-linux-gnu"), ("riscv64", "riscv64-unknown-linux-gnu")],
+)
+def test_another_processor_gives_the_same_bits(processor, triple, tmp_path):
+    compiler, emulator = f"{processor}-linux-gnu-gcc", f"qemu-{processor}"
+    for tool in (compiler, emulator):
+        if shutil.which(tool) is None:
+            pytest.skip(f"no {tool} here")
+    (tmp_path / "kernel.o").write_bytes(build.compiled(triple))
+    sizes = {"IMPACTS": IMPACTS, "FOLLOWED": FOLLOWED, "TOGETHER": TOGETHER, "ANGLES": ANGLES}
+    source = re.sub(r"\b[A-Z]{6,}\b", lambda word: str(sizes.get(word[0], word[0])), PROGRAM)
+    (tmp_path / "main.c").write_text(source)
+    options = ["-static", "-O1", "-ffp-contract=off", "-o", "program", "main.c", "kernel.o"]
+    subprocess.run([compiler, *options], cwd=tmp_path, check=True)
+    start, many = BALL.start(states.CHAOTIC, ENERGY), np.array(sea(264))
+    _, v, w = start
+    begin = [*start, 0, BALL.k * w, -v, *np.eye(3).ravel(), 1, 1, 1, *np.zeros(6)]
+    given = [*start, *begin, *many.ravel(), *np.zeros(27 * 264), *angles()]
+    command = [emulator, tmp_path / "program"]
+    result = subprocess.run(command, input=np.array(given).tobytes(), stdout=-1, check=True)
+    theirs = np.split(np.frombuffer(result.stdout), np.cumsum([4 * IMPACTS, 24, 4 * 264]))
+    ours = orbit(BALL, start, IMPACTS)
+    table = np.array([(*arithmetic.sincos(t), arithmetic.log(t)) for t in angles().tolist()])
+    expected = (
+        np.array([ours[name].values for name in ("x", "xdot", "udot", "tau")]),
+        np.array(followed(start)),
+        Ball(BALL.k, BALL.g).after(many, TOGETHER),
+        table,
+    )
+    for mine, other in zip(expected, theirs, strict=True):
+        assert np.array_equal(bits(mine.ravel()), bits(other))

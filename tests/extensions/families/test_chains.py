@@ -1,0 +1,118 @@
+"""Curves of chains over the plane: right to 12 digits, and in order."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from exact_orbits import after, apex, at_rest, event_energy, on_section
+from mpmath import mp, mpf
+from slowly import slowly
+
+from extensions.families import chains
+from extensions.families.continuation import loci
+from extensions.families.continuation.half_orbit import B
+from pseudorigid.dynamics import fixed_point
+from pseudorigid.figures.canvas.ragged_rows import rows
+
+PLANE = {
+    "k": [0.14, 0.2, 0.26, 0.33],
+    "energy": [0.1, 1.0, 10.0, 40.0],
+    "chains": [4, 6, 7],
+}
+
+
+@pytest.fixture(scope="module")
+def curves():
+    """The dataset of three chains, sought at one k each."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(chains, "_SOUGHT", 1)
+        return chains.chains(**PLANE)
+
+
+def curve(curves, order, kind):
+    """K and E/g^2 of the only curve of a kind of a chain."""
+    (part,) = (
+        part
+        for o, name, part in zip(
+            curves["order"].values, curves["kind"].values, rows(curves), strict=True
+        )
+        if (o, name) == (order, kind)
+    )
+    return curves["k"].values[part], curves["energy"].values[part]
+
+
+def at(curves, order, kind, k):
+    """The point of a curve that is nearest to a k."""
+    ks, energies = curve(curves, order, kind)
+    i = int(np.argmin(np.abs(ks - k)))
+    return float(ks[i]), float(energies[i])
+
+
+def exact_energy(k, energy, order, kind):
+    """The energy of an event at a k, in 60 digits, next to an approximate one."""
+    x = None if kind == "rim" else place_of(order, kind, k)
+    with mp.workdps(60):
+        k, half = mpf(k), order // 2
+        if kind != "rim":
+            return event_energy(lambda e, *at: on_section(k, mpf(1), e, *at, half), kind, energy, x)
+
+        def beyond(e):
+            _, v, w = state = after(k, mpf(1), at_rest(k, 1, e), half)
+            return apex(k, 1, state)[1] if order % 2 else v - k * w
+
+        near = mpf(energy), mpf(energy) * (1 + mpf("1e-9"))
+        return mp.findroot(beyond, near, solver="secant", tol=mpf(10) ** -40)
+
+
+def place_of(order, kind, k):
+    """X and the energy of an event at a k, from where the chain's events are found."""
+    start = loci.chain_events(k, order)[kind]
+    q, rho, _ = start.place
+    return (1.0 + rho * 2.0 * q / (1.0 + q * q)) / k
+
+
+@pytest.mark.parametrize(
+    ("order", "kind", "near"),
+    [(4, "fold", 0.26), (6, "doubling", 0.2), *slowly((7, "rim", 0.3))],
+)
+def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, kind, near):
+    k, energy = at(curves, order, kind, near)
+    exact = exact_energy(k, energy, order, kind)
+    assert abs(energy / exact - 1) < 1e-12
+
+
+def test_curves_pass_through_the_events_of_families(curves):
+    """At another k, where a search that follows E finds them."""
+    for order, k in ((4, 0.23), (6, 0.17), (7, 0.29)):
+        for kind, start in loci.chain_events(k, order).items():
+            ks, energies = curve(curves, order, kind)
+            there = np.interp(k, ks, energies)
+            assert there == pytest.approx(loci.energy_at(start.place), rel=2e-3), (order, kind)
+
+
+def test_every_chain_doubles_between_its_birth_and_the_loss_of_an_impact(curves):
+    for order in PLANE["chains"]:
+        kinds = "fold" if order == 4 else "resonance", "doubling", "rim"
+        for k in (0.2, 0.24, 0.28, 0.32):
+            energies = [np.interp(k, *curve(curves, order, kind)) for kind in kinds]
+            assert energies == sorted(energies), (order, k)
+
+
+def test_an_entry_that_does_not_vanish_is_not_followed():
+    limits = loci.Limits((0.1, 0.3), (0.1, 40.0))
+    start = loci.chain_events(0.2, 6)["doubling"]
+    assert len(loci.follow(6, start, limits)) > 20
+    assert loci.follow(6, start._replace(entry=B), limits) == []
+
+
+def test_births_are_the_closed_form_and_jumps_begin_where_the_proof_says(curves):
+    for order in PLANE["chains"]:
+        for k, energy in list(zip(*curve(curves, order, "resonance"), strict=True))[::60]:
+            assert energy == fixed_point.resonance(float(k), 1, order)
+    k, energy = curve(curves, 0, "jumps")
+    assert np.array_equal(energy, 1.0 + 0.5 * k)
+
+
+def test_a_chain_of_which_the_resonance_is_not_in_the_plane_has_no_curves():
+    few = chains.chains([0.1, 0.11], [1.0, 2.0], [3])
+    assert isinstance(few, xr.Dataset)
+    assert few["kind"].values.tolist() == ["jumps"]

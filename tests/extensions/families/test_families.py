@@ -1,0 +1,105 @@
+"""Families end where events or grazings say so, and go on beyond them; the stage keeps them."""
+
+import json
+import math
+
+import pytest
+from content import content_hash
+from family_search import PAPER, crossings, energy_of, rho, searched, up_to_period_six
+
+from extensions.families.continuation import search
+from extensions.families.continuation.half_orbit import ENERGY, INERTIA
+from extensions.families.continuation.symmetric import Parameter
+from extensions.families.families import families
+from pseudorigid import symmetric_orbits
+
+
+def test_every_end_has_a_name():
+    six = up_to_period_six()
+    for family in six.families:
+        for end in family.ends:
+            assert end.kind in {"range", "resonance", "doubling", "pitchfork", "touch", "rim"}
+            if end.kind not in ("range", "touch"):
+                assert end.family >= 0
+            if end.kind == "resonance":
+                assert family.period == end.order * six.families[end.family].period
+
+
+def test_families_go_on_where_an_impact_grazes():
+    """From a level below the grazing, the search finds the family that begins there."""
+    found = search.Search(Parameter(ENERGY, 0.2, rho(PAPER, 0.0115), rho(PAPER, 0.0135)), 6)
+    for _ in found.sweep([rho(PAPER, 0.0120)]):
+        pass
+    assert 5 not in {family.period for family in found.families}
+    found.complete()
+    (five,) = (family for family in found.families if family.period == 5)
+    (end,) = (end for end in five.ends if end.kind == "touch")
+    assert energy_of(found, end.p) == pytest.approx(0.012520264234, abs=1e-12)
+    assert found.families[end.family].period == 6
+
+
+def test_families_without_symmetry_go_on_where_an_impact_grazes():
+    """Period 9 touches the floor, solved for to 12 digits; period 10 begins there."""
+    found = searched(PAPER, 0.0413, 0.0436, 10, 2)
+    (nine,) = (
+        f for f in found.families for e in f.ends if (f.period, f.line, e.kind) == (9, -1, "touch")
+    )
+    (touch,) = (end for end in nine.ends if end.kind == "touch")
+    assert energy_of(found, touch.p) == pytest.approx(0.043378707450, abs=1e-12)
+    ten = found.families[touch.family]
+    assert (ten.period, ten.line) == (10, -1)
+    middle = ten.points[len(ten.points) // 2]
+    at_x, at_y, radius = middle.place
+    x = PAPER.g * (1.0 + radius * at_x) / PAPER.k
+    y = PAPER.g * radius * math.sqrt((1.0 + PAPER.k) / PAPER.k) * at_y
+    state = start = PAPER.state_xy(x, y, energy_of(found, middle.p))
+    times = []
+    for _ in range(10):
+        *state, tau = PAPER.impact(*state)
+        times.append(tau)
+    assert state == pytest.approx(start, abs=1e-10 * (2.0 + abs(ten.system.trace(middle))))
+    assert sum(times) == pytest.approx(ten.system.time(middle), abs=1e-6)
+
+
+# --- the stage ------------------------------------------------------------------------------------
+
+SMALL = {"parameter": "energy", "span": [0.005, 0.012], "period": 6, "levels": 45}
+
+
+@pytest.mark.slow
+def test_a_killed_search_continues_and_gives_the_same_dataset(tmp_path):
+    whole = families(PAPER, 0.01, **SMALL)
+    folder = tmp_path / "kept"
+    shares = []
+
+    def killed(share, text):
+        shares.append(share)
+        if share > 0.3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        families(PAPER, 0.01, **SMALL, progress=killed, folder=folder)
+    assert json.loads((folder / "families.json").read_text())["done"] == 20
+    again = []
+    data = families(PAPER, 0.01, **SMALL, progress=lambda *it: again.append(it), folder=folder)
+    levels = [share for share, text in again if text.endswith(" families")]
+    assert len(levels) == SMALL["levels"] - 20 and levels[-1] == 0.5
+    later = [share for share, text in again if text.endswith(" branches")]
+    assert later and min(later) >= 0.5 and max(later) < 1.0
+    assert content_hash(data) == content_hash(whole)
+    assert not folder.exists()
+
+
+def test_families_against_k_cross_those_against_the_energy():
+    """At k = 0.2 and E/g^2 = 6.25 both searches hold the three period-six orbits."""
+    by_k = search.Search(Parameter(INERTIA, 6.25, 0.19, 0.21), 6)
+    for _ in by_k.sweep([0.195, 0.205]):
+        pass
+    held = sorted(
+        by_k.families[i].system.time(z)
+        for i, family in enumerate(by_k.families)
+        if family.period == 6
+        for z in crossings(family, 0.2)
+    )
+    times = symmetric_orbits(PAPER, 0.01, 6)["total_time"].values
+    assert held == pytest.approx(sorted(times.tolist()), abs=1e-9)

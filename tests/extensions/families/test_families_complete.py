@@ -1,0 +1,186 @@
+"""Families hold what brute force finds and nothing else, and faults in them are noticed."""
+
+import copy
+import math
+from time import process_time
+
+import independent_solver as judge
+import pytest
+from exact_orbits import state_at
+from family_search import PAPER, crossings, energy_of, rho, searched, six_born_at, up_to_period_six
+from mpmath import mp, mpf
+
+from extensions.families.continuation.half_orbit import FIX_R
+from pseudorigid import Ball, symmetric_orbits
+
+
+@pytest.fixture(scope="module")
+def six():
+    return up_to_period_six()
+
+
+def is_orbit_in_60_digits(ball, energy, family, point):
+    """Whether an orbit of the family's period, symmetry and total time exists in 60 digits.
+
+    Newton's method solves for half of the orbit, which is less sensitive than all of it.
+    """
+    (x, y, _), (centre, radius) = family.system.first_place(point), ball.section(energy)
+    guess = centre + radius * x, radius * math.sqrt(ball.k * (1.0 + ball.k)) * y
+    k, g, half = mpf(ball.k), mpf(ball.g), (family.period + 1) // 2
+
+    def points(x, y, impacts):
+        """(x, y) of a point of the section and of those after it, with the times of flight."""
+        state, rows = state_at(k, g, mpf(energy), x, y), [(x, y, 0)]
+        for _ in range(impacts):
+            *state, tau = judge.exact_map(k, g, *state)
+            rows.append((state[0], state[1] - k * state[2], tau))
+        return rows
+
+    def asymmetry(x, y):
+        """How far the point is from its line, and the half orbit's end from being mirrored."""
+        later = points(x, y, half)
+        start = y if family.line == FIX_R else points(x, -y, 1)[1][1] - y
+        return start, later[half][1] + later[family.period - half - family.line][1]
+
+    with mp.workdps(60):
+        try:
+            orbit = points(*mp.findroot(asymmetry, guess), family.period)
+        except (TypeError, ValueError):  # beyond the section, or without a solution
+            return False
+        missing = max(abs(a - b) for a, b in zip(orbit[0][:2], orbit[-1][:2], strict=True))
+        time = sum(tau for *_, tau in orbit)
+        return missing < mpf("1e-30") and abs(time - family.system.time(point)) < 1e-6
+
+
+def is_row(family, point, row):
+    """Whether an orbit has a total time and a trace."""
+    time, trace = row
+    return abs(family.system.time(point) - time) < 1e-6 and abs(
+        family.system.trace(point) - trace
+    ) < 1e-3 * (1.0 + abs(trace))
+
+
+def unmatched(found, ball, energy):
+    """Orbits that only brute force finds, and those that only the families hold at an energy.
+
+    Brute force misses an orbit if two zeros, or a zero and a jump, share one of its cells. Such an
+    orbit is left out if it exists in 60 digits.
+    """
+    p, missed, extra = rho(ball, energy), [], []
+    held = {n: [] for n in range(1, found.longest + 1)}
+    for family in found.families:
+        if family.line >= 0:
+            held[family.period] += [(family, z) for z in crossings(family, p)]
+    for period, orbits in held.items():
+        data = symmetric_orbits(ball, energy, period)
+        rows = list(zip(data["total_time"].values, data["trace"].values, strict=True))
+        for row in rows:
+            same = [(f, z) for f, z in orbits if is_row(f, z, row)]
+            if same:
+                orbits.remove(same[0])
+            else:
+                missed.append((energy, period, *map(float, row)))
+        if data.attrs["unsolved"] > len(orbits):
+            missed.append((energy, period, "unsolved", data.attrs["unsolved"]))
+        extra += [
+            (energy, period, f.number)
+            for f, z in orbits
+            if any(is_row(f, z, row) for row in rows)  # held twice, as in the next line
+            or sum(is_row(f, z, (h.system.time(y), h.system.trace(y))) for h, y in orbits) > 1
+            or not is_orbit_in_60_digits(ball, energy, f, z)
+        ]
+    return missed, extra
+
+
+def assert_complete(found, ball, energies):
+    for energy in energies:
+        assert unmatched(found, ball, energy) == ([], [])
+
+
+def spread(low, high, count):
+    """Energies that are on no grid."""
+    return [low + (high - low) * ((0.137 + 0.6180339887498949 * i) % 1.0) for i in range(count)]
+
+
+def test_families_hold_what_brute_force_finds_and_nothing_else(six):
+    assert_complete(six, PAPER, spread(-0.0039, 0.0598, 3))
+
+
+def over_all_energies(k, g, most, levels=240):
+    """All families up to period 12 up to eq. (31), or to E/g^2 = `most`, and their energies."""
+    ball = Ball(k, g)
+    low, high = ball.energy_bounds()
+    margin = 0.002 * (high - low)
+    low, high = low + margin, min(high - margin, most * g * g)
+    return ball, searched(ball, low, high, 12, levels), (low + margin, high - margin)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("k", "g", "most", "energies"),
+    [(0.2, 0.04, 37.5, 10), (0.1, 0.04, 6.25, 5), (1.0 / 3.0, 0.04, 10.0, 5), (0.2, 0.02, 10.0, 5)],
+)
+def test_families_of_longer_periods_are_complete(k, g, most, energies):
+    """Two balls up to eq. (31), two up to E/g^2 = 10: `python` on this file checks all of them."""
+    ball, found, ends = over_all_energies(k, g, most)
+    assert [end.kind for f in found.families for end in f.ends].count("unresolved") == 0
+    assert_complete(found, ball, spread(*ends, energies))
+
+
+def with_fold(found):
+    """A family with a fold, and an energy at which it holds two orbits."""
+    for family in found.families:
+        for event in family.events:
+            at = int(event.at)
+            if event.kind == "fold" and family.line >= 0 and 3 < at < len(family.points) - 4:
+                a, b = family.points[at - 3].p, family.points[at + 3].p
+                p = 0.5 * (event.point.p + (min if a > event.point.p else max)(a, b))
+                return family.number, at, energy_of(found, p)
+    raise AssertionError("no fold")
+
+
+def test_a_skipped_fold_is_found(six):
+    number, at, energy = with_fold(six)
+    planted = copy.copy(six)
+    planted.families = [copy.copy(family) for family in six.families]
+    family = planted.families[number]
+    family.points = family.points[: at + 1]
+    missed, extra = unmatched(planted, PAPER, energy)
+    assert len(missed) == 1
+    assert extra == []
+
+
+def test_a_jump_to_the_neighbour_is_found(six):
+    """The tail of one period-six family is replaced by that of another one."""
+    planted = copy.copy(six)
+    planted.families = [copy.copy(family) for family in six.families]
+    first, second = (
+        planted.families[six_born_at(six, 1, kind).number] for kind in ("resonance", "touch")
+    )
+    first.points = [point for point in second.points if 0.01 < energy_of(six, point.p) < 0.02]
+    missed, extra = unmatched(planted, PAPER, 0.0123)
+    assert len(missed) == 1
+    assert [number for _, _, number in extra] in ([first.number], [second.number])
+
+
+def main():
+    """Compare with brute force at fifty energies for four balls."""
+    balls = (
+        (0.2, 0.04, 37.5, 480),
+        (0.1, 0.04, 6.25, 240),
+        (1.0 / 3.0, 0.04, 37.5, 240),
+        (0.2, 0.02, 45.0, 240),
+    )
+    for k, g, most, levels in balls:
+        ball, found, ends = over_all_energies(k, g, most, levels)
+        unnamed = [end.kind for f in found.families for end in f.ends].count("unresolved")
+        print(f"k = {k:.3f}, g = {g}: {len(found.families)} families, {unnamed} ends unnamed")
+        for energy in spread(*ends, 50):
+            missed, extra = unmatched(found, ball, energy)
+            if missed or extra:
+                print(f"  only brute force: {missed}, only families: {extra}", flush=True)
+        print(f"  compared; {process_time():.0f} s so far", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,211 @@
+"""The ball map: roots against a scan, identities, jets, and proofs that fail if it is broken."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from independent_solver import exact_map
+from sections import BALL, sea
+
+from extensions.proofs import THEOREMS, Surface
+from pseudorigid.dynamics.variables import chart
+from study import reference_solver
+from study.enclosure import flight
+from study.enclosure.flight import Flight, UndecidedError
+from study.enclosure.jets import Jet
+from study.enclosure.surface import exact
+
+PAPER = Surface("1/5", "1/25", "1/100")
+COVERINGS = ("horseshoe", "entropy", "no-circle", "unstable")
+# theorems without a flight whose root is searched
+WITHOUT_FLIGHTS = ("diffeomorphism", "one-fixed-point", "fixed-point-elliptic", "twist-one-zero")
+
+
+def points(count):
+    """Points (x, y) uniform on the section."""
+    return chart(BALL.k, *sea(count)).T
+
+
+def test_the_first_root_is_that_of_a_brute_force_scan():
+    times = np.linspace(0.0, 40.0, 20_001)[1:]
+    waves = np.sin(times) - times, 1.0 - np.cos(times)
+    for x, y in points(1500):
+        tau = PAPER.impact(arb(x), arb(y)).tau
+        _, v, w = BALL.state_xy(x, y, 0.01)
+        s, c = v + w, -(y + v + w) / 1.2
+        gap = times * (0.02 * times - s) + c * waves[0] + x * waves[1]
+        later = times[gap > 0.0]
+        assert tau.rad() < 1e-7
+        assert later[0] - 0.002 - 1e-7 < float(tau) < later[0] + 1e-7
+
+
+def test_the_determinant_encloses_one_and_the_reversor_undoes_the_map():
+    for x, y in points(300):
+        (a, b), (c, d) = PAPER.jacobian(arb(x, 1e-7), arb(y, 1e-7))[0]
+        assert (a * d - b * c).contains(1)
+        with ctx.workprec(128):
+            image = PAPER.impact(arb(x), arb(y))
+            back = PAPER.impact(image.x, -image.y)
+            assert back.x.contains(x)
+            assert (-back.y).contains(y)
+            assert back.x.rad() < arb(2) ** -80
+
+
+def test_a_box_encloses_the_images_and_derivatives_of_its_points():
+    random = np.random.default_rng(8)
+    for x, y in points(40):
+        try:
+            rows, image = PAPER.jacobian(arb(x, 1e-4), arb(y, 1e-4))
+        except UndecidedError:
+            continue
+        for dx, dy in random.uniform(-1e-4, 1e-4, (5, 2)):
+            inner, point = PAPER.jacobian(arb(x + dx), arb(y + dy))
+            assert all(outer.contains(part) for outer, part in zip(image, point, strict=True))
+            for wide, thin in zip(rows, inner, strict=True):
+                assert all(a.contains(b) for a, b in zip(wide, thin, strict=True))
+
+
+def test_a_band_of_energies_contains_each_of_its_maps():
+    band = Surface("1/5", "1/25", "1/100", Fraction(1, 1000))
+    wide = band.impact(arb("0.1"), arb("0.05"))
+    for energy in ("1/100", "0.0104", "0.011"):
+        thin = Surface("1/5", "1/25", energy).impact(arb("0.1"), arb("0.05"))
+        assert all(a.contains(b) for a, b in zip(wide, thin, strict=True))
+
+
+def test_an_independent_map_of_60_digits_lies_in_the_balls():
+    with ctx.workprec(160), mpmath.workdps(60):
+        k, g = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25
+        for x, y in points(20):
+            v, w = (mpmath.mpf(a.str(50, radius=False)) for a in PAPER.velocities(arb(x), arb(y)))
+            image = PAPER.impact(arb(x), arb(y))
+            x1, v1, w1, tau = exact_map(k, g, mpmath.mpf(x), v, w)
+            for ball, true in ((image.x, x1), (image.y, v1 - k * w1), (image.tau, tau)):
+                assert abs(float(arb(mpmath.nstr(true, 50)) - ball)) < 1e-40
+
+
+def test_jets_have_the_coefficients_of_finite_differences():
+    with ctx.workprec(400):
+        h = arb(2) ** -60
+        x0, y0 = arb("0.1"), arb("0.05")
+        jet = PAPER.impact(*Jet.plane(3, x0, y0))
+        steps = range(-2, 3)
+        images = {(i, j): PAPER.impact(x0 + i * h, y0 + j * h) for i in steps for j in steps}
+        for part in range(4):
+            f = {key: image[part] for key, image in images.items()}
+            third = (f[2, 0] - 2 * f[1, 0] + 2 * f[-1, 0] - f[-2, 0]) / (12 * h**3)
+            mixed = f[1, 1] - 2 * f[0, 1] + f[-1, 1] - f[1, -1] + 2 * f[0, -1] - f[-1, -1]
+            mixed /= 4 * h**3
+            assert abs(float(jet[part][3, 0] - third)) < 1e-30 * (1 + abs(float(third)))
+            assert abs(float(jet[part][2, 1] - mixed)) < 1e-30 * (1 + abs(float(mixed)))
+
+
+def test_a_flight_that_may_touch_and_a_point_off_the_section_are_undecided():
+    # a point of the jump set, to thirty digits: the touch cannot be told from a miss
+    x, y = arb("0.150034356069120683526702038728"), arb("-0.144621563013173987118939871049")
+    with ctx.workprec(60), pytest.raises(UndecidedError, match="touch"):
+        PAPER.impact(+x, +y)
+    with pytest.raises(UndecidedError, match="rim"):
+        PAPER.impact(arb("0.6"), arb(0))
+
+
+def test_grazing_starts_are_decided_where_the_numbers_are_exact():
+    def root(x, c, s):
+        x, c, s = map(arb, (x, c, s))
+        return Flight(x, -s - c, c, s, arb(0.25)).first_root()
+
+    with ctx.workprec(128):
+        # x < -g: the ball leaves the floor although xdot + udot = 0
+        assert root(-0.5, 0.1, 0) > 0
+        # x = -g exactly and udot > 0: a cubic start
+        assert root(-0.25, 0.1, 0) > 0
+        with pytest.raises(UndecidedError):
+            root(-0.25, -0.1, 0)
+        with pytest.raises(UndecidedError, match="grazing"):
+            root(0.1, 0.1, arb(0, 1e-9))
+
+
+@pytest.mark.parametrize(
+    ("numbers", "name"),
+    [*(((value, "1/25", "1/100"), "k = ")
+       for value in (0.2, "1/x", "", "1/0", "nan", "1e99999", None, True, [1], "0x1p3")),
+     (("0", "1", "1"), "k = 0"), (("6/5", "1", "1"), "k = 6/5"), (("1/5", "0", "1"), "g = 0"),
+     (("1/5", "1/25", "-1/250"), "energy = -1/250")],
+)  # fmt: skip
+def test_numbers_that_are_not_exact_or_out_of_range_are_refused(numbers, name):
+    with pytest.raises(ValueError, match=f"^{name}") as error:
+        Surface(*numbers)
+    assert "\n" not in str(error.value)
+
+
+def test_exact_numbers_are_fractions_decimals_and_text():
+    for value in (Fraction(1, 5), Decimal("0.2"), "1/5", "0.2", " 2e-1 ", "+1 / 5"):
+        assert exact("k", value) == Fraction(1, 5)
+
+
+def test_constants_are_as_narrow_as_the_precision():
+    for bits in (64, 300, 64):
+        with ctx.workprec(bits):
+            k, g, _ = PAPER.constants()
+            assert (5 * k).contains(1)
+            assert (25 * g).contains(1)
+            assert k.rad() < arb(2) ** (2 - bits)
+
+
+def test_a_ball_pressed_onto_the_floor_stays_there():
+    assert reference_solver.first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
+    at_rest = np.array([[-0.25], [0.0], [0.0]])  # x = -g, s = 0 and udot = 0
+    assert reference_solver.impact_errors("1/5", "1/4", at_rest, at_rest, np.zeros(1)) < 1e-300
+    # x = -0.04 as a double is not -1/25: the ball leaves the floor
+    lifted = np.array([[-0.04], [0.0], [0.0]])
+    assert reference_solver.impact_errors("1/5", "1/25", lifted, at_rest, np.zeros(1)) > 0.1
+
+
+# ---- a broken map proves nothing
+
+
+def proved(names):
+    return [name for name in names if THEOREMS[name].check().verdict == "proved"]
+
+
+def test_proofs_refuse_a_map_that_skips_a_root(monkeypatch):
+    march = flight._march
+
+    def skipping(gap, start):
+        _, t = march(gap, start)
+        for _ in range(4000):
+            t = t + 0.01
+            if gap.height(t) < 0:
+                return march(gap, t.mid())
+        raise UndecidedError("no other root")
+
+    monkeypatch.setattr(flight, "_march", skipping)
+    assert proved(name for name in THEOREMS if name not in WITHOUT_FLIGHTS) == []
+
+
+@pytest.mark.parametrize(("error", "coverings"), [(arb(2) ** -80, False), (arb("4e-6"), True)])
+def test_proofs_refuse_a_gravity_that_is_a_little_off(error, coverings, monkeypatch):
+    """Coverings and |B| > |A| have margins: a smaller error leaves them true."""
+    constants = Surface.constants
+
+    def heavier(self):
+        k, g, energy = constants(self)
+        return k, g + error, energy
+
+    monkeypatch.setattr(Surface, "constants", heavier)
+    names = [name for name in THEOREMS if name.startswith(COVERINGS) == coverings]
+    assert proved(name for name in names if name not in WITHOUT_FLIGHTS) == []
+
+
+def test_proofs_refuse_a_gap_without_its_error(monkeypatch):
+    exact = Flight._height_and_slope
+
+    def shifted(*given):
+        height, slope = exact(*given)
+        return height + arb(2) ** -50, slope
+
+    monkeypatch.setattr(Flight, "_height_and_slope", shifted)
+    assert proved(["fixed-point", "six-hyperbolic", "twist-six", "twist-zero", "jump-set"]) == []

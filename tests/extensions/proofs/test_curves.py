@@ -1,0 +1,347 @@
+"""Invariant curves: what their checkers prove, and the certificates that they refuse."""
+
+import re
+from fractions import Fraction
+from functools import cache
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from certificates import numbers, refused, with_bounds, with_field, with_rows
+from flint import acb, arb, ctx
+from matplotlib.path import Path
+from sections import BALL
+from slowly import slowly
+from small_curve import SMALL
+
+from extensions.claims.analyses.polygon import Polygon
+from extensions.proofs import THEOREMS, Surface, prove_curve
+from extensions.proofs.checks import circle, curve
+from extensions.proofs.checks.certificate import NotProvedError
+from extensions.proofs.enclosure import complex_flight
+from extensions.proofs.search import curve as search
+from pseudorigid import Ball, orbit
+from pseudorigid.dynamics.variables import chart, states_of
+
+TEXT = SMALL.text()
+CURVES = [name for name, theorem in THEOREMS.items() if theorem.checker is curve.check]
+
+
+@cache
+def bounds_and_finding(name):
+    """The bounds of a theorem about a curve, and the finding of its checker."""
+    theorem = SMALL if name == SMALL.name else THEOREMS[name]
+    return theorem.bounds, theorem.prove()
+
+
+def start_of(finding):
+    """The x of the curve's point with t = 0, which is on y = 0."""
+    waves = finding.parts["curve"][0]
+    with ctx.workprec(200):
+        return float(sum((2 * c.real for c in waves[1:]), waves[0].real))
+
+
+def returns(bounds, x, count):
+    """The returns (2, count) to one island of the orbit that starts at x on y = 0, in doubles."""
+    period = bounds["period"]
+    with ctx.workprec(64):
+        state = (x, *(float(a) for a in bounds["surface"].velocities(arb(x), arb(0))))
+    return chart(0.2, *states_of(orbit(BALL, state, count * period)))[:, period - 1 :: period]
+
+
+PROVED = [SMALL.name, *slowly(*CURVES)]
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_orbits_next_to_a_curve_have_its_rotation_number(name):
+    """An independent computation in doubles, at the point of the curve with t = 0."""
+    bounds, finding = bounds_and_finding(name)
+    points = [[float(a) for a in z] for z in finding.parts["orbit"].points]
+    turns = search.turns(bounds["surface"], start_of(finding), points, 20_000)
+    assert turns == pytest.approx(float(finding.digits["rotation number"]), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_the_area_is_a_little_more_than_that_of_the_polygon(name):
+    """Orbits on both sides of the polygon are those of another test."""
+    bounds, finding = bounds_and_finding(name)
+    area = float(finding.digits["area"])
+    k, g, energy = 0.2, 0.04, float(bounds["surface"].energy)
+    section = pi * (2 * energy + g * g / k) * sqrt((1 + k) / k)
+    assert float(finding.digits["share"]) == pytest.approx(area / section, rel=1e-12)
+    polygons = finding.parts["polygons"]
+    assert len(polygons) == bounds["period"]
+    assert 0.99 * area < Polygon(np.array(polygons[0]).T).area() < area
+
+
+@pytest.mark.slow
+def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
+    """400 orbits all over the disc, each impact compared with a radius in doubles."""
+    theorem = THEOREMS["curve-fixed-point-outer"]
+    finding = theorem.prove()
+    centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])[:, None]
+    corners = np.array(finding.parts["polygons"][0]).T - centre
+    angle, radius = np.arctan2(*corners[::-1]), np.hypot(*corners)
+    order = np.argsort(angle)
+    angle, radius = angle[order], radius[order] / 0.999  # of the curve
+    places = np.arange(400)
+    at, share = np.pi * (3 - sqrt(5)) * places, np.sqrt((places + 0.5) / 400)
+    at = (at + np.pi) % (2 * np.pi) - np.pi
+    length = 0.99 * share * np.interp(at, angle, radius, period=2 * np.pi)
+    x, y = centre + length * np.array([np.cos(at), np.sin(at)])
+    states, furthest, impacts = BALL.state_xy(x, y, 0.01), 0.0, 0
+    for _ in range(100):
+        out = BALL.history(states, 2_500)
+        states = out[:, -1, :3].T
+        dx, dy = chart(0.2, *np.moveaxis(out[..., :3], 2, 0)).reshape(2, -1) - centre
+        bound = np.interp(np.arctan2(dy, dx), angle, radius, period=2 * np.pi)
+        furthest = max(furthest, np.max((dx * dx + dy * dy) / (bound * bound)))
+        impacts += dx.size
+    assert impacts == 10**8
+    assert 0.98 < furthest < 1
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(name):
+    bounds, finding = bounds_and_finding(name)
+    centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])
+    polygon = np.array(finding.parts["polygons"][0])
+    start = polygon[0] - centre  # on y = 0 up to rounding
+    for factor, inside in ((0.99, True), (1.01, False)):
+        z = returns(bounds, float(centre[0] + factor * start[0]), 5_000)
+        assert Path(polygon).contains_points(z.T).tolist() == [inside] * z.shape[1]
+
+
+@pytest.mark.parametrize(("quotients", "repeating", "reason"), [
+    ("[5, 1, 1, 2, 20]", "[]", "rational"),
+    ("[5, 1, 1, 2, 20]", "[2]", "do not end in ones"),
+    ("[]", "[1]", "not whole and positive"),
+    ("[5, 0, 3]", "[1]", "not whole and positive"),
+    ("[5, -1, 3]", "[1]", "not whole and positive"),
+    ("[5, 1, 3.5]", "[1]", "no list of whole numbers"),
+    ("[5, 1, 1, 2, 20, 1, 1, 1000000]", "[1]", ""),
+    ("[5, 1, 30]", "[1]", "not in the statement's interval"),
+])  # fmt: skip
+def test_rational_rotation_numbers_and_large_partial_quotients_are_refused(
+    quotients, repeating, reason
+):
+    text = with_field(TEXT, "quotients", quotients)
+    assert reason in refused(SMALL, with_field(text, "repeating", repeating))
+
+
+def test_a_large_partial_quotient_far_behind_is_refused_too():
+    """It changes the number by less than the error."""
+    quotients = [5, 1, 1, 2, 20, *[1] * 120, 10**12]
+    text = with_field(TEXT, "quotients", str(quotients))
+    assert "too large" in refused(SMALL, text)
+
+
+def test_small_divisors_keep_the_steps_from_converging():
+    bounds = curve.Bounds(*map(arb, (2, 6, 6, 1, 4, 200, 1)))
+    margins, *_ = curve._theorem(arb("1e-25"), bounds, arb(1000), 1, arb("0.002"))
+    assert margins["contraction"] > 1
+    with pytest.raises(NotProvedError, match="not proved to converge"):
+        curve._theorem(arb("1e-25"), bounds, arb(10) ** 12, 1, arb("0.002"))
+
+
+def with_other_digit(index, column):
+    """Return a function that changes the 25th digit of a coefficient."""
+
+    def change(rows):
+        value = Fraction(rows[index][column])
+        digits = abs(Fraction(f"{float(value):.0e}"))
+        rows[index][column] = f'"{value + digits / 10**24}"'
+        return rows
+
+    return change
+
+
+def with_other_signs(rows):
+    return [[a, b[1:] if b.startswith("-") else f"-{b}"] for a, b in rows]
+
+
+@pytest.mark.parametrize(("change", "reason"), [
+    (with_other_digit(1, 0), "error is not proved"),
+    *slowly(*((with_other_digit(*place), "error is not proved")
+              for place in ((0, 0), (1, 1), (5, 1), (10, 0)))),
+    (lambda rows: [*rows[:7], rows[8], rows[7], *rows[9:]], "error is not proved|strip"),
+    *slowly(
+        (lambda rows: rows[:20], "error is not proved|strip"),
+        (lambda rows: rows[:15] + rows[16:], "error is not proved|strip"),
+        (lambda rows: [*rows[:20], rows[20][::-1], *rows[21:]], "error is not proved|strip"),
+        (lambda rows: [*rows[:3], [rows[3][0], rows[3][1].removeprefix("-")], *rows[4:]],
+         "error is not proved|strip"),
+    ),
+    (lambda rows: [[rows[0][0], "1e-30"], *rows[1:]], r"sin\(0\)"),
+    (lambda rows: rows[:2], "coefficients, not 3"),
+    (with_other_signs, ""),
+])  # fmt: skip
+def test_other_coefficients_are_refused(change, reason):
+    rows = change(numbers(TEXT, "coefficients"))
+    assert re.search(reason, refused(SMALL, with_rows(TEXT, "coefficients", rows)))
+
+
+def test_the_curve_run_through_twice_is_refused():
+    """K(2t) with omega/2 = [0; 11, 1, 1, 1, ...]-like passes all but the count of its turns."""
+    rows = numbers(TEXT, "coefficients")
+    with ctx.workprec(120):
+        single = tuple(
+            [acb(arb(row[r]) / 2) if r == 0 else acb(0, -arb(row[r]) / 2) for row in rows[:80]]
+            for r in (0, 1)
+        )
+        single[0][0] *= 2
+        double = tuple([c for a in waves for c in (a, acb(0))] for waves in single)
+        centre = [arb(a) for a in numbers(TEXT, "points")[0]]
+        curve._check_winding(single, centre, 128)
+        with pytest.raises(NotProvedError, match="turns -2"):
+            curve._check_winding(double, centre, 256)
+    # as a certificate: omega/2 has other partial quotients, which do not end in ones
+    twice = [row for pair in ((a, ["0.0", "0.0"]) for a in rows) for row in pair]
+    text = with_field(with_rows(TEXT, "coefficients", twice), "quotients", "[11, 5, 13]")
+    assert refused(SMALL, text, rotation=None)
+
+
+@pytest.mark.slow
+def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monkeypatch):
+    """With omega/2 itself, which no certificate can state, and a curve of more digits."""
+    theorem = THEOREMS["curve-fixed-point-outer"]
+    strips = ("0.025", "0.004", 256, 6, 6, 430)
+    numbers_of_both = Fraction("0.08"), Fraction("0.18")
+    weaker = with_bounds(theorem, rotation=numbers_of_both, share=Fraction("0.117"))
+    text = search.propose(weaker, (5, 1, 3), strips, "1e-42")
+    assert weaker.check(text).verdict == "proved", weaker.check(text).reason
+    rows = numbers(text, "coefficients")
+    text = with_rows(text, "coefficients", [row for a in rows for row in (a, ["0.0", "0.0"])])
+    for field, value in (("strip", "0.0125"), ("loss", "0.002"), ("columns", "512")):
+        text = with_field(text, field, value)
+    noble = circle.noble
+    monkeypatch.setattr(curve, "noble", lambda *given: tuple(a / 2 for a in noble(*given)))
+    assert "turns -2.00 times around the centre" in weaker.check(text).reason
+
+
+# A reason, and the fields and numbers that are refused for it.
+OTHER_NUMBERS = {
+    "stated as 0.0068": ["share 0.0068"],
+    "not stated to be below": ["error 1e-30", "error 0", "error -1e-37"],
+    "error is not proved": ["error 1e-60"],
+    "too narrow": ["strip 0.05", "loss 0.011"],
+    "strip": ["strip 0.2"],
+    "out of range": [
+        "strip 2", "loss 0", "columns 0", "columns 100000", "rows 0", "more_rows 0",
+    ],
+    "another form": ["more_rows true", "rows 6.0"],
+    "as stated": ["radius 1e-7"],
+    "": ["columns 16"],
+}  # fmt: skip
+SLOW_NUMBERS = {
+    "not proved to enclose": ["share 0.007"], "converge": ["loss 1e-9"],
+    "error is not proved": ["more_rows 1"],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("reason", "numbers"), [*OTHER_NUMBERS.items(), *slowly(*SLOW_NUMBERS.items())]
+)
+def test_another_number_in_a_field_is_refused(reason, numbers):
+    for number in numbers:
+        assert reason in refused(SMALL, with_field(TEXT, *number.split()))
+
+
+@pytest.mark.parametrize("change", [{"energy": "101/10000"}, {"k": "201/1000"}, {"g": "41/1000"}])
+def test_the_curve_of_another_energy_or_ball_is_refused(change):
+    """A certificate and a statement that agree on another energy or ball, with this curve."""
+    surface, text = SMALL.bounds["surface"], TEXT
+    other = {"k": surface.k, "g": surface.g, "energy": surface.energy} | change
+    for field, value in change.items():
+        text = with_field(text, field, f'"{value}"')
+    assert refused(SMALL, text, surface=Surface(**other), window=None)
+
+
+@pytest.mark.parametrize(("bound", "value"), [
+    ("share", Fraction("0.00691")), ("rotation", (Fraction("0.17864"), Fraction("0.1787"))),
+    ("error", Fraction("1e-36")), ("radius", Fraction("1e-5")), ("period", 2),
+])  # fmt: skip
+def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
+    assert refused(SMALL, TEXT, **{bound: value})
+
+
+def test_certificates_of_other_curves_are_refused():
+    for name in CURVES:
+        for other in set(CURVES) - {name}:
+            assert refused(name, THEOREMS[other].text())
+
+
+def test_complex_flights_continue_real_ones():
+    """Along a path from a real point to a complex one and back the flight time is the same."""
+    surface = Surface("1/5", "1/25", "1/100")
+    with ctx.workprec(100):
+        x, y = arb("0.1"), arb("0.05")
+        tau = acb(surface.impact(x, y).tau)
+        first = tau
+        for step in [*range(8), *range(7, -1, -1)]:
+            box = acb(x, arb(step * 0.003, 0.002)), acb(y, arb(0, 0.002))
+            root = complex_flight.unique_root(surface, *box, first)
+            point = acb(x, arb(step * 0.003)), acb(y)
+            first = complex_flight.point_root(surface.flight(*point), root)
+        assert first.overlaps(tau)
+        image = surface.impact(acb(x), acb(y), tau)[:2]
+        for a, b in zip(image, surface.impact(x, y), strict=False):
+            assert a.overlaps(acb(b))
+
+
+def test_sums_of_small_divisors_have_the_bound_of_the_proof():
+    """For omega = [0; quotients, 1, 1, ...], summed in doubles far beyond its partial quotients."""
+    for quotients in ([5, 1, 3], [9], [1, 4, 1, 3], [1], [5, 1, 11], [5, 1, 1, 2, 20]):
+        with ctx.workprec(100):
+            omega, divisors = map(float, circle.noble(quotients))
+        q = np.arange(1, 20_001)
+        terms = 1 / (4 * np.sin(np.pi * omega * q) ** 2)
+        assert np.all(np.cumsum(terms) <= divisors / 4 + 3 * np.pi**2 / 16 * q**2)
+        for d in (1e-2, 2e-3, 5e-4):  # the lemma with n = 1, whose kappa is to hold for d and less
+            kappa = sqrt(3 / 32 + divisors * (2 * d) ** 2)
+            assert 2 * sqrt(terms @ np.exp(-4 * np.pi * d * q)) <= kappa / d
+
+
+def test_cells_enclose_a_polynomial():
+    rng = np.random.default_rng(1)
+    with ctx.workprec(80):
+        waves = [acb(float(a), float(b)) for a, b in rng.normal(size=(6, 2))]
+        waves[0] = acb(waves[0].real)
+        cells = circle.Cells(waves, 50, arb("0.01"), arb("0.005"))
+        for j in (0, 7, 49):
+            for shift in (-0.5, 0.0, 0.49):
+                t = acb((j + 0.5 + shift) / 50, 0.01 + 0.0099 * shift)
+                value = waves[0]
+                for q, c in enumerate(waves[1:], 1):
+                    value += c * (2 * q * t).exp_pi_i() + c.conjugate() * (-2 * q * t).exp_pi_i()
+                assert cells[j].contains(value)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("k", "g", "energy", "rotation", "share"), [
+    (0.1, 0.03, 0.02, 0.150528, 0.115), (0.2, 0.04, 0.02, 0.211302, 0.018),
+])  # fmt: skip
+def test_curves_of_other_balls_and_energies_are_proved_on_request(k, g, energy, rotation, share):
+    certificate, finding = prove_curve(Ball(k, g), energy, rotation)
+    assert float(finding.digits["rotation number"]) == pytest.approx(rotation, abs=5e-4)
+    assert share < float(finding.digits["share"]) < 1.1 * share
+    assert 'kind = "invariant curve"' in certificate
+
+
+@pytest.mark.parametrize(("energy", "rotation", "reason"), [
+    (0.01, 0.25, "0.25 is too close to a fraction of small integers: the nearest that are not"),
+    (0.01, 0.1666666666, "0.1666666666 is too close to a fraction of small integers"),
+    (0.01, 0.0, "rotation_number = 0.0 is not allowed: one number between 0 and 1"),
+    (0.01, [0.1, 0.2], "rotation_number = [0.1, 0.2] is not allowed"),
+    (0.01, "a", "rotation_number = 'a' is not allowed"),
+    (float("nan"), 0.17, "energy = nan is not allowed: a finite number"),
+    (float("inf"), 0.17, "energy = inf is not allowed: a finite number"),
+    ("x", 0.17, "energy = 'x' is not an exact number"),
+    (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
+    (5.0, 0.17, "no elliptic orbit of period 1"),
+    (0.01, 0.41, "no curve with the rotation number 0.409955 was found on y = 0: near the point"),
+])  # fmt: skip
+def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, reason):
+    with pytest.raises(ValueError, match=re.escape(reason)) as error:
+        prove_curve(BALL, energy, rotation)
+    assert "\n" not in str(error.value)

@@ -1,0 +1,151 @@
+"""The twist at all energies, by other methods, and the certificates that are refused."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+from certificates import numbers, refused, with_field, with_rows
+from flint import arb, ctx
+
+from extensions.proofs import THEOREMS, Surface
+from extensions.proofs.checks import one_zero, periodic
+from extensions.proofs.checks.birkhoff import normal_form
+from extensions.proofs.checks.certificate import NotProvedError
+from extensions.proofs.enclosure.fixed_point import energy_at
+from extensions.proofs.search import approximate_orbits
+from study.enclosure.jets import Jet, algebra
+from study.enclosure.surface import ball_of
+
+NAME = "twist-one-zero"
+BALL = Fraction(1, 5), Fraction(1, 25)
+
+
+def at(theta, ball=BALL):
+    """cos(omega) and theta tau_1 at one theta."""
+    pairs = one_zero.over_band(*ball, Fraction(theta), Fraction(theta))[:2]
+    return [value for value, _ in pairs]
+
+
+@pytest.mark.parametrize("theta", ["0.4", "0.95", "1.5", "1.99", "2.05", "2.3"])
+def test_the_twist_is_that_of_birkhoffs_normal_form(theta):
+    """The normal form takes flights and the fixed point from the map over a ball instead."""
+    with ctx.workprec(periodic.BITS):
+        cosine, twist = at(theta)
+        energy = energy_at(*map(ball_of, BALL), arb(theta))
+        surface = Surface(*BALL, Fraction(float(energy)))
+        point = approximate_orbits.points(surface, 1, "elliptic")
+        centres = [[Fraction(a) for a in z] for z in point]
+        orbit = periodic.prove(surface, centres, Fraction(1, 10**8))
+        form = normal_form(surface, orbit)
+        assert abs(orbit.trace / 2 - cosine) < 1e-13
+        assert abs(form.twists[0] - twist / arb(theta)) < 1e-11
+
+
+@pytest.mark.parametrize("theta", ["0", "0.001", "0.9", "2.2"])
+def test_the_series_has_the_fixed_point_its_symmetry_and_its_area(theta):
+    with ctx.workprec(one_zero.BITS):
+        t = arb(theta)
+        right, up = one_zero._series(*map(arb, ("0.2", "0.04")), t, 1)
+        for jet in (right, up):
+            assert jet[0, 0, 0].contains(0)
+            assert jet[0, 0, 1].contains(0)
+        assert right[1, 0, 0].overlaps(up[0, 1, 0])
+        determinant = (1 + t * right[1, 0, 0]) * (1 + t * up[0, 1, 0])
+        determinant -= t * t * right[0, 1, 0] * up[1, 0, 0]
+        assert determinant.contains(1)
+        assert determinant.rad() < 1e-20
+
+
+def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_differences():
+    with ctx.workprec(one_zero.BITS):
+        for ends in (("0", "0.05"), ("1.97", "1.98"), ("2.3", "2.305")):
+            low, high = map(Fraction, ends)
+            *pairs, _ = one_zero.over_band(*BALL, low, high)
+            values = [at(low + (high - low) * n / 3) for n in range(4)]
+            for place, (value, slope) in enumerate(pairs):
+                assert all(value.overlaps(row[place]) for row in values)
+                for a, b in pairwise(values):
+                    assert slope.overlaps((b[place] - a[place]) * 3 / arb(float(high - low)))
+
+
+@pytest.mark.parametrize("kind", ["sine", "versine"])
+def test_even_functions_enclose_their_taylor_coefficients(kind):
+    """To the present precision, whatever an earlier one was."""
+    one_zero._power_series.cache_clear()
+    one_zero._even_function(kind, arb("3.3"), 3)
+    with ctx.workprec(one_zero.BITS):
+        (z,) = Jet.series(algebra(1, 3), arb("3.3"))
+        sine, cosine = z.sin_cos()
+        stated = (sine - z) / (z * z * z) if kind == "sine" else (1 - cosine) / (z * z)
+        for ball in (arb("3.3"), arb(3.31, 0.02)):
+            terms = one_zero._even_function(kind, ball, 3)
+            for ours, exact in zip(terms, stated.coefficients, strict=True):
+                assert ours.overlaps(exact)
+                assert ours.rad() < max(1e-25, 0.05 * float(ball.rad()) / 0.02)
+        with pytest.raises(NotProvedError, match="too wide"):
+            one_zero._even_function(kind, arb(5.1), 3)
+
+
+def test_a_function_falls_through_zero_once_only():
+    plus, minus, falls = (arb(1), arb(0, 9)), (arb(-1), arb(0, 9)), (arb(0, 1), arb(-1))
+
+    def margin(rows):
+        return one_zero._falls_once([one_zero._stage(*row, "zero") for row in rows], "zero")
+
+    assert margin([plus, falls, falls, minus, minus]) == 1
+    for rows in (
+        [plus, minus, plus, minus],
+        [plus, falls, minus, falls, minus],
+        [falls, minus],
+        [plus, falls],
+        [plus, plus],
+        [minus, minus],
+        [plus, (arb(0, 1), arb(0, 1)), minus],
+        [plus, (arb(0, 1), arb(1)), minus],
+        [plus, (arb("nan"), arb("nan")), minus],
+    ):
+        with pytest.raises(NotProvedError, match="only one"):
+            margin(rows)
+
+
+def test_other_bands_are_refused():
+    text = THEOREMS[NAME].text()
+    edges = numbers(text, "edges")
+    for rows, reason in (
+        (edges[1:], "do not rise from"),
+        ([["-0.01"], *edges], "do not rise from"),
+        ([edges[0], edges[2], edges[1], *edges[3:]], "do not rise from"),
+        ([*edges[:9], edges[8], *edges[9:]], "do not rise from"),
+        (edges[:-2], "not proved to reach"),
+        ([*edges, ["3.15"]], "not proved to reach"),
+        (edges[:1], "edges, not 2"),
+        ([edges[0], *edges[15:]], ""),
+    ):
+        assert reason in refused(NAME, with_rows(text, "edges", rows))
+
+
+@pytest.mark.parametrize("name", ["zero", "resonance"])
+@pytest.mark.parametrize(("row", "reason"), [
+    (["1.9", "1.91"], "certificate's theta"),
+    (["1.98", "2.2"], "statement's energies"),
+    (["2.2", "1.9"], "no interval"),
+    (["2.0", "2.0"], "no interval"),
+    (["0.0", "3.1"], "no interval"),
+])  # fmt: skip
+def test_a_zero_elsewhere_or_less_precise_is_refused(name, row, reason):
+    """A wide interval is consistent, and proves less than the statement."""
+    text = THEOREMS[NAME].text()
+    assert reason in refused(NAME, with_field(text, name, f"[{', '.join(row)}]"))
+
+
+def test_no_band_contains_the_resonance_of_order_three():
+    """At this ball it lies below E = 0.01; the twist has a pole there."""
+    ball = Fraction(3, 10), Fraction(1, 50)
+    with ctx.workprec(one_zero.BITS):
+        at("2.14", ball)
+        with pytest.raises(NotProvedError, match="third power"):
+            one_zero.over_band(*ball, Fraction("2.25"), Fraction("2.27"))
+
+
+def test_a_certificate_up_to_a_lower_energy_is_refused():
+    assert "not 3/50" in refused(NAME, THEOREMS[NAME].text().replace("3/50", "1/20"))

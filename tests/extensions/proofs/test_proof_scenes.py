@@ -1,0 +1,74 @@
+"""Scenes of proofs away from the committed ones: bounds, limits and unusual sizes."""
+
+import pytest
+from documents import changed, complaint
+from examples import (
+    OTHER,
+    SHELL,
+    assert_bounded,
+    assert_made_or_refused_in_one_line,
+    checked,
+    computed,
+    made,
+    no_clipping,
+)
+from project import shipped
+
+from extensions.proofs import THEOREMS
+from pipeline.config.schema.kinds import KINDS
+
+MARKS = {"marks": []}
+
+
+@pytest.mark.parametrize(
+    ("kind", "at_bound", "beyond", "line"),
+    [
+        ("graph", {}, {"energy": 0.006},
+         "energy: 0.006 ... k = 0.2 and this g, one of 0.005, 0.01"),
+        ("graph", {}, {"ball": {"k": 0.3, "g": 0.04}}, "energy: 0.005 ... with k = 0.2"),
+        ("curves", {}, {"rotation_numbers": [0.104, 0.25]},
+         "rotation_numbers[1]: 0.25 ... "
+         "too close to a fraction of small integers: the nearest that are not are 0.2499 and 0.25"),
+        ("curves", {}, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
+        ("twist", MARKS, {"ball": SHELL, "energies": [0.01, 0.016]}, "energies[1] ... 0.0138241"),
+    ],
+)  # fmt: skip
+def test_beyond_its_bound(kind, at_bound, beyond, line):
+    assert_bounded("proofs", kind, at_bound, beyond, line)
+
+
+def test_the_twist_is_drawn_within_its_frame():
+    energies = [0.001, 0.004, 0.014]
+    with no_clipping():
+        made(checked("twist", ball=OTHER, energies=energies, marks=[0.001]))
+
+
+@pytest.mark.slow
+def test_few_energies_of_the_twist_are_drawn_or_refused_in_one_line():
+    assert_made_or_refused_in_one_line(checked("twist", energies=[0.001, 0.01], marks=[]))
+
+
+def test_energies_outside_the_axes_are_reported():
+    document = shipped()
+    block = {"ball": document["ball"]} | document["proofs"]["twist"]
+    assert not [*KINDS["twist"].hidden(block)]
+    (line,) = KINDS["twist"].hidden(block | {"energies": [0.01, 0.07]})
+    assert line.startswith("energies 0.07 lies outside axes.energy.limits")
+
+
+def test_a_horseshoe_shows_only_what_lies_within_its_limits():
+    given = {"x": {"limits": [0, 0.1], "ticks": [0]}, "q": {"limits": [-0.9, 0.9], "ticks": [0]}}
+    data = computed(checked("horseshoe"))
+    made(checked("horseshoe", axes=given), data)
+    far = {"x": {"limits": [1.0, 2.0], "ticks": [1]}}
+    with pytest.raises(ValueError, match=r"axes.x.limits \[1.0, 2.0\]: all data lie beyond them"):
+        made(checked("horseshoe", axes=far), data)
+
+
+def test_theorems_are_named_like_their_certificates():
+    assert all(theorem.certificate == f"{name}.toml" for name, theorem in THEOREMS.items())
+
+
+def test_the_exact_method_is_among_what_is_allowed():
+    line = complaint(changed("scenes.a_portrait.method", "scan"))
+    assert line.endswith("a mapping with the keys scan and tolerance, or {exact: true}")

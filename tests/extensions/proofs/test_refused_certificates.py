@@ -1,0 +1,553 @@
+"""Certificates that prove nothing: altered, foreign, unreadable, or of less than the statement."""
+
+import dataclasses
+import os
+import re
+from fractions import Fraction
+from math import atan2, pi, tan
+
+import pytest
+from certificates import (
+    OTHER_CONSTANTS,
+    by_both,
+    numbers,
+    refused,
+    with_bounds,
+    with_field,
+    with_rows,
+)
+from flint import arb, ctx
+from second_checker import STATEMENTS, ImpactMap, check, prove_orbit
+from second_checker import NotProvedError as SecondNotProvedError
+from slowly import slowly
+
+from extensions.proofs import THEOREMS, Surface
+from extensions.proofs.checks import ellipticity, horseshoe, jump, periodic, twist
+from extensions.proofs.checks.certificate import Finding, NotProvedError
+from extensions.proofs.checks.hsets import HSet
+from extensions.proofs.enclosure.newton import enclose_zero
+from extensions.proofs.search import approximate_orbits
+from extensions.proofs.search import horseshoe as horseshoe_search
+from extensions.proofs.search import jump as jump_search
+from extensions.proofs.search.ellipticity import propose as propose_ellipticity
+from extensions.proofs.search.periodic import propose_only_fixed_point
+from extensions.proofs.theorems import statements
+from pseudorigid import Ball, symmetric_orbits
+from study.enclosure.surface import ball_of
+
+TWISTS = [name for name, theorem in THEOREMS.items() if theorem.checker is twist.check]
+HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
+CHECKERS = ["package", *slowly("second")]
+# Fields of which leading digits are changed.
+FIELDS = {
+    "points", "radius", "saddles", "approach", "middle", "width", "twist", "energy", "point",
+    "near_image", "far_image", "outer_end", "inner_end", "speed", "roots", "energy_below",
+    "energy_up_to", "theta_below", "theta", "trace_above", "zero", "resonance",
+    "event",
+}  # fmt: skip
+
+
+# A theorem, and the field and the place of one of its sets.
+SETS = [
+    *((name, "approach", row) for name in HORSESHOES for row in (0, 30, -2)),
+    ("entropy-lower", "sets", 0),
+    *(("entropy-lower", "chains", row) for row in (0, 20, -1)),
+    *(("no-circle", "chain", row) for row in (1, 30, -2)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("checker", "name", "field", "row"), [
+    *(("package", *place) for place in SETS),
+    *slowly(*(("second", *place) for place in SETS if place[0] in STATEMENTS)),
+])  # fmt: skip
+@pytest.mark.parametrize(("columns", "factor", "shift"), [
+    ((2, 3), Fraction("1.3"), None), ((4, 5), Fraction("0.7"), None), ((0, 1), 1, 2), ((0, 1), 1, 4)
+])  # fmt: skip
+def test_sets_that_are_wider_thinner_or_shifted_are_refused(
+    checker, name, field, row, columns, factor, shift
+):
+    """A set is shifted by half the side in the columns that come so much later."""
+    rows = numbers(THEOREMS[name].text(), field)
+    values = [Fraction(a) for a in rows[row]]
+    for i in columns:
+        values[i] = values[i] * factor + (values[i + shift] / 2 if shift else 0)
+    rows[row] = [f'"{value}"' for value in values]
+    reason = refused(name, with_rows(THEOREMS[name].text(), field, rows), checker)
+    assert re.search("cover|floor|set", reason) or (checker == "second" and "cone" in reason)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_horseshoes_refuse_the_other_connection(checker):
+    inner = THEOREMS["horseshoe-inner"].text()
+    refused("horseshoe-outer", inner, checker)
+    without_entropy = refused("horseshoe-outer", inner, checker, entropy=Fraction(0))
+    assert "where the statement says" in without_entropy
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
+@pytest.mark.parametrize(("field", "value"), OTHER_CONSTANTS)
+def test_certificates_of_another_ball_or_energy_are_refused(checker, name, field, value):
+    text = THEOREMS[name].text()
+    other = with_field(text, field, f'"{value}"')
+    if other != text:
+        reason = refused(name, other, checker)
+        # the zero of the twist is proved at the certificate's own energy
+        assert "the certificate is of" in reason or (name, field) == ("twist-zero", "energy")
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
+def test_unreadable_certificates_are_refused(checker, name):
+    text = THEOREMS[name].text()
+    for broken in (
+        "", text[: len(text) // 2], text.replace("k = ", "kk = "),
+        with_field(text, "kind", '"poem"'), re.sub(r"\d+", "x", text),
+    ):  # fmt: skip
+        refused(name, broken, checker)
+    assert "cannot be read" in refused(name, text + "more = " + "[" * 10_000, checker)
+    arabic = text.replace('k = "1/5"', 'k = "\u0661/\u0665"')
+    assert "not an exact number" in refused(name, arabic, checker)
+    for field in ("points", "saddles", "approach", "middle", "margins", "roots", "leaves"):
+        for value in ('"text"', "5", "[]", "[[]]", "[[[1, 2], 3]]", "1979-05-27"):
+            pattern = re.compile(rf"^{field} = (\[\n.*?^\]|.*?$)", re.DOTALL | re.MULTILINE)
+            if (other := pattern.sub(f"{field} = {value}", text)) != text:
+                refused(name, other, checker)
+
+
+def test_a_refusal_without_a_reason_has_one():
+    def refuse(text, **bounds):
+        raise NotProvedError
+
+    assert refused(dataclasses.replace(THEOREMS["fixed-point"], checker=refuse))
+
+
+def stated(name, field):
+    """The number in a field of a theorem's certificate."""
+    line = re.search(rf'^{field} = "?([^"\n]*)', THEOREMS[name].text(), re.MULTILINE)
+    return Fraction(line.group(1))
+
+
+@pytest.mark.parametrize(("name", "field", "value", "reason"), [
+    ("fixed-point", "radius", "5e-03", "boxes"),
+    *((name, "radius", THEOREMS[name].bounds["radius"] / 2, "as stated") for name in TWISTS),
+    *((name, "twist", factor * stated(name, "twist"), "not the stated")
+      for name in TWISTS for factor in (-1, Fraction("1.00000001"), 0)),
+    *(("twist-zero", "energy", stated("twist-zero", "energy") + shift, "")
+      for shift in (Fraction("1e-13"), -Fraction("1e-13"))),
+    *(("twist-zero", "width", width, "wid") for width in ("1e-12", "0", "-1e-13", "nan", "inf")),
+    ("twist-zero", "radius", "1e-3", "as stated"),
+    *(("fixed-point-elliptic", "bands", bands, reason)
+      for bands, reason in ((0, "bands"), (1, "each band"), (-4, "bands"), (10**9, "bands"))),
+    ("fixed-point-elliptic", "trace_above", "-1/2", "not -0.46"),
+    ("fixed-point-elliptic", "trace_above", "-0.45", "not proved to be above"),
+    ("jump-set", "radius", "1e-27", "not at most"),
+    *(("jump-set", "speed", speed, "") for speed in ("0.2", "-0.2", "nan")),
+])  # fmt: skip
+def test_another_number_in_a_field_is_refused(name, field, value, reason):
+    value = value if isinstance(value, int) else f'"{value}"'
+    assert reason in refused(name, with_field(THEOREMS[name].text(), field, value))
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both([*ORBITS, *TWISTS]))
+def test_boxes_of_another_size_and_points_of_another_orbit_are_refused(checker, name):
+    theorem = THEOREMS[name]
+    text, points = theorem.text(), numbers(theorem.text(), "points")
+    radius, period = theorem.bounds["radius"], theorem.bounds["period"]
+    if name in ORBITS:
+        smaller = with_field(text, "radius", f'"{radius / 2}"')
+        assert "as stated" in refused(name, smaller, checker)
+        refused(name, with_field(text, "radius", f'"{40 * radius}"'), checker)
+    for rows in (points + points, points[:-1] or points * 2):
+        assert f"points, not {period}" in refused(name, with_rows(text, "points", rows), checker)
+    (point,) = approximate_orbits.points(theorem.bounds["surface"], 1, "elliptic")
+    refused(name, with_rows(text, "points", [map(repr, point)] * period), checker)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_boxes_of_another_orbit_or_of_none_are_refused(checker):
+    text = THEOREMS["fixed-point"].text()
+    refused("fixed-point", text.replace("0.0212078", "0.0312078"), checker)
+    reason = refused("six-elliptic", THEOREMS["six-hyperbolic"].text(), checker)
+    assert "hyperbolic, not" in reason or "to be elliptic" in reason
+
+
+@pytest.mark.parametrize(("prove", "at", "error"), [
+    (periodic.prove, Surface, NotProvedError),
+    *slowly((prove_orbit, ImpactMap, SecondNotProvedError)),
+])  # fmt: skip
+def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period(prove, at, error):
+    constants = [Fraction(value) for value in ("1/3", "1/25", "1/10")]
+    points = approximate_orbits.points(Surface(*constants), 3, "hyperbolic")
+    centres = [[Fraction(a) for a in point] for point in points]
+    radius = Fraction(1, 10**9)
+    assert prove(at(*constants), centres, radius)
+    with pytest.raises(error, match="period may be shorter"):
+        prove(at(*constants), centres * 2, radius)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize(
+    ("energy", "roots"),
+    [("1/100", None), ("11/6249", None), ("11/6251", None), ("-3/1000", ("1/10", "3/10")),
+     ("0.00129", ("-0.03", "0.43")), ("0", ("0", "0.4")), ("-0.004", ("0.2", "0.2")),
+     ("11/6250", ("-0.03", "0.43")), ("11/6250", ("-0.05", "0.45"))],
+)  # fmt: skip
+def test_the_map_is_not_proved_smooth_below_another_energy(energy, roots, checker):
+    text = THEOREMS["diffeomorphism"].text().replace("11/6250", energy)
+    if roots:  # mostly those of the energy, so that the certificate is consistent
+        text = with_field(text, "roots", f'["{roots[0]}", "{roots[1]}"]')
+    reason = refused("diffeomorphism", text, checker)
+    assert "not 11/6250" in reason or checker == "second" or energy == "11/6250"
+
+
+def test_no_jump_is_proved_where_the_map_is_smooth():
+    with pytest.raises(NotProvedError, match="no flight touches the floor"):
+        at = Surface("1/5", "1/25", "11/6250")
+        text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
+        jump.check(text, at, radius=Fraction(1), length=Fraction(0), jump=Fraction(0))
+
+
+def only_fixed_point(k, g, energy):
+    """The certificate of one fixed point up to an energy of a ball."""
+    return propose_only_fixed_point(
+        with_bounds(THEOREMS["one-fixed-point"], k=k, g=g, energy=energy)
+    )
+
+
+def elliptic(k, g, energy, trace):
+    """The certificate of an elliptic fixed point up to an energy of a ball."""
+    theorem = with_bounds(THEOREMS["fixed-point-elliptic"], k=k, g=g, energy=energy, trace=trace)
+    return propose_ellipticity(theorem)
+
+
+def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are_three():
+    ball, low = (Fraction(1, 5), Fraction(1, 25)), Fraction(1, 100)
+    text = only_fixed_point(*ball, low)
+    assert periodic.check_only_fixed_point(text, *ball, low)
+    assert "up to 1/100" in refused("one-fixed-point", text)
+    assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
+    k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
+    text = only_fixed_point(k, g, energy)
+    with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
+        periodic.check_only_fixed_point(text, k, g, energy)
+
+
+def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_another_theta():
+    ball, trace = (Fraction(1, 5), Fraction(1, 25)), Fraction("-0.46")
+    for energy in (Fraction(1, 20), Fraction(61, 1000)):
+        text = elliptic(*ball, energy, Fraction("-0.5"))
+        assert ellipticity.check(text, *ball, energy, Fraction("-0.5"))
+        assert f"up to {energy}" in refused("fixed-point-elliptic", text)
+    text = THEOREMS["fixed-point-elliptic"].text()
+    for theta, reason in (
+        ("[2.30, 2.31]", "1e-30"),
+        ('["5.450263", "5.450263000000000000000000000000000001"]', "between 0 and pi"),
+    ):
+        assert reason in refused("fixed-point-elliptic", with_field(text, "theta", theta))
+    # At k = 1 and this energy the fixed point has long been inverse hyperbolic.
+    text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
+    with pytest.raises(NotProvedError, match="not proved to be above"):
+        ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
+
+
+@pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (1, 0), (3, 0.5)])
+def test_a_newton_image_that_is_not_inside_its_box_proves_no_zero(zero):
+    def system(values):
+        residuals = [value - wanted for value, wanted in zip(values, place, strict=True)]
+        return residuals, [[arb(1), arb(0)], [arb(0), arb(1)]]
+
+    box = [arb(0.5, 0.5), arb(0.5, 0.5)]
+    place = [arb(0.5, 1e-3), arb(0.5, 1e-3)]
+    assert all(found.contains(0.5) for found in enclose_zero(system, box))
+    place = [arb(a, 1e-3) for a in zero]
+    with pytest.raises(NotProvedError, match="does not lie inside"):
+        enclose_zero(system, box)
+
+
+# ---- certificates that are consistent and prove less than the statement
+
+
+def test_the_boxes_contain_those_around_the_points_of_the_orbit(monkeypatch):
+    sizes = []
+    prove = periodic.prove
+
+    def watched(surface, centres, radius):
+        sizes.append(radius)
+        return prove(surface, centres, radius)
+
+    monkeypatch.setattr(periodic, "prove", watched)
+    theorem = THEOREMS["six-elliptic"]
+    orbit = theorem.prove().parts["orbit"]
+    assert orbit.radius == theorem.bounds["radius"]
+    rows = numbers(theorem.text(), "points")
+    with ctx.workprec(256):
+        distance = max(
+            abs(value - arb(middle)).upper()
+            for point, centre in zip(orbit.points, rows, strict=True)
+            for value, middle in zip(point, centre, strict=True)
+        )
+        assert 0 < distance < ball_of(sizes[0] - orbit.radius)
+
+
+STRONGER = [
+    *((name, "radius", lambda radius: radius * Fraction(101, 100)) for name in [*ORBITS, *TWISTS]),
+    *((name, "window", lambda window: tuple((low, low) for low, _ in window))
+      for name in [*ORBITS, *TWISTS, *HORSESHOES, "no-circle"]),
+    *((name, "crossing", lambda sides: (sides[0] + Fraction(1, 1000), sides[1] + 1))
+      for name in HORSESHOES),
+    *((name, "entropy", lambda entropy: entropy * Fraction(102, 100))
+      for name in [*HORSESHOES, "horseshoe-smooth", "entropy", "entropy-lower"]),
+    *((name, "energy", lambda energy: energy * Fraction(101, 100))
+      for name in ("one-fixed-point", "fixed-point-elliptic", "diffeomorphism", "twist-one-zero")),
+    ("fixed-point-elliptic", "trace", lambda trace: trace * Fraction(99, 100)),
+    ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
+    ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
+    ("twist-zero", "width", lambda width: width / 2),
+    *(("twist-one-zero", name, lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 5))
+      for name in ("zero", "resonance")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("checker", "name", "bound", "change"), [
+    *(("package", *row) for row in STRONGER),
+    *slowly(*(("second", *row) for row in STRONGER if row[0] in STATEMENTS)),
+])  # fmt: skip
+def test_a_stronger_statement_is_not_proved_by_the_same_certificate(checker, name, bound, change):
+    refused(name, None, checker, **{bound: change(THEOREMS[name].bounds[bound])})
+
+
+# ---- statements: each number in one is given to the checker
+
+# Bounds that a text need not name: of the certificate's accuracy or of the boxes in which an orbit
+# is alone, where the statement does not speak of it; `trace` of a doubling is always -2.
+UNSAID = {
+    "error", *((name, "radius") for name in (*TWISTS, *HORSESHOES, "horseshoe-smooth", "no-circle",
+    "jump-set", "twist-zero", *(name for name in THEOREMS if name.startswith("curve-")))),
+    ("twist-zero", "width"), ("six-elliptic-doubling", "trace"),
+}  # fmt: skip
+
+
+def with_other_numbers(value):
+    """Yield (place, value with another number there) for each number."""
+    if isinstance(value, Surface):
+        for name in ("energy", "k", "g"):
+            change = {name: getattr(value, name) * Fraction(113, 128)}
+            numbers = {"k": value.k, "g": value.g, "energy": value.energy}
+            yield name, Surface(**numbers | change)
+    elif isinstance(value, tuple):
+        for i, part in enumerate(value):
+            for place, other in with_other_numbers(part):
+                yield (i, place), (*value[:i], other, *value[i + 1 :])
+    elif isinstance(value, Fraction):
+        yield (), value * Fraction(113, 128)
+    elif isinstance(value, int):
+        yield (), value + 2 if value > 0 else -value
+
+
+SAID = [
+    (name, bound)
+    for name, theorem in THEOREMS.items()
+    for bound in theorem.bounds
+    if not {bound, (name, bound)} & UNSAID and bound not in ("halves", "type")
+]
+
+
+@pytest.mark.parametrize(("name", "bound"), SAID)
+def test_another_number_in_a_bound_gives_another_statement(name, bound):
+    theorem = THEOREMS[name]
+    others = list(with_other_numbers(theorem.bounds[bound]))
+    if bound == "sides":  # of which only the sign counts
+        others = [((i,), tuple(-a if i == j else a for j, a in enumerate(theorem.bounds[bound])))
+                  for i in (0, 1)]  # fmt: skip
+    assert others
+    texts = [with_bounds(theorem, **{bound: other}).statement for _, other in others]
+    assert len({theorem.statement, *texts}) == len(texts) + 1
+
+
+def other_everywhere(value):
+    """The value with every number in it changed."""
+    if isinstance(value, Surface):
+        return Surface(*(other_everywhere(a) for a in (value.k, value.g, value.energy)))
+    if isinstance(value, tuple):
+        return tuple(other_everywhere(part) for part in value)
+    if isinstance(value, Fraction):
+        return value * Fraction(113, 128)
+    return value + 20 if isinstance(value, int) and value > 0 else value
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_no_number_of_a_statement_is_typed(name):
+    """If every bound has another number, no number of the statement is left in its text."""
+
+    def written(theorem):
+        formulas = r"y = 0|eq\. \(31\)|k/2 - g|g\^2/?|\(2k\)|\(1 \+ k/2\)|lambda\^\d|through -2"
+        text = re.sub(formulas, "", theorem.statement)
+        return set(re.findall(r"(?<![\w.])-?\d[\d./]*(?:e-?\d+)?", text))
+
+    theorem = THEOREMS[name]
+    bounds = {bound: other_everywhere(value) for bound, value in theorem.bounds.items()}
+    assert not written(theorem) & written(with_bounds(theorem, **bounds | KEPT.get(name, {})))
+
+
+KEPT = {"six-elliptic-doubling": {"trace": -2}}
+
+
+@pytest.mark.parametrize(("name", "bounds", "words"), [
+    ("six-birth", {"energies": ("0.00737", "0.00738")}, ["0.00737 < E < 0.00738"]),
+    ("six-elliptic-doubling", {"energies": ("0.0108", "0.0109"), "positions": ("0.30", "1/3"),
+                               "radius": "1e-10"}, ["1e-10", "0.0108 < E < 0.0109", "< 1/3"]),
+    ("twist-one-zero", {"zero": ("0.029", "0.0292"), "resonance": ("0.037", "0.038")},
+     ["0.029 < E < 0.0292", "0.037 < E < 0.038"]),
+    ("six-elliptic-end", {"energies": ("0.0125", "0.0126")}, ["0.0125 < E < 0.0126"]),
+    ("one-fixed-point", {}, ["k/2 - g"]),
+    ("jump-set", {"length": "0.4", "jump": "0.2"}, ["than 0.4 in", "than 0.2 apart"]),
+    pytest.param("curve-six", {"share": "0.001"}, ["more than 0.001 of"], marks=pytest.mark.slow),
+])  # fmt: skip
+def test_a_certificate_with_other_valid_bounds_proves_another_text(name, bounds, words):
+    bounds = {
+        bound: Fraction(value) if isinstance(value, str) else tuple(map(Fraction, value))
+        for bound, value in bounds.items()
+    }
+    result = with_bounds(THEOREMS[name], **bounds).check()
+    assert result.verdict == "proved"
+    assert all(word in result.statement for word in words)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_a_longer_chain_is_refused_for_its_entropy(checker):
+    theorem = THEOREMS["horseshoe-outer"]
+    weaker = with_bounds(theorem, entropy=Fraction(0))
+    text = horseshoe_search.propose(weaker, "outer", (72, 3e-5, 1.06))
+    if checker == "second":
+        assert check(theorem.name, text, entropy=Fraction(0))
+    else:
+        assert weaker.check(text).verdict == "proved"
+    assert "entropy" in refused(theorem.name, text, checker)
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both(HORSESHOES))
+def test_margins_that_are_not_positive_and_finite_are_refused(checker, name):
+    text = THEOREMS[name].text()
+    for margin in ("-1.0", "nan", "inf", "-inf"):
+        rows = [[margin, margin] for _ in numbers(text, "margins")]
+        assert "margin" in refused(name, with_rows(text, "margins", rows), checker)
+    for margin in (-0.004, 0.0, float("nan"), float("inf")):
+        with pytest.raises(NotProvedError, match="the margin room"):
+            Finding({}, {"beyond": 1.0, "room": margin})
+
+
+@pytest.mark.parametrize("centre", [0.7, 0.785, 0.79, 1.2, 1.5707])
+def test_the_crossing_angle_is_acute_even_near_a_right_angle(centre):
+    """The angle between (x, y) and (x, -y), for all slopes of a wide ball."""
+    axes = (arb(1), arb(0)), (arb(0), arb(1))
+    tangents = [tan(min(centre + offset, 1.57)) for offset in (-0.1, -0.03, 0.04, 0.1)]
+    slope = arb(tangents[0]).union(arb(tangents[-1]))
+    angle = horseshoe._crossing_angle(HSet("M_0", (arb(0), arb(0)), *axes), slope)
+    for tangent in tangents:
+        half = atan2(tangent, 1.0)
+        assert angle.overlaps(arb(min(2 * half, pi - 2 * half), 1e-12))
+
+
+def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeypatch):
+    theorem = THEOREMS["jump-set"]
+    # another point of the curve is as good: the statement is about the one that is printed
+    other = theorem.check(jump_search.propose(theorem, "-0.05"))
+    assert other.digits["point x"] != theorem.check().digits["point x"]
+    assert other.verdict == "proved"
+    # near the inner end the jump vanishes
+    inner = jump_search.propose(theorem, "-0.117")
+    assert "within 0.27" in refused("jump-set", inner)
+    whole = jump.curve
+    monkeypatch.setattr(jump, "curve", lambda surface, count: whole(surface, count)[:-2])
+    assert "longer than 0.4048" in refused("jump-set")
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both(
+    [*STATEMENTS, "twist-zero", "jump-set", "one-fixed-point"]
+))  # fmt: skip
+def test_a_number_of_too_many_digits_or_of_another_form_is_refused(checker, name):
+    text = THEOREMS[name].text()
+    for number in (
+        "1e-999999999", "1e999999999", "1e400", "1e-999", "1_0.5", "true", "0x10", '"1/0"', "[1]",
+    ):  # fmt: skip
+        for field in ("k", "g", "energy", "energy_up_to", "energy_below", "radius"):
+            for value in (number, f'"{number}"'):
+                if (other := with_field(text, field, value)) != text:
+                    refused(name, other, checker)
+
+
+def leading_digits(text):
+    """(field, number, certificate) of every changed leading digit in one of FIELDS."""
+    start, field = 0, None
+    for line in text.splitlines(keepends=True):
+        named = re.match(r"(\w+) = ", line)
+        field = named.group(1) if named else field
+        values = named.end() if named else 0
+        if field in FIELDS and not line.startswith(("#", "]")):
+            for number in re.finditer(r"-?\d[\d.e-]*", line[values:]):
+                if digit := re.search(r"[1-9]", number.group(0)):
+                    at = start + values + number.start() + digit.start()
+                    for other in "123456789".replace(text[at], ""):
+                        yield field, number.group(0), text[:at] + other + text[at + 1 :]
+        start += len(line)
+
+
+def some_leading_digits(text):
+    """All changed leading digits of a short certificate, some of each field of a long one."""
+    changes = list(leading_digits(text))
+    if len(changes) <= 200:
+        return changes
+    fields = [[change for change in changes if change[0] == field] for field in FIELDS]
+    return [change for group in fields for change in group[:: max(1, len(group) // 4)]]
+
+
+def stays_true(checker, field, name, text):
+    """Whether a changed certificate claims more: larger boxes, which the second checker proves."""
+    larger = re.search(r"^radius = (.*)$", text, re.MULTILINE) if field == "radius" else None
+    return checker == "second" and larger and Fraction(larger[1]) > THEOREMS[name].bounds["radius"]
+
+
+@pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
+@pytest.mark.parametrize("quarters", [[0], *slowly([1, 2, 3])])
+def test_no_leading_digit_may_change(checker, name, quarters):
+    changes = some_leading_digits(THEOREMS[name].text())
+    assert changes
+    for field, number, text in (change for first in quarters for change in changes[first::4]):
+        if not stays_true(checker, field, name, text):
+            assert refused(name, text, checker), number
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("checker", "count"), [("package", 1500), ("second", 40)])
+@pytest.mark.parametrize("name", HORSESHOES)
+def test_no_leading_digit_of_a_horseshoe_may_change(checker, count, name):
+    changes = list(leading_digits(THEOREMS[name].text()))
+    for _, number, text in changes[:: len(changes) // count]:
+        assert refused(name, text, checker), number
+
+
+def test_a_set_contains_what_is_proved_to_be_inside():
+    """A parallelogram is not its bounding box, and a box across its edge is not inside."""
+    one = HSet("S", (arb(1), arb(2)), (arb(0.5), arb(0.5)), (arb(-0.1), arb(0.1)))
+    assert one.contains(arb(1.3), arb(2.3))
+    assert not one.contains(arb(1.3), arb(1.7))
+    assert not one.contains(arb(1.6), arb(2.6))
+    assert not one.contains(arb(1.4, 0.2), arb(2.4, 0.2))
+
+
+@pytest.mark.parametrize(
+    ("make", "reason"),
+    [
+        (lambda file: file.write_bytes(b"\xff\x00" * 1000), "the certificate cannot be read: "),
+        (lambda file: file.mkdir(), "there is no such certificate"),
+        (os.mkfifo, "there is no such certificate"),
+        (lambda file: None, "there is no such certificate"),
+    ],
+    ids=["random bytes", "a folder", "a FIFO", "nothing"],
+)
+def test_what_is_no_certificate_is_a_reason(monkeypatch, tmp_path, make, reason):
+    monkeypatch.setattr(statements.resources, "files", lambda package: tmp_path)
+    (tmp_path / "certificates").mkdir()
+    make(tmp_path / "certificates" / "fixed-point.toml")
+    result = THEOREMS["fixed-point"].check()
+    assert result.verdict == "not proved" and result.reason.startswith(reason)

@@ -1,0 +1,196 @@
+"""Proofs on request, proofs of impacts, and the data of the pictures."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from certificates import numbers
+from flint import ctx
+from sections import BALL
+from slowly import slowly
+from small_curve import SMALL
+
+from extensions.claims.analyses.polygon import Polygon
+from extensions.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
+from extensions.proofs.theorems import impacts, scenes
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.dynamics.variables import chart, of_type, states_of
+
+PAPER = Surface("1/5", "1/25", "1/100")
+
+
+@pytest.fixture(scope="module")
+def six():
+    return symmetric_orbits(BALL, 0.01, 6)
+
+
+@pytest.mark.parametrize(
+    ("k", "g", "energy", "period"),
+    [(0.2, 0.04, 0.01, 6), (1 / 3, 0.04, 0.1, 3), (0.2, 0.01, 0.03, 1), (1.0, 0.5, 0.1, 5),
+     (0.3, 0.1, 0.02, 1), (0.2, 0.04, 0.001, 10)],
+)  # fmt: skip
+def test_every_symmetric_orbit_is_proved_on_request(k, g, energy, period):
+    ball = Ball(k, g)
+    orbits = symmetric_orbits(ball, energy, period)
+    assert orbits.sizes["orbit"] > 0
+    for i in range(orbits.sizes["orbit"]):
+        orbit = orbits.isel(orbit=i)
+        proved = prove_orbit(ball, orbit)
+        assert proved.type == orbit["type"].item()
+        assert proved.radius > 0
+        assert float(proved.trace) == pytest.approx(orbit["trace"].item(), rel=1e-6, abs=1e-6)
+        points = np.array([[float(a) for a in point] for point in proved.points]).T
+        assert points.shape == (2, period)
+        assert np.abs(points - chart(k, *states_of(orbit))).max() < 1e-12
+
+
+def test_exact_parameters_are_taken_as_they_are(six):
+    orbit = of_type(six, "hyperbolic")
+    exact, rounded = prove_orbit(PAPER, orbit), prove_orbit(BALL, orbit)
+    decimal = prove_orbit(BALL, orbit, energy="0.01")
+    with ctx.workprec(256):
+        stated = THEOREMS["six-hyperbolic"].check().digits["x"]
+        assert exact.points[0][0].str(20).startswith(stated[:15])
+        assert not exact.points[0][0].overlaps(rounded.points[0][0])
+        assert not rounded.points[0][0].overlaps(decimal.points[0][0])
+
+
+def test_a_request_that_cannot_be_proved_is_refused_in_one_line(six):
+    hyperbolic = of_type(six, "hyperbolic")
+    moved = hyperbolic.copy(deep=True)
+    moved["x"] = moved["x"] + 1e-3
+    for match, request in {
+        "it is elliptic": lambda: prove_horseshoe(PAPER, of_type(six, "elliptic"), side="outer"),
+        "energy is 0.01": lambda: prove_orbit(Surface("1/5", "1/25", "1/50"), hyperbolic),
+        "isel": lambda: prove_orbit(PAPER, six),
+        "side = 'left'": lambda: prove_horseshoe(PAPER, hyperbolic, side="left"),
+        "energy|cannot be proved": lambda: prove_orbit(PAPER, moved),
+    }.items():
+        with pytest.raises(ValueError, match=match) as error:
+            request()
+        assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("k", "g", "energy", "period", "side", "entropy"),
+    [(0.3, 0.02, 0.002, 5, "outer", 0.023),
+     *slowly((0.3, 0.02, 0.002, 6, "inner", 0.04), (0.2, 0.04, 0.01, 6, "outer", 0.0175),
+             (0.2, 0.04, 0.012, 6, "outer", 0.027))],
+)  # fmt: skip
+def test_horseshoes_are_proved_on_request(k, g, energy, period, side, entropy):
+    exact = Surface(*map(str, (k, g, energy)))
+    orbit = of_type(symmetric_orbits(Ball(k, g), energy, period), "hyperbolic")
+    text, finding = prove_horseshoe(exact, orbit, side=side)
+    assert float(finding.digits["entropy"]) > entropy
+    if exact == PAPER:
+        theorem = THEOREMS["horseshoe-outer"]
+        again = theorem.checker(text, **theorem.bounds | {"entropy": Fraction(str(entropy))})
+        assert again.margins == finding.margins
+
+
+@pytest.mark.slow
+def test_a_horseshoe_that_is_not_found_is_refused_in_one_line():
+    """At E = 0.001 the branches of the orbit of period ten all but coincide."""
+    orbit = of_type(symmetric_orbits(BALL, 0.001, 10), "hyperbolic")
+    with pytest.raises(ValueError, match=r"no size of its sets from 0.001 to \d.*e-07") as error:
+        prove_horseshoe(BALL, orbit, side="outer")
+    assert "\n" not in str(error.value)
+
+
+# ---- impacts of doubles
+
+
+def orbit_impacts(starts, impacts_each):
+    orbits = scene_orbits(BALL, 0.01, starts, impacts_each)
+    return impacts.of_orbits(BALL, 0.01, orbits, orbits["start"].values)
+
+
+def test_impacts_are_proved_and_errors_small(six):
+    states, told = orbit_impacts([0.534522, -0.44], [400, 200]), []
+    result = impacts.prove_impacts("1/5", "1/25", *states, progress=told.append)
+    assert told == [*range(600)]
+    assert result.verdict == "proved"
+    assert 0 < result.margins["worst error"] < 1e-12
+    assert "600 impacts" in result.line()
+    orbit = of_type(six, "elliptic")
+    for states in (impacts.of_periodic(orbit), impacts.of_states(BALL, states_of(orbit))):
+        assert impacts.prove_impacts("1/5", "1/25", *states).verdict == "proved"
+
+
+def test_no_impacts_a_missed_one_and_a_wrong_time_are_noticed():
+    none = np.empty((3, 0))
+    assert impacts.prove_impacts("1/5", "1/25", none, none, np.empty(0)).verdict == "not proved"
+    before, after, tau = orbit_impacts([0.534522], [60])
+    skipped = np.delete(before, 31, axis=1), np.delete(after, 30, axis=1), np.delete(tau, 30)
+    result = impacts.prove_impacts("1/5", "1/25", *skipped)
+    assert result.verdict == "not proved"
+    assert "impact 30 is off by" in result.reason
+    tau[7] += 1e-5
+    result = impacts.prove_impacts("1/5", "1/25", before, after, tau)
+    assert "impact 7 is off by 1e-05" in result.reason
+
+
+# ---- data of the pictures
+
+
+@pytest.fixture
+def sets(six):
+    return scenes.scene_horseshoe(BALL, 0.01, six, 6, "hyperbolic", "outer")
+
+
+@pytest.fixture(scope="module")
+def twists():
+    return scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])
+
+
+def test_the_data_of_the_horseshoe_show_the_committed_certificate(sets):
+    assert sets.sizes["set"] == 6 + 2 * 59 + 1
+    assert np.isnan(sets["chain"].values).sum() == 6
+    rows = [row for field in ("saddles", "approach")
+            for row in numbers(THEOREMS["horseshoe-outer"].text(), field)]  # fmt: skip
+    assert sets["x"].values[: 6 + 59].tolist() == [float(row[0]) for row in rows]
+    p, q = sets["image_p"].values, sets["image_q"].values
+    assert np.abs(p[:2]).min() > 1
+    assert np.abs(q).max() < 1
+    middle = sets.isel(set=int(np.flatnonzero(sets["chain"].values == 0)[0]))
+    assert middle["y"].item() == 0
+    assert middle["corner_x"].mean().item() == pytest.approx(middle["x"].item(), abs=1e-12)
+
+
+def test_the_data_of_the_twist_fall_through_the_zero(twists):
+    assert np.all(np.diff(twists["twist"].values) < 0)
+    assert twists["twist"].values[2] > 0 > twists["twist"].values[3]
+    assert 0.029 < twists["zero"].item() < 0.03
+    stated = THEOREMS["twist-fixed-point"].check().digits["twist"]
+    assert twists["twist"].values[1] == float(stated[1:].split()[0])
+
+
+def test_the_twist_of_another_ball_and_its_proved_zero():
+    energies = [0.001, 0.002, 0.003, 0.004, 0.005]
+    data = scenes.scene_twist(Ball(k=0.3, g=0.02), 0.002, energies)
+    assert 0.0042832990 < data["zero"].item() < 0.0042832991
+    # at the resonance of order three the twist jumps: no zero
+    assert np.isnan(scenes.scene_twist(Ball(0.3, 0.02), 0.002, [0.005, 0.01])["zero"].item())
+
+
+def test_the_data_of_a_proved_curve(monkeypatch):
+    monkeypatch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
+    data = scenes.scene_curves(BALL, 0.01, [0.17865])
+    assert data.sizes["curve"] == 1
+    assert 0.0069 < data["share"].item() < 0.007
+    area = Polygon(np.stack([data["x"].values[:-1], data["y"].values[:-1]])).area()
+    assert 0.99 * data["area"].item() < area < data["area"].item()
+
+
+def test_the_data_of_a_proved_graph():
+    data = scenes.scene_graph(BALL, 0.005)
+    assert 0.05 < data["entropy"].item() < 0.051
+    ends = data["connection"].values < 0
+    assert ends.sum() == 2
+    assert ends.size - 2 == (data["impacts"].values - 1).sum()
+    with pytest.raises(ValueError, match=r"at k = 1/5, .*: there are those at .*E/g.2 = 25/4"):
+        scenes.scene_graph(BALL, 0.006)
+    scaled = scenes.scene_graph(Ball(0.2, 0.08), 0.02)
+    assert np.array_equal(scaled["corner_x"], 2.0 * data["corner_x"])
+    assert scaled["radius"] == pytest.approx(2.0 * data["radius"])

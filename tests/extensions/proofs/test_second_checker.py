@@ -1,0 +1,218 @@
+"""The second checker proves the same statements and shares no code; its arithmetic and its map.
+
+test_refused_certificates.py shows both checkers the same certificates.
+"""
+
+import ast
+import sys
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+import second_checker
+from certificates import refused, with_field
+from flint import arb, ctx
+from second_checker import STATEMENTS, ImpactMap, Interval, NotProvedError, Series, check
+from sections import sea
+
+from extensions.proofs import THEOREMS, Surface
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.jets import Jet
+
+pytestmark = pytest.mark.slow
+
+PAPER = Surface("1/5", "1/25", "1/100")
+HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+ORBITS = [name for name in STATEMENTS if name not in (*HORSESHOES, "diffeomorphism")]
+
+
+def contains(interval, ball):
+    """Whether an interval contains a ball."""
+    unit = arb(2) ** -second_checker.BITS
+    return arb(interval.lo) * unit <= ball.lower() and ball.upper() <= arb(interval.hi) * unit
+
+
+def test_it_is_short_and_imports_nothing_but_the_standard_library():
+    text = Path(second_checker.__file__).read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 800
+    imported = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            imported |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert not node.level
+            imported.add(node.module.partition(".")[0])
+    assert imported <= sys.stdlib_module_names
+    assert "import_module" not in text and "__import__" not in text
+
+
+@pytest.mark.parametrize("name", STATEMENTS)
+def test_its_statements_are_those_of_the_theorems(name):
+    bounds = dict(THEOREMS[name].bounds)
+    if surface := bounds.pop("surface", None):
+        bounds |= {"k": surface.k, "g": surface.g, "energy": surface.energy}
+    assert STATEMENTS[name][1] == bounds
+
+
+@pytest.mark.parametrize("name", STATEMENTS)
+def test_it_proves_the_statement_with_the_same_digits(name):
+    found, result = check(name), THEOREMS[name].check()
+    if name in ORBITS:
+        with ctx.workprec(256):
+            unit = arb(2) ** -second_checker.BITS
+            for digit in ("x", "trace"):
+                ends = arb(found[digit].lo).union(arb(found[digit].hi))
+                assert (ends * unit).overlaps(arb(result.digits[digit]))
+                assert found[digit].hi - found[digit].lo < second_checker.ONE // 10**28
+    if name in HORSESHOES:
+        # its margins are at least the package's: its enclosures of coverings are narrower
+        for margin in ("beyond", "room"):
+            assert found[margin].middle() > result.margins[margin] - 1e-9
+
+
+@pytest.mark.parametrize(("name", "radius"), [
+    ("fixed-point", "1e-2"), ("fixed-point-low", "5e-3"), ("six-elliptic", "4e-4"),
+    ("six-hyperbolic", "5e-4"), ("six-inverse", "2e-3"), ("ten-elliptic", "1e-5"),
+    ("twelve-elliptic", "1e-5"),
+])  # fmt: skip
+def test_it_proves_the_orbits_in_the_larger_boxes_of_the_page(name, radius):
+    larger = with_field(THEOREMS[name].text(), "radius", f'"{radius}"')
+    assert check(name, larger, radius=Fraction(radius))
+
+
+def test_boxes_of_two_orbits_or_of_none_are_refused():
+    k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
+    surface = ImpactMap(k, g, energy)
+    found = symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1)
+    points = sorted(
+        [Fraction(float(a)) for a in chart(0.2, *states_of(found.isel(orbit=i)))[:, 0]]
+        for i in range(found.sizes["orbit"])
+    )
+    assert len(points) == 3
+    for point in points:
+        second_checker.prove_orbit(surface, [point], Fraction(1, 10**8))
+    for one, other in pairwise(points):
+        middle = [(a + b) / 2 for a, b in zip(one, other, strict=True)]
+        distance = max(abs(a - b) for a, b in zip(one, other, strict=True))
+        for share in (Fraction(1, 4), Fraction(51, 100)):
+            with pytest.raises(NotProvedError):
+                second_checker.prove_orbit(surface, [middle], share * distance)
+
+
+# ---- its arithmetic and its map
+
+
+def test_sine_and_cosine_contain_those_of_mpmath():
+    random = np.random.default_rng(1)
+    for low in [0.0, 1e-30, 31.5, *random.uniform(0.0, 30.0, 200)]:
+        width = 10.0 ** random.uniform(-60, 0.2)
+        interval = Interval(Interval.of(low).lo, Interval.of(Fraction(low) + Fraction(width)).hi)
+        sine, cosine = interval.sine_cosine()
+        with mpmath.workdps(80):
+            for share in (0, 0.25, 0.5, 1):
+                t = mpmath.mpf(low) + mpmath.mpf(width) * share
+                for value, true in ((sine, mpmath.sin(t)), (cosine, mpmath.cos(t))):
+                    assert value.lo <= true * second_checker.ONE <= value.hi
+        assert sine.hi - sine.lo <= 1.2 * (interval.hi - interval.lo) + 10
+    with pytest.raises(NotProvedError, match="longer"):
+        Interval.of(33).sine_cosine()
+
+
+def test_operations_contain_the_results_for_numbers_inside():
+    random = np.random.default_rng(2)
+    for _ in range(300):
+        ends = [sorted(Fraction(a) for a in random.normal(size=2)) for _ in range(2)]
+        one, other = (Interval(Interval.of(a).lo, Interval.of(b).hi) for a, b in ends)
+        for s, t in ((0, 1), (1, 0), (0, 0), (1, 1), (Fraction(1, 3), Fraction(2, 7))):
+            a, b = ((low + (high - low) * u) for (low, high), u in zip(ends, (s, t), strict=True))
+            exact = [(one + other, a + b), (one - other, a - b), (one * other, a * b),
+                     (one.square(), a * a), (abs(one), abs(a)), (-one, -a)]  # fmt: skip
+            if other.lo > 0 or other.hi < 0:
+                exact.append((one / other, a / b))
+            for interval, value in exact:
+                assert interval.lo <= value * second_checker.ONE <= interval.hi
+            if one.lo > 0:
+                root = one.sqrt()
+                assert root.lo**2 <= a * second_checker.ONE**2 <= root.hi**2
+    with pytest.raises(NotProvedError):
+        Interval.of(1) / Interval(-1, 1)
+    with pytest.raises(NotProvedError):
+        Interval(0, 1).sqrt()
+
+
+def test_images_and_derivatives_contain_those_of_the_package():
+    surface = ImpactMap(PAPER.k, PAPER.g, PAPER.energy)
+    radius, undecided = Fraction(1, 10**5), 0
+    for point in chart(0.2, *sea(60)).T:
+        x, y = map(Fraction, point)
+        size = Interval.of(radius).hi
+        box = [Interval.of(a).plus_minus(size) for a in (x, y)]
+        zeros = [second_checker.ZERO] * 4
+        try:
+            series = surface.image(
+                Series(box[0], second_checker.UNITY, *zeros),
+                Series(box[1], second_checker.ZERO, second_checker.UNITY, *zeros[1:]),
+                surface.first_root(*box),
+            )
+        except NotProvedError:
+            undecided += 1
+            continue
+        for shift in (-1, Fraction(1, 3), 1):
+            with ctx.workprec(300):
+                near = [arb(a.numerator) / a.denominator for a in (x + shift * radius, y - radius)]
+                jets = PAPER.impact(*Jet.plane(2, *near))[:2]
+                for part, jet in zip(series, jets, strict=True):
+                    for coefficient, true in zip(part.c, jet.coefficients, strict=True):
+                        assert contains(coefficient, true)
+    assert undecided < 10
+
+
+def test_a_point_of_the_jump_set_and_points_off_the_section_are_refused():
+    surface = ImpactMap(PAPER.k, PAPER.g, PAPER.energy)
+    # the flight touches, to thirty digits
+    x = Fraction("0.150034356069120683526702038728")
+    y = Fraction("-0.144621563013173987118939871049")
+    for size in (Fraction(1, 10**9), Fraction(1, 10**28)):
+        box = [Interval.of(a).plus_minus(Interval.of(size).hi) for a in (x, y)]
+        with pytest.raises(NotProvedError):
+            surface.first_root(*box)
+    with pytest.raises(NotProvedError):
+        surface.first_root(Interval.of(Fraction("0.6")), Interval.of(0))
+
+
+# ---- a broken map proves nothing
+
+
+@pytest.mark.parametrize("name", ORBITS)
+def test_a_gravity_that_is_a_little_off_is_refused(name, monkeypatch):
+    create = ImpactMap.__init__
+
+    def heavier(self, k, g, energy):
+        create(self, k, g + Fraction(1, 2**80), energy)
+
+    monkeypatch.setattr(ImpactMap, "__init__", heavier)
+    refused(name, checker="second")
+
+
+@pytest.mark.parametrize("name", [*ORBITS, *HORSESHOES])
+def test_a_proposal_that_skips_a_root_is_refused(name, monkeypatch):
+    propose = ImpactMap.approximate_root
+
+    def skipping(self, x, y, s):
+        low = propose(self, x, y, s)
+
+        def gap(t):
+            height, slope = self.gap(Interval.of(Fraction(t)), *map(Interval.of, (x, y, s)))
+            return height.middle(), slope.middle()
+
+        t = low + 0.02
+        while t < 30 and not gap(t)[0] < 0 < gap(t + 0.02)[0]:
+            t += 0.02
+        return t + 0.01
+
+    monkeypatch.setattr(ImpactMap, "approximate_root", skipping)
+    refused(name, checker="second")

@@ -1,0 +1,245 @@
+"""The theorems are proved, and other methods find their digits."""
+
+import re
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from independent_solver import exact_map
+from project import ROOT
+from sections import BALL
+from slowly import slowly
+
+from extensions.proofs import THEOREMS, Surface, search_certificate
+from extensions.proofs.checks import jump, periodic
+from extensions.proofs.command import CERTIFICATES
+from extensions.proofs.enclosure.fixed_point import energy_at, slope_at, trace_at
+from extensions.proofs.theorems.statements import theorem_verdict
+from pipeline import config
+from pipeline.config.build_specs import build_specs
+from pseudorigid import orbit, symmetric_orbits
+from pseudorigid.dynamics.fixed_point import half_time
+from pseudorigid.dynamics.variables import chart, states_of
+
+ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
+HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
+CURVES = [n for n in THEOREMS if n.startswith("curve-")]
+QUICK = [n for n in THEOREMS if n not in [*CURVES, "entropy"]]  # to check
+DEAR_SEARCHES = [
+    *CURVES,
+    "horseshoe-inner",
+    "twist-one-zero",
+    "entropy",
+    "entropy-lower",
+    "horseshoe-smooth",
+]
+
+
+@pytest.fixture(scope="module")
+def results(pickled):
+    """The results of all theorems but invariant curves, which test_curves.py has."""
+    return pickled("theorems", lambda: {name: THEOREMS[name].check() for name in QUICK})
+
+
+def middle(digits):
+    """The midpoint of an enclosure as text."""
+    return digits.strip("[").split()[0]
+
+
+def test_every_theorem_is_proved_with_positive_margins_in_a_line(results):
+    for name, result in results.items():
+        line = result.line()
+        assert result.verdict == "proved", line
+        assert min(result.margins.values()) > 0
+        assert "\n" not in line
+        assert line.startswith(f"{name}.toml: ")
+        assert line.endswith("; proved")
+    assert THEOREMS["fixed-point"].check("nonsense").line().endswith("; not proved")
+
+
+@pytest.mark.parametrize(
+    "name", [*(n for n in THEOREMS if n not in DEAR_SEARCHES), *slowly(*DEAR_SEARCHES)]
+)
+def test_a_new_search_gives_a_certificate_that_holds(name):
+    text = search_certificate(name)
+    assert THEOREMS[name].check(text).verdict == "proved"
+    if name in HORSESHOES:
+        assert text == THEOREMS[name].text()
+
+
+# ---- the page
+
+
+PAGE = (ROOT / "src/extensions/proofs/README.md").read_text(encoding="utf-8")
+CELLS = {  # of each row about a theorem in a table of the page
+    name: row.split(" | ") for name, row in re.findall(r"^\| `(.*?)` \| (.*) \|$", PAGE, re.M)
+    if name in THEOREMS
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [n for n in CELLS if n in QUICK] + slowly("entropy", *CURVES))
+def test_the_tables_of_the_page_have_the_checkers_numbers(name, results):
+    """Digits before `...` are those of an enclosure; margins are cut, and distances rounded up."""
+    result = results[name] if name in QUICK else THEOREMS[name].check()
+    digits, cells = [middle(value) for value in result.digits.values()], CELLS[name]
+    for number in re.findall(r"(-?[\d.]+?)\.\.\.", " ".join(cells)):
+        assert any(value.startswith(number) for value in digits), number
+    margins, cut = [*result.margins.values()], []
+    if name in (*HORSESHOES, "horseshoe-smooth"):
+        cut = cells[2].split(", ")
+    elif name.startswith("entropy"):
+        cut = cells[4].split(", ")
+    elif name in CURVES:
+        cut = cells[4:5]
+        assert 0.5 < float(middle(result.digits["distance"])) / float(cells[5]) <= 1
+    assert len(cut) in (0, 1, len(margins))
+    for text, margin in zip(cut, margins, strict=False):
+        assert 1 <= margin / float(text) < 1.3
+
+
+# ---- digits against other methods
+
+
+@pytest.mark.parametrize("name", ORBITS)
+def test_orbits_close_in_an_independent_map_of_60_digits(name, results):
+    surface, digits = THEOREMS[name].bounds["surface"], results[name].digits
+    with mpmath.workdps(60):
+        k, g, energy = (
+            mpmath.mpf(a.numerator) / a.denominator for a in (surface.k, surface.g, surface.energy)
+        )
+        x, v, w = state = [mpmath.mpf(middle(digits[n])) for n in ("x", "xdot", "udot")]
+        total = mpmath.mpf(0)
+        for _ in range(THEOREMS[name].bounds["period"]):
+            *state, tau = exact_map(k, g, *state)
+            total += tau
+        assert max(abs(a - b) for a, b in zip(state, (x, v, w), strict=True)) < 1e-27
+        assert abs(total - mpmath.mpf(middle(digits["period"]))) < 1e-26
+        assert abs(v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2 - energy) < 1e-29
+
+
+@pytest.mark.parametrize("energy", ["-39/10000", "1/1000", "1/100", "3/100", "599/10000"])
+def test_the_closed_form_of_the_trace_is_that_of_the_enclosed_map(energy):
+    surface = Surface("1/5", "1/25", energy)
+    with ctx.workprec(200):
+        k, g, e = surface.constants()
+        theta = arb(half_time(0.2, float(e / g**2)))
+        for _ in range(5):  # secants
+            step = arb("1e-30")
+            slope = (energy_at(k, g, theta + step) - energy_at(k, g, theta)).mid() / step
+            theta = (theta - (energy_at(k, g, theta) - e).mid() / slope).mid()
+        point = (g / k * theta * theta.cot()).mid(), arb(0)
+        rows, image = surface.jacobian(*point)
+        assert abs(image.x - point[0]) < arb("1e-40")
+        assert abs(rows[0][0] + rows[1][1] - trace_at(k, theta)) < arb("1e-25")
+        step = arb(2) ** -60
+        slope = (trace_at(k, theta + step) - trace_at(k, theta - step)) / (2 * step)
+        assert abs(slope - slope_at(k, theta)) < arb("1e-30")
+
+
+def frequency(energy, fixed, frame, q):
+    """Action, and angle per impact, of the orbit at q along the first axis of the normal frame."""
+    beta, delta = frame
+    path = orbit(BALL, BALL.state_xy(fixed + beta * q, 0.0, energy), 40_000)
+    x, y = chart(BALL.k, *states_of(path))
+    first, second = (x - fixed) / beta, beta * (y - delta * (x - fixed) / beta)
+    angle = np.unwrap(np.arctan2(second, first))
+    share = np.linspace(0.0, 1.0, angle.size + 1)[1:-1]
+    weight = np.exp(-1.0 / (share * (1.0 - share)))  # smooth, so that the mean converges fast
+    return np.mean(first**2 + second**2) / 2, np.sum(np.diff(angle) * weight) / weight.sum()
+
+
+@pytest.mark.parametrize(("name", "energy"), [("twist-fixed-point", 0.01),
+                                              ("twist-fixed-point-low", 0.001)])  # fmt: skip
+def test_the_twist_is_that_of_measured_rotation_numbers(name, energy, results):
+    """The angle of rotation grows with the enclosed area, along orbits in doubles."""
+    fixed = float(middle(results[name.removeprefix("twist-")].digits["x"]))
+    state = BALL.state_xy(fixed, 0.0, energy)
+    (a, b), (_, d) = BALL.chart_jacobian(*state)
+    sine = np.copysign(np.sqrt(1 - ((a + d) / 2) ** 2), b)
+    beta = np.sqrt(b / sine)
+    frame = beta, beta * ((a + d) / 2 - a) / b
+    actions, angles = zip(*(frequency(energy, fixed, frame, q) for q in (0.002, 0.006)),
+                          strict=True)  # fmt: skip
+    turn = np.arccos((a + d) / 2)
+    assert angles[0] == pytest.approx(-turn, rel=1e-3)  # clockwise: the rotation number falls
+    slope = (angles[1] - angles[0]) / (actions[1] - actions[0])
+    stated = float(middle(results[name].digits["twist"]))
+    assert slope == pytest.approx(stated, rel=0.02)
+
+
+def test_the_rotation_number_has_a_minimum_below_the_zero_of_the_twist():
+    """In turns, as a positive number, along y = 0 from the fixed point at E = 0.026."""
+    fixed = symmetric_orbits(BALL, 0.026, 1)["x"].values[0, 0]
+    turns = [-frequency(0.026, fixed, (1.0, 0.0), q)[1] / (2 * np.pi) for q in (0.04, 0.09, 0.13)]
+    assert turns[1] == pytest.approx(0.226881, abs=1e-6)
+    assert turns[1] < min(turns[0], turns[2]) - 5e-5
+
+
+def test_one_sided_images_are_those_of_nearby_orbits(results):
+    digits = {n: float(middle(v)) for n, v in results["jump-set"].digits.items()}
+    seen = set()
+    for angle in np.linspace(0, 2 * np.pi, 16, endpoint=False):
+        x = digits["point x"] + 1e-9 * np.cos(angle)
+        y = digits["point y"] + 1e-9 * np.sin(angle)
+        after = BALL.impact(*BALL.state_xy(x, y, 0.01))
+        x, y = chart(BALL.k, *after[:3])
+        (side,) = (
+            side for side in ("near", "far")
+            if np.hypot(x - digits[f"{side} image x"], y - digits[f"{side} image y"]) < 1e-3
+        )  # fmt: skip
+        seen.add(side)
+    assert seen == {"near", "far"}
+
+
+def test_the_polygon_of_the_jump_set_lies_where_flights_just_touch():
+    surface = THEOREMS["jump-set"].bounds["surface"]
+    with ctx.workprec(jump.BITS):
+        for x, y in jump.curve(surface, 12)[1:-1]:
+            sides = set()
+            for dx, dy in 1e-7 * np.array([(1, 0), (-1, 0), (0, 1), (0, -1)]):
+                after = BALL.impact(*BALL.state_xy(float(x) + dx, float(y) + dy, 0.01))
+                sides.add(bool(after[1] + after[2] < 0.02))
+            assert sides == {True, False}
+
+
+def test_the_length_of_the_jump_set_is_one_lower_bound_everywhere(results):
+    theorem = THEOREMS["jump-set"]
+    bound = f"{float(theorem.bounds['length']):g}"
+    assert "length" not in results["jump-set"].digits
+    documents = [
+        (ROOT / name).read_text() for name in ("README.md", "src/extensions/proofs/README.md")
+    ]
+    assert all(bound in text for text in (theorem.statement, *documents))
+    with ctx.workprec(jump.BITS):
+        few, many = (jump._polygon(theorem.bounds["surface"], count) for count in (400, 1600))
+        assert arb(bound) < few < many < arb("0.404858179457")  # computed: CLAIMS.md
+
+
+def test_the_entropy_solves_its_equation(results):
+    for name in HORSESHOES:
+        loop = THEOREMS[name].prove().parts["loop"]
+        entropy = float(middle(results[name].digits["entropy"]))
+        assert np.exp(-6 * entropy) + np.exp(-loop * entropy) == pytest.approx(1, abs=1e-12)
+
+
+def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
+    whole = theorem_verdict("six-elliptic").attrs
+    assert whole["verdict"] == "proved"
+    assert whole["line"] == THEOREMS["six-elliptic"].check().line()
+    other = THEOREMS["six-inverse"].text()
+    monkeypatch.setattr(type(THEOREMS["six-elliptic"]), "text", lambda theorem: other)
+    broken = theorem_verdict("six-elliptic").attrs
+    assert broken["verdict"] == "not proved"
+    assert broken["line"] == THEOREMS["six-elliptic"].check(other).line() != whole["line"]
+
+
+def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
+    specs = build_specs(config.load(ROOT / "config.yaml"))
+    for name in THEOREMS:
+        sources = specs[f"results/theorems/theorem_{name}.nc"].sources
+        certificates = [file for file in sources if file.endswith(".toml")]
+        assert certificates == [f"{CERTIFICATES}/{THEOREMS[name].certificate}"]
+        assert {f"src/extensions/proofs/checks/{each}.py" for each in ("curve", "twist")} <= {
+            *sources
+        }

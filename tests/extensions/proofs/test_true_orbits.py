@@ -1,0 +1,164 @@
+"""Orbits of exact starts: against independent orbits of many digits, and refusals."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from independent_solver import flight
+from sections import BALL
+
+from extensions.proofs import Surface, true_orbit
+from extensions.proofs.true_orbits import enclosed_run
+from extensions.proofs.true_orbits import orbit as orbit_module
+from extensions.proofs.true_orbits.orbit import true_scene_orbits
+from extensions.proofs.true_orbits.start import Start
+from pseudorigid.dynamics.orbits import scene_orbits
+
+PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}
+NAMES = ("x", "xdot", "udot", "tau")
+
+
+def independent(impacts, digits):
+    """The orbit of (2/5, 0) as rows of x, xdot, udot, tau, from `digits` decimal digits down to 60.
+
+    The kernel says which root it is, and Newton's method gives its digits.
+    """
+    rows = []
+    with mpmath.workdps(digits):
+        k, g, x = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25, mpmath.mpf(2) / 5
+        s = mpmath.sqrt((1 + k) * (mpmath.mpf(1) / 50 + 2 * g * x - k * x * x) / k)
+        state = x, k * s / (1 + k), s / (1 + k)
+    for i in range(impacts):
+        level = digits - (digits - 60) * i // impacts
+        with mpmath.workdps(level):
+            gap, b, c = flight(k, g, *state)
+            t, known = mpmath.mpf(BALL.time_to_impact(*map(float, state))), 12
+            while known < level:
+                known *= 2
+                with mpmath.workdps(min(known, level) + 10):
+                    t -= gap(t) / gap.slope(t)
+            cosine, sine = mpmath.cos_sin(t)
+            state = gap.x * cosine - c * sine, b + g * t, gap.x * sine + c * cosine
+            rows.append((*state, t))
+    return rows
+
+
+@pytest.mark.parametrize(
+    ("impacts", "digits"), [(600, 130), pytest.param(4000, 3763, marks=pytest.mark.slow)]
+)
+def test_each_value_is_the_nearest_double(impacts, digits):
+    data = true_orbit(**PAPER, x="2/5", y="0", impacts=impacts)
+    expected = np.array([[float(a) for a in row] for row in independent(impacts, digits)])
+    for name, column in zip(NAMES, expected.T, strict=True):
+        np.testing.assert_array_equal(data[name].values, column)
+
+
+def test_numbers_may_be_given_in_several_ways():
+    text = true_orbit(**PAPER, x="2/5", impacts=50)
+    other = true_orbit(Fraction(1, 5), Decimal("0.04"), "0.01", 50, x=Decimal("0.4"), y=0)
+    assert text.identical(other)
+
+
+@pytest.mark.parametrize("bits", [3000, 100])
+def test_a_run_with_more_or_too_few_bits_gives_the_same_orbit(bits, monkeypatch):
+    data = true_orbit(**PAPER, x="2/5", impacts=300)
+    monkeypatch.setattr(orbit_module, "_bits_needed", lambda *_: bits)
+    other = true_orbit(**PAPER, x="2/5", impacts=300)
+    assert other.attrs["bits"] == bits if bits == 3000 else other.attrs["bits"] > 150
+    assert data.equals(other)
+
+
+def paper_start():
+    return Start(Surface(**PAPER), {"x": "2/5", "y": 0})
+
+
+def test_the_bound_holds_the_true_orbit():
+    run = enclosed_run.Run(paper_start(), 150, 200)
+    for row in independent(150, 80):
+        run.step()
+        x, y = run._box(400)
+        with ctx.workprec(400), mpmath.workdps(80):
+            true = [arb(mpmath.nstr(a, 75)) for a in (row[0], row[1] - row[2] / 5)]
+            assert abs(x.mid() - true[0]) < x.rad() + arb("1e-70")
+            assert abs(y.mid() - true[1]) < y.rad() + arb("1e-70")
+
+
+@pytest.mark.parametrize(
+    ("starts", "impacts", "error"),
+    [
+        ([0.534522, -0.440981], [60, 40], 1e-7),
+        ([{"x": 0.1, "xdot": 0.05}, {"x": 0.3, "y": -0.02}, 0.5], 25, 1e-9),
+    ],
+)
+def test_starts_of_a_scene_may_be_fractions_of_the_radius_or_points(starts, impacts, error):
+    data = true_scene_orbits(BALL, 0.01, starts, impacts)
+    doubles = scene_orbits(BALL, 0.01, starts, impacts)
+    assert data.sizes == doubles.sizes
+    assert set(data.variables) == set(doubles.variables)
+    for name in data.variables:
+        assert data[name].attrs == doubles[name].attrs
+        assert np.nanmax(np.abs(data[name] - doubles[name])) < error
+
+
+def test_an_orbit_near_the_elliptic_point_needs_few_bits():
+    data = true_orbit(**PAPER, x="0.0212", impacts=1000)
+    assert data.attrs["bits"] < 400
+    assert np.abs(data["x"] - 0.0212).max() < 3e-3
+
+
+def test_progress_ends_at_one():
+    reports = []
+
+    def progress(*report):
+        reports.append(report)
+
+    true_orbit(**PAPER, x="2/5", impacts=20, progress=progress)
+    true_scene_orbits(BALL, 0.01, [0.5, 0.4], 5, progress=progress)
+    assert reports[-3:] == [(1.0,), (0.5, "orbit 1 of 2"), (1.0, "orbit 2 of 2")]
+
+
+# ---- bad input
+
+
+def refuse(match, **change):
+    arguments = {**PAPER, "x": "2/5", "y": "0", "impacts": 10} | change
+    with pytest.raises((ValueError, MemoryError), match=match) as error:
+        true_orbit(**arguments)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("match", "change"),
+    [
+        ("k = 0.2", {"k": 0.2}),
+        ("x = '1/x'", {"x": "1/x"}),
+        ("energy = -1 .* above -1/250", {"energy": "-1"}),
+        ("impacts = 0", {"impacts": 0}),
+        ("impacts = 2.5", {"impacts": 2.5}),
+        ("x and y, or start", {"x": None}),
+        ("x and y, or start", {"start": "0.5"}),
+        ("fraction", {"x": None, "start": {"x": "0.1", "z": "0"}}),
+        ("x = 1/10, xdot = 1/2 is not inside", {"x": None, "start": {"x": "0.1", "xdot": "0.5"}}),
+        ("x = 3/5, y = 0 is not inside", {"x": "3/5"}),
+        ("is not inside", {"energy": "0", "x": "2/5"}),  # exactly on the rim: 2 g x = k x^2
+        ("start = 1 is not inside", {"x": None, "start": "1"}),
+        ("[0-9]+ GB", {"impacts": 10**12}),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(match, change):
+    refuse(match, **change)
+
+
+def test_too_many_bits_are_refused(monkeypatch):
+    monkeypatch.setattr(enclosed_run, "MOST_BITS", 200)
+    refuse("300 impacts .* [0-9]+ bits", impacts=300)
+
+
+def test_a_start_that_grazes_is_refused(monkeypatch):
+    # a point of the jump set to 28 digits: 64 bits cannot tell its touch from a miss
+    monkeypatch.setattr(orbit_module, "_bits_needed", lambda *_: 90)
+    x, y = "0.1500343560691206835267020387", "-0.1446215630131739871189398710"
+    refuse("impact 0: .* touch", x=x, y=y)

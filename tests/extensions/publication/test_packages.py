@@ -1,0 +1,71 @@
+"""The locked packages as files: the right ones for a machine, and damaged ones refused."""
+
+import os
+import platform
+import shutil
+import subprocess
+import sys
+
+import pytest
+from project import ROOT, run
+
+from extensions.publication import archive, downloads
+from pipeline import config
+from pipeline.cli.packages import wheels
+from pipeline.cli.session import UsageError
+
+PYTHON = ".".join(platform.python_version_tuple()[:2])
+
+
+@pytest.mark.parametrize("python", ["3.11", "3.13"])
+def test_the_conditions_of_requirements_are_those_of_the_other_python(
+    python, tmp_path, monkeypatch
+):
+    lines = downloads.requirements_for("lock", python)
+    names = [line.partition("==")[0] for line in lines]
+    assert "greenlet" in names and "pyreadline3" not in names
+    assert all(" --hash=sha256:" in line and ";" not in line for line in lines)
+    conditions = "a==1 ; python_version < '3.12'\nb==1 ; python_full_version < '3.12'\n"
+    (tmp_path / "requirements").mkdir()
+    (tmp_path / "requirements" / "lock.txt").write_text(conditions)
+    monkeypatch.setattr(wheels, "ROOT", tmp_path)
+    assert len(downloads.requirements_for("lock", python)) == (2 if python == "3.11" else 0)
+
+
+@pytest.mark.parametrize(
+    "name", ["numpy-2.4.6-cp311-cp311-any.whl", "connection_pool-0.0.3.tar.gz"]
+)
+def test_a_damaged_package_is_named(tmp_path, name):
+    (tmp_path / "notes.txt").write_text("mine")
+    (tmp_path / "other-1.0-py3-none-any.whl").write_text("another package")
+    wheels.refuse_damaged(tmp_path)
+    (tmp_path / name).write_bytes(b"damaged")
+    with pytest.raises(UsageError, match=f"{name} is damaged"):
+        wheels.refuse_damaged(tmp_path)
+
+
+@pytest.mark.slow
+def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accepted, tmp_path):
+    tree = accepted.copy(tmp_path / "tree")
+    shutil.copy(ROOT / ".gitignore", tree.path)
+    for words in (["init", "-q"], ["add", "."]):
+        subprocess.run(["git", "-C", tree.path, *words], check=True)
+    checked, sums = config.load(tree.config), []
+    for name in ("one.tar", "two.tar"):
+        try:
+            packages = downloads.download(tmp_path / f"packages of {name}", PYTHON)
+        except UsageError as error:
+            pytest.skip(str(error))
+        sums.append(archive.write(tree.path, checked, tmp_path / name, packages))
+    assert sums[0] == sums[1]
+    assert (tmp_path / "one.tar").stat().st_size < 300e6
+    subprocess.run(["tar", "-xf", "one.tar"], cwd=tmp_path, check=True)
+    folder = tmp_path / archive.TOP
+    (wheel,) = (folder / archive.PACKAGES).glob("numpy-*.whl")
+    whole = wheel.read_bytes()
+    wheel.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    path = f"{os.path.dirname(sys.executable)}{os.pathsep}{os.environ['PATH']}"
+    result = run(folder / "reproduce", env={"PATH": path, "HOME": str(tmp_path)}, cwd="/")
+    assert result.returncode == 1
+    line = f"reproduce: {wheel} is damaged: its hash is not in requirements/"
+    assert result.stderr.splitlines()[-1] == line
