@@ -1,8 +1,6 @@
 """Text in pictures is not clipped, does not cover other text, and is large enough to read."""
 
-import numpy as np
 import pytest
-import xarray as xr
 from legible import assert_text_is_whole_and_apart
 from samples import DATA, FLAT, KINDS, SCENES, SPACE, VIEW, drawn, exponents, module
 from slowly import slowly
@@ -64,19 +62,6 @@ def test_a_long_setting_and_short_axes_leave_the_text_of_a_box_apart(ball, energ
     scene = {"energy": energy, "ball": {"k": ball.k, "g": ball.g}, "view": VIEW}
     data = scene_orbits(ball, energy, [-0.3, 0.2, 0.7], 300)
     assert_text_is_whole_and_apart(module("portrait").draw(scene, data))
-
-
-@pytest.mark.parametrize("last", [0.004, 0.0005])
-def test_text_of_a_twist_is_apart_and_off_its_line(last):
-    energies = np.array([0.1, 0.2, 0.4, 0.6, 0.8, 0.999]) * last
-    twist = ("e", 60.0 - 50.0 * energies / last)
-    data = xr.Dataset({"energy": ("e", energies), "twist": twist, "zero": np.nan})
-    scene = {"energy": 0.01, "ball": {"k": 0.1, "g": 0.01}, "marks": [float(energies[-1])]}
-    figure = module("twist").draw(scene, data)
-    assert_text_is_whole_and_apart(figure)
-    (mark,) = (text for text in figure.texts if "$E$ =" in text.get_text())
-    (dot,) = (line for line in figure.artists if line.get_marker() == "o")
-    assert mark.get_position()[1] < dot.get_ydata()[0]
 
 
 def test_labels_of_ticks():

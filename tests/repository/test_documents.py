@@ -8,7 +8,7 @@ import yaml
 from project import ROOT
 from slowly import slowly
 
-from pipeline import config
+from pipeline import config, declaration
 from pipeline.checks import datasets
 from pipeline.config import reference
 from pipeline.declaration import extensions
@@ -33,9 +33,11 @@ GENERATED = {"docs/config.md": reference}
 
 
 def is_absent(name):
-    """Whether a file is one of an extension that is not there."""
+    """Whether a file is one of an extension that is not there, or of any if there is none."""
     found = re.search(r"\bextensions/(\w+)/", name)
-    return found is not None and found[1] not in extensions()
+    if found:
+        return found[1] not in extensions()
+    return not extensions() and name in declaration.__doc__
 
 
 def text_of(document):
