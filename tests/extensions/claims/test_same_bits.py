@@ -14,8 +14,8 @@ from pseudorigid import Ball
 SMALL = """
 from content import content_hash
 from pseudorigid import Ball
-from extensions.claims.analyses import clusters, control, flux, jumps, last_curve, rotation, spread
-from extensions.atlas import blocks
+from extensions.claims.analyses import clusters, control, flux, jumps, rotation, spread
+from extensions.atlas import blocks, last_curve
 ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
 for dataset in (
     spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),

@@ -12,8 +12,8 @@ from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from extensions.claims.analyses.jumps import jumps
-from extensions.explorer import data
 from pipeline import config
+from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import winding
@@ -382,7 +382,7 @@ def test_every_preset_draws_and_has_one_sentence(person):
         scene
         for name in ("paper", "claims", "proofs")
         for scene, block in variants[name].items()
-        if block["picture"] not in data.NO_SECTION
+        if KINDS[block["picture"]].on_section
     }
     assert own == "" and {name for name in names if "/" not in name} == published
     assert set(names) == set(person.run("return Object.keys(JSON.parse(data.textContent).scenes)"))

@@ -31,7 +31,7 @@ from math import ceil, cos, factorial, floor, gcd, isqrt, sin
 from operator import add, mul
 from pathlib import Path
 
-CERTIFICATES = Path(__file__).resolve().parents[2] / "src/extensions/proofs/certificates"
+CERTIFICATES = Path(__file__).resolve().parents[3] / "src/extensions/proofs/certificates"
 
 
 class NotProvedError(Exception):
