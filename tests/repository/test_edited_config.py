@@ -6,11 +6,8 @@ import shutil
 import subprocess
 
 import pytest
-import yaml
 from documents import SCENES
-from project import ROOT, SHIPPED, Tree, run
-
-from pipeline.config.schema.kinds import KINDS
+from project import ROOT, Tree, run, shipped
 
 
 def edited(document):
@@ -23,7 +20,6 @@ def edited(document):
         scenes |= {f"my_{name}": block for name, block in document[part].items()}
     scenes["my_twist"]["energies"] = [0.001, 0.01, 0.03]  # which every variant's ball can have
     scenes["my_energy"]["span"] = [-0.001, 0.02]
-    assert {block["picture"] for block in scenes.values()} == set(KINDS)
     document["variants"]["lower-energy"]["energy"] = 0.0097
     document["variants"]["mine"] = {"energy": 0.0099}
     sweep = {"k": [0.2], "energy": [1, 2], "starts": 10, "impacts": 100, "block": 1}
@@ -46,7 +42,7 @@ def clone(tmp_path):
         else:  # deleted since the commit
             (path / name).unlink(missing_ok=True)
     tree = Tree(path)
-    tree.write(edited(yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))))
+    tree.write(edited(shipped()))
     tree.warm()
     return tree
 

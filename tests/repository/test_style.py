@@ -38,7 +38,7 @@ def test_mypy():
 def test_mypy_notices_functions_without_annotations(tmp_path):
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     shutil.copytree(ROOT / "src", tmp_path / "src", ignore=NO_CACHES)
-    files = ("pipeline/records/fault.py", "pseudorigid/sweep/quantities.py")
+    files = ("pipeline/records/fault.py", "pseudorigid/dynamics/quantities.py")
     for file in files:
         with (tmp_path / "src" / file).open("a") as module:
             module.write("\n\ndef planted(fault):\n    return fault\n")

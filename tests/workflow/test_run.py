@@ -5,6 +5,7 @@ import re
 import shutil
 
 import pytest
+from project import shipped
 from runs import FIG3, contents, rows
 
 from pipeline.config.schema.stages import STAGES
@@ -156,6 +157,7 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
 
 @pytest.mark.slow
 def test_long_jobs_begin_first_and_seconds_are_measured_alone(tree):
+    tree.write(tree.document() | {"study": shipped()["study"]})
     of_study = [name for name, stage in STAGES.items() if stage.function.startswith("study.")]
     parts = [f"results/study/{name}.nc" for name in of_study]
     output = tree.run(*parts, "-n", "--cores", "3", "--", "--quiet", "host").stdout

@@ -77,7 +77,7 @@ def test_a_job_loads_what_its_record_names(tmp_path):
     tree = fresh_tree(tmp_path / "tree", few)
     drawn = [f"paper/figures/fig{number}" for number in (2, 3, 5, 7)]
     drawn += ["proofs/figures/horseshoe", "proofs/figures/twist", "claims/figures/jumps"]
-    targets = [f"results/{name}.png" for name in (*drawn, "sweep/figures/line")]
+    targets = [f"results/{name}.png" for name in (*drawn, "atlas/figures/line")]
     loaded_files = loaded(tree, tmp_path, *targets)
     assert len(loaded_files) >= 19
     assert dict(undeclared(tree, loaded_files)) == {}
