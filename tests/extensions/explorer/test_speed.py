@@ -18,14 +18,19 @@ from study import states
 IMPACTS, ROUNDS = 400_000, 7
 ORBITS = 256  # which advance together, in SIMD lanes
 DRAWN = 1_000_000  # impacts of the orbit that is drawn
-# One orbit, then many, in seconds per impact.
+# One orbit, one whose states are kept, then many, in seconds per impact.
 KERNEL = """
-const [impacts, orbits, ...state] = args, begin = performance.now();
+const [impacts, orbits, ...state] = args;
+const [x, xdot, udot] = state.map(value => new Float64Array(orbits).fill(value));
+const many = { x, xdot, udot, tau: x.slice() };
+const times = [performance.now()];
+pseudorigid.iterate(0.2, 0.04, ...state, impacts);
+times.push(performance.now());
 pseudorigid.history(0.2, 0.04, ...state, impacts);
-const between = performance.now(), [x, xdot, udot] =
-  state.map(value => new Float64Array(orbits).fill(value));
-pseudorigid.iterateMany(0.2, 0.04, { x, xdot, udot, tau: x.slice() }, Math.floor(impacts / orbits));
-return [between - begin, performance.now() - between].map(ms => ms / 1e3 / impacts);
+times.push(performance.now());
+pseudorigid.iterateMany(0.2, 0.04, many, Math.floor(impacts / orbits));
+times.push(performance.now());
+return times.slice(1).map((end, i) => (end - times[i]) / 1e3 / impacts);
 """
 # The worker alone, then the page that draws what the worker computes, once the orbit is past the
 # beginning, which is slow so that one can watch.
@@ -59,10 +64,10 @@ for line in sys.stdin:
 """
 
 
-def one_orbit():
-    """Seconds per impact of numba's kernel for one orbit."""
+def one_orbit(keep):
+    """Seconds per impact of numba's kernel for one orbit, whose states are kept or not."""
     begin = time.perf_counter()
-    orbit(states.BALL, states.chaotic(), IMPACTS)
+    orbit(states.BALL, states.chaotic(), IMPACTS, keep)
     return (time.perf_counter() - begin) / IMPACTS
 
 
@@ -101,21 +106,22 @@ def test_the_page_has_half_of_the_speed_of_numba(name, address, tmp_path, capsys
         for _ in range(ROUNDS + 2):
             page = browser.run(KERNEL, IMPACTS, ORBITS, *start)
             two_lanes.stdin.write("\n")
-            numba = one_orbit(), float(two_lanes.stdout.readline())
+            numba = one_orbit("last"), one_orbit("all"), float(two_lanes.stdout.readline())
             seconds.append((*page, *numba, *browser.run(DRAWING, DRAWN, states.CHAOTIC)))
         two_lanes.stdin.close()
     seconds = np.array(seconds[2:])  # browser and numba compile first
     rates = [f"{1e-6 / s:.2f}" for s in np.median(seconds, axis=0)]
     ratios = {
-        (2, 0): "one orbit, page / compiled",
-        (3, 1): f"{ORBITS} orbits, page / compiled for SSE2",
-        (0, 1): f"page, {ORBITS} orbits / one orbit",
-        (4, 5): "orbit drawn / worker alone",
+        (3, 0): "one orbit, page / compiled",
+        (4, 1): "one orbit, kept, page / compiled",
+        (5, 2): f"{ORBITS} orbits, page / compiled for SSE2",
+        (0, 2): f"page, {ORBITS} orbits / one orbit",
+        (6, 7): "orbit drawn / worker alone",
     }
     medians = {words: np.median(seconds[:, a] / seconds[:, b]) for (a, b), words in ratios.items()}
     with capsys.disabled():
-        one, many, numba, sse2, alone, drawn = rates
-        columns = name.capitalize(), one, numba, many, sse2, drawn, alone
+        one, kept, many, numba, numba_kept, sse2, alone, drawn = rates
+        columns = name.capitalize(), one, numba, kept, numba_kept, many, sse2, drawn, alone
         print(f"\n| {' | '.join(columns)} |")
         print("".join(f"  {words}: {ratio:.2f}\n" for words, ratio in medians.items()), end="")
     assert medians["one orbit, page / compiled"] > 0.5
