@@ -16,22 +16,23 @@ for _file in (Path(__file__).with_name("captions.toml"), *files("captions.toml")
 
 
 class Caption(NamedTuple):
-    """The texts of a picture."""
+    """The texts of a picture. `shows` and `see` are a sentence each, `details` are the rest."""
 
     name: str
     title: str
     shows: str
     see: str
+    details: str
 
 
 def caption_of(name: str, block: dict[str, Any]) -> Caption:
     """Return the caption of a complete scene."""
     kind = block["picture"]
     texts = CAPTIONS["scenes"].get(name) or CAPTIONS["kinds"].get(kind, {})
-    texts = {"title": str(KINDS[kind].__doc__), "shows": "", "see": ""} | texts
+    texts = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""} | texts
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
-    return Caption(shown_name, *(_filled(texts[part], block) for part in ("title", "shows", "see")))
+    return Caption(shown_name, *(_filled(texts[part], block) for part in Caption._fields[1:]))
 
 
 def _filled(template: str, block: dict[str, Any]) -> str:
