@@ -29,7 +29,9 @@ def local(tmp_path_factory):
     tree = small_tree(tmp_path_factory.mktemp("local"))
     result = tree.run("sweep", "--cores", "1")
     assert result.returncode == 0, result.stdout
-    return hashes(tree)
+    made = hashes(tree)
+    assert len(made) == 1 + len(SWEEP["k"]) * len(SWEEP["energy"])
+    return made
 
 
 def small_tree(folder):
@@ -39,7 +41,7 @@ def small_tree(folder):
 
 
 def hashes(tree):
-    files = sorted((tree.path / "results" / "sweep").rglob("*.nc"))
+    files = sorted((tree.path / "results" / "atlas").rglob("*.nc"))
     return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
@@ -105,4 +107,4 @@ def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(cluste
     status, output = finish(begin(tree, cluster))
     assert status == 0, output
     assert hashes(tree) == local
-    assert not list((tree.path / "results/sweep").rglob("*.part"))
+    assert not list((tree.path / "results/atlas").rglob("*.part"))
