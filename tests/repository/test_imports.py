@@ -304,7 +304,6 @@ PIPELINE = [f"pipeline.{name}" for name in ("loading", "records")]
 PIPELINE += [f"pipeline.records.{name}" for name in ("artifacts", "files", "import_closure")]
 PIPELINE += [f"pipeline.records.{name}" for name in ("machine_code", "syntax_hash")]
 COMPILED = ["pseudorigid", "pseudorigid.kernel", "pseudorigid.kernel.compiled"]
-COMPILED += ["pseudorigid.kernel.compiled.naming"]
 
 
 @pytest.mark.parametrize(
