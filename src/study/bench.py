@@ -21,10 +21,10 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.manifolds import trace_manifold
 from pseudorigid.dynamics.periodic import symmetric_orbits
-from pseudorigid.dynamics.tangent_orbits import begin, propagate_with_tangent
 from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from . import states
 from .failures import certified_orbit

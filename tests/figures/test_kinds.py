@@ -19,9 +19,9 @@ from slowly import slowly
 
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.figures.axes import box, projection
+from pseudorigid.dynamics.variables import rows
+from pseudorigid.figures.axes import box, view
 from pseudorigid.figures.canvas import sheet, style
-from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels
 
 
@@ -53,7 +53,7 @@ def test_sine_and_cosine_of_the_view_are_correctly_rounded(degrees):
     with mpmath.workdps(50):
         angle = mpmath.mpf(degrees) * mpmath.pi / 180
         exact = float(mpmath.sin(angle)), float(mpmath.cos(angle))
-    assert projection.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
+    assert view.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
 
 
 def test_snapped_pixels_keep_their_distance_from_every_threshold():

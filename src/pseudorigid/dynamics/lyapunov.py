@@ -18,7 +18,7 @@ from ..kernel.tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, pus
 from .ball import Ball
 from .ensemble import shared
 from .inputs import not_allowed, state_of, whole_number
-from .starts import start_state, start_variables
+from .orbits import start_state, start_variables
 from .variables import attributes_of, orbit_dims
 
 
@@ -98,7 +98,7 @@ def scene_exponents(
 ) -> xr.Dataset:
     """Compute the Lyapunov exponents of the orbits of a scene, and their convergence (Figure 7).
 
-    Starts are as in `starts.start_state`. `impacts` is the number of all orbits, or a list; at the
+    Starts are as in `orbits.start_state`. `impacts` is the number of all orbits, or a list; at the
     records of other orbits `exponent`, as from `lyapunov_spectrum`, is NaN.
 
     >>> from pseudorigid import Ball

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.impact_law import impact_coefficients, rebound
+from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import not_allowed, number, state_of
 from .variables import LENGTH, TIME, of_type, states_of, variables

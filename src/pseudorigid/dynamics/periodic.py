@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.impact_law import impact_coefficients, rebound
+from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import number, whole_number
 from .variables import NAMES, TIME, variables

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..kernel.tangents import turns_and_growth
 from . import fixed_point
 from .ball import Ball
 from .inputs import not_allowed, state_of, whole_number
-from .rotation import turns_and_growth
 from .variables import attributes_of, orbit_dims, variables
 from .verdict import classify_orbits as follow_until_decided
 

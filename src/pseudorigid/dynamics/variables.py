@@ -1,5 +1,7 @@
 """Names, meanings and dims of variables in datasets of orbits, and selections from them."""
 
+from itertools import pairwise
+
 import numpy as np
 
 # Scales, by which numbers in datasets are multiplied. R is the ball's radius, omega the frequency
@@ -55,6 +57,12 @@ def of_rows(table, rows) -> dict:
 def states_of(dataset) -> np.ndarray:
     """Return the states of a dataset as an array with the rows x, xdot, udot."""
     return np.stack([dataset[name].values for name in ("x", "xdot", "udot")])
+
+
+def rows(dataset):
+    """Return a slice for each row of a CF contiguous ragged array, from its `row_size`."""
+    ends = [0, *np.cumsum(dataset["row_size"].values, dtype=np.int64).tolist()]
+    return [slice(start, end) for start, end in pairwise(ends)]
 
 
 def chart(k, x, xdot, udot) -> np.ndarray:

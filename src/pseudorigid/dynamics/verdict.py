@@ -16,8 +16,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..kernel.tangents import SIZE, begin, propagate_with_tangent, weight
 from .regularity import GROWTH_THRESHOLD, MARGIN_FACTOR, MIN_CHAOTIC_G, WINDING_TOLERANCE
-from .tangent_orbits import SIZE, begin, propagate_with_tangent, weight
 
 FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
 # Verdict on an orbit and what it rests on. `strict` and `lenient` are the verdicts with half and

@@ -3,12 +3,10 @@
 import numpy as np
 
 from ..canvas import style
-from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, Sheet, width
+from ..canvas.sheet import POINT, Sheet, pieces, width
 from .limits import inside, refuse_empty
-from .occluding_ellipsoid import OccludingEllipsoid
 from .panel import key
-from .projection import Projection
+from .view import OccludingEllipsoid, Projection
 
 _WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names

@@ -7,8 +7,7 @@ from string import ascii_lowercase
 import numpy as np
 
 from ..canvas import style
-from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, width
+from ..canvas.sheet import POINT, pieces, width
 
 _SIZE, _SMALL = 8.0, 7.0  # points: labels and names, notes
 _LABEL_GAP = 6  # pixels, the least between labels below a frame

@@ -5,10 +5,9 @@ import math
 import numpy as np
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import chart, states_of
+from ...dynamics.variables import chart, rows, states_of
 from ...kernel.arithmetic import sincos_each
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
 from .limits import linear
 from .panel import Panel, corner
@@ -63,7 +62,9 @@ def over_orbits(scene, orbits, high=1200):
     """
     sheet = Sheet(style.COLUMN, high)
     panel = at_top(sheet, scene)
-    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+    from ...dynamics.regularity import (
+        chaotic_orbits,  # compiled code, which other kinds do not need
+    )
 
     chaotic = chaotic_orbits(scene["ball"], orbits)
     panel.orbits(orbits, chaotic)

@@ -4,10 +4,10 @@ from functools import partial
 
 import numpy as np
 
+from ...dynamics.variables import rows
 from ..axes.limits import complete, of_window, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 
 _DOT = 3.4  # points
 _NAMES = style.NAMES["x"], style.NAMES["xdot"]

@@ -1,10 +1,9 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
-from ...dynamics.variables import states_of
+from ...dynamics.variables import rows, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
 
@@ -15,7 +14,9 @@ def draw(scene, orbits):
 
     Raises ValueError if nothing can be seen.
     """
-    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+    from ...dynamics.regularity import (
+        chaotic_orbits,  # compiled code, which other kinds do not need
+    )
 
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     chaotic = chaotic_orbits(scene["ball"], orbits)

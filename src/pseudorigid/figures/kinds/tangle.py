@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from ...dynamics.variables import of_type, states_of
+from ...dynamics.variables import of_type, rows, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box
 from ..canvas import style
-from ..canvas.ragged_rows import rows, runs
-from ..canvas.sheet import POINT
+from ..canvas.sheet import POINT, runs
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
