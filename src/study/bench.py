@@ -163,7 +163,7 @@ def _spread(seconds: tuple[float, float, float]) -> str:
 def _advance(start, impacts: int, out: np.ndarray) -> None:
     """Advance states; `out` receives every impact, unless it is empty."""
     ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
-    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size), out)
+    ball.map.steps([*columns, np.empty(columns[0].size)], ball.k, ball.g, impacts, out)
 
 
 def _with_tangent(start, impacts: int) -> None:

@@ -245,8 +245,7 @@ class Ball:
         columns = [a.flatten() for a in self.on_section(*states)]
         columns.append(np.empty(columns[0].size))
         out = np.empty((columns[0].size, kept, 4))
-        x, xdot, udot, tau = columns
-        self.map.steps(x, xdot, udot, self.k, self.g, impacts, tau, out)
+        self.map.steps(columns, self.k, self.g, impacts, out)
         return columns, out
 
 

@@ -1,14 +1,15 @@
 """Orbits of the impact map, from states or from the starts of a scene."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from .ball import Ball, require_short_flights
+from .ball import Ball, State, require_short_flights
 from .inputs import not_allowed, one_of, state_of, whole_number
-from .variables import LENGTH, RADIUS, SPEED, attributes_of, orbit_dims, variables
+from .variables import LENGTH, RADIUS, SPEED, Variables, attributes_of, orbit_dims, variables
 
 
 def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset:
@@ -106,7 +107,7 @@ def ragged_orbits(
     return xr.Dataset(data)
 
 
-def start_state(ball, energy, start):
+def start_state(ball: Ball, energy: float, start: Any) -> State:
     """Return the state (x, xdot, udot) of a start.
 
     A start is a fraction of the section's radius along y = 0, from -1 to 1, or a mapping with x and
@@ -120,7 +121,7 @@ def start_state(ball, energy, start):
     return ball.state(start["x"], start["xdot"], energy)
 
 
-def start_variables(starts, states) -> dict:
+def start_variables(starts: Sequence[Any], states: Any) -> Variables:
     """Return dataset variables on `orbit` for some starts and their states.
 
     `start` is the fraction, NaN where a start is a point. start_x and start_xdot are present if one

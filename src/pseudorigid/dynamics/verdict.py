@@ -13,6 +13,7 @@ the map has no derivative, is not regular.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -41,7 +42,9 @@ def lengths_to_decide(impacts: int) -> list[int]:
     return [*lengths[:-1], impacts]
 
 
-def classify_orbits(k, states, centre, expected, impacts) -> np.recarray:
+def classify_orbits(
+    k: float, states: Any, centre: np.ndarray, expected: np.ndarray, impacts: int
+) -> np.recarray:
     """Follow orbits for at most `impacts` impacts, at least 4, and return their VERDICT (n,).
 
     `states` are x, v, w (n,) just before an impact, lengths in g R. `centre` (n,) is the x of the
@@ -98,7 +101,9 @@ def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
     return np.array(turning), np.array(growing)
 
 
-def means(turning, growing, turned, growth) -> tuple[np.ndarray, np.ndarray]:
+def means(
+    turning: np.ndarray, growing: np.ndarray, turned: np.ndarray, growth: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
     weights = np.array([[weight(length)] for _, length in turning])
     late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]

@@ -9,8 +9,9 @@ import os
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
-_SEEN = set()  # (module, name) of each function that was compiled
+_SEEN: set[tuple[str, str]] = set()  # (module, name) of each function that was compiled
 
 
 def jit(function):
@@ -21,13 +22,14 @@ def jit(function):
     """
     import numba  # slow to import, and every start of the pipeline imports this module
 
-    previous = numba.config.CACHE_LOCATOR_CLASSES
-    numba.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
+    config: Any = numba.config
+    previous = config.CACHE_LOCATOR_CLASSES
+    config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
     try:
         keep = _keeps(function)
         return numba.njit(cache=keep, error_model="numpy", fastmath=False, nogil=True)(function)
     finally:
-        numba.config.CACHE_LOCATOR_CLASSES = previous
+        config.CACHE_LOCATOR_CLASSES = previous
 
 
 class Locator:

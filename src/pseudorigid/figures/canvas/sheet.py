@@ -12,6 +12,8 @@ multiply-add. A Sheet therefore leaves out the vertices on straight pieces of a 
 """
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -19,6 +21,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.textpath import text_to_path
 from matplotlib.transforms import Bbox, TransformedBbox
+from numpy.typing import ArrayLike
 
 from . import style
 
@@ -35,14 +38,14 @@ class Sheet:
     Coordinates count pixels from the lower left corner; sizes of lines, marks and text are points.
     """
 
-    def __init__(self, wide, high):
+    def __init__(self, wide: int, high: int) -> None:
         if wide % 75 or high % 75:
             raise ValueError(f"{wide} x {high} pixels: not whole quarters of an inch")
         self.wide, self.high = wide, high
         size = (wide / style.DPI, high / style.DPI)
         self.figure = Figure(figsize=size, dpi=style.DPI, facecolor="white")
 
-    def draw(self, across, up, clip=None, **line_style):
+    def draw(self, across: Any, up: Any, clip: Any = None, **line_style: Any) -> None:
         """Draw a line or marks (Line2D) inside the rectangle `clip` (left, bottom, right, top)."""
         inches = self.figure.dpi_scale_trans
         across, up = snap_to_pixels(across), snap_to_pixels(up)
@@ -55,21 +58,29 @@ class Sheet:
             artist.set_clip_box(TransformedBbox(Bbox([[left, bottom], [right, top]]), inches))
         self.figure.add_artist(artist)
 
-    def text(self, across, up, text, *, size, ha="left", va="center"):
+    def text(
+        self,
+        across: float,
+        up: float,
+        text: str,
+        size: float,
+        ha: str = "left",
+        va: str = "center",
+    ) -> None:
         """Write horizontal text; `ha` and `va` say which side of it the coordinates are."""
         across, up = (float(snap_to_pixels(value)) / style.DPI for value in (across, up))
         inches = self.figure.dpi_scale_trans
         self.figure.text(across, up, text, ha=ha, va=va, size=size, transform=inches)
 
 
-def width(text, size):
+def width(text: str, size: float) -> float:
     """Return the width in pixels of `text` at `size` points."""
     font = FontProperties(size=size)
     extent = text_to_path.get_text_width_height_descent(text, font, "$" in text)
     return float(extent[0]) * POINT
 
 
-def snap_to_pixels(pixels):
+def snap_to_pixels(pixels: Any) -> np.ndarray:
     """Round to a quarter step beside the rasteriser's grid, where no last bit matters.
 
     A last bit matters at the wholes and halves of the grid, at whole pixels, to which text and
@@ -78,33 +89,35 @@ def snap_to_pixels(pixels):
     return (np.floor(np.asarray(pixels) * _GRID) + 0.25) / _GRID
 
 
-def runs(gap):
+def runs(gap: np.ndarray) -> list[slice]:
     """Return a slice for each run of places where `gap` is false."""
     return np.ma.clump_unmasked(np.ma.array(gap, mask=gap)) if gap.size else []
 
 
-def pieces(*coordinates):
-    """Yield the runs of a line without NaN, long ones in pieces that share a vertex, as tuples."""
-    for run in runs(np.isnan(coordinates).any(axis=0)):
+def pieces(*coordinates: np.ndarray) -> Iterator[list[np.ndarray]]:
+    """Yield the runs of a line without NaN, long ones in pieces that share a vertex."""
+    for run in runs(np.any(np.isnan(coordinates), axis=0)):
         for first in range(run.start, max(run.stop - 1, run.start + 1), _LONGEST):
             span = slice(first, min(first + _LONGEST + 1, run.stop))
-            yield tuple(coordinate[span] for coordinate in coordinates)
+            yield [coordinate[span] for coordinate in coordinates]
 
 
-def bends(across, up, tolerance):
+def bends(across: ArrayLike, up: ArrayLike, tolerance: float) -> list[int]:
     """Return the indices of the vertices to keep, which include both ends.
 
     A line through them passes the others within `tolerance`, at least 1. Coordinates are whole
     numbers.
     """
     x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
-    keep, lists = [0], (x.tolist(), y.tolist())
+    keep, xs, ys = [0], x.tolist(), y.tolist()
     while keep[-1] < len(x) - 1:
-        keep.append(_end_of_piece(x, y, *lists, keep[-1], tolerance))
+        keep.append(_end_of_piece(x, y, xs, ys, keep[-1], tolerance))
     return keep
 
 
-def _end_of_piece(x, y, xs, ys, first, tolerance):
+def _end_of_piece(
+    x: np.ndarray, y: np.ndarray, xs: list[int], ys: list[int], first: int, tolerance: float
+) -> int:
     """Return the last vertex up to which each chord from `first` passes the vertices between.
 
     Most chords are known to pass without a look at all of these: let u be the coordinate in the
@@ -131,13 +144,15 @@ def _end_of_piece(x, y, xs, ys, first, tolerance):
     return len(xs) - 1
 
 
-def _turned(xs, ys, i, x0, y0, du, dv):
+def _turned(
+    xs: list[int], ys: list[int], i: int, x0: int, y0: int, du: int, dv: int
+) -> tuple[int, int]:
     """Return u and v of a vertex."""
     wide, high = xs[i] - x0, ys[i] - y0
     return wide * du + high * dv, high * du - wide * dv
 
 
-def _passes(x, y, first, last, tolerance):
+def _passes(x: np.ndarray, y: np.ndarray, first: int, last: int, tolerance: float) -> bool:
     """Return whether the chord from one vertex to another passes those between."""
     inner = slice(first + 1, last)
     wide, high = x[last] - x[first], y[last] - y[first]
@@ -147,4 +162,4 @@ def _passes(x, y, first, last, tolerance):
     off = np.abs(dx * high - dy * wide)
     near = off <= tolerance * np.sqrt(float(length_squared))
     between = (along >= 0) & (along <= length_squared)
-    return length_squared > 0 and (near & between).all()
+    return bool(length_squared > 0 and (near & between).all())
