@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from samples import DATA, KINDS, SCENES, module
 
+from pseudorigid.dynamics.variables import states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.axes.limits import decades, of_data, refuse_empty, ticks
 

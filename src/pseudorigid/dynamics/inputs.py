@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+Condition = Callable[[float], bool]
 _STATE = ("x", "xdot", "udot")
 _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 
@@ -47,10 +48,7 @@ def coordinates(**values: Any) -> list[np.ndarray]:
 
 
 def number(
-    name: str,
-    value: Any,
-    allowed: str = "one finite number",
-    holds: Callable[[float], bool] = math.isfinite,
+    name: str, value: Any, allowed: str = "one finite number", holds: Condition = math.isfinite
 ) -> float:
     """Convert one finite number for which `holds` is true; `allowed` is the text of the error."""
     try:

@@ -12,7 +12,6 @@ from ..canvas import style
 from ..canvas.sheet import POINT, Sheet, pieces, width
 
 Frame = tuple[float, float, float, float]  # left, bottom, right, top in pixels
-Shift = tuple[float, float]  # across and up
 Entry = tuple[Any, ...]  # of a key: text, colour[, marker, hollow, size]
 
 _SIZE, _SMALL = 8.0, 7.0  # points: labels and names, notes
@@ -132,7 +131,7 @@ class Axes:
         x: float,
         y: float,
         text: str,
-        shift: Shift = (0, 0),
+        shift: tuple[float, float] = (0, 0),
         ha: str = "left",
         va: str = "center",
     ) -> None:

@@ -59,18 +59,12 @@ class Sheet:
         self.figure.add_artist(artist)
 
     def text(
-        self,
-        across: float,
-        up: float,
-        text: str,
-        size: float,
-        ha: str = "left",
-        va: str = "center",
+        self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center"
     ) -> None:
         """Write horizontal text; `ha` and `va` say which side of it the coordinates are."""
-        across, up = (float(snap_to_pixels(value)) / style.DPI for value in (across, up))
+        x, y = (float(snap_to_pixels(value)) / style.DPI for value in (x, y))
         inches = self.figure.dpi_scale_trans
-        self.figure.text(across, up, text, ha=ha, va=va, size=size, transform=inches)
+        self.figure.text(x, y, text, ha=ha, va=va, size=size, transform=inches)
 
 
 def width(text: str, size: float) -> float:
