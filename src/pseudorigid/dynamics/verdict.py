@@ -2,8 +2,8 @@
 
 All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
 on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
-vector (`analyses.regularity`), and the difference between the winding numbers of the two halves,
-which are weighted Birkhoff averages as in `analyses.rotation`.
+vector (`regularity`), and the difference between the winding numbers of the two halves, which are
+weighted Birkhoff averages (`kernel.tangents.propagate_with_tangent`).
 
 Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
 numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and
@@ -35,7 +35,7 @@ VERDICT = [
 
 
 def lengths_to_decide(impacts: int) -> list[int]:
-    """Lengths at which orbits are classified, the last one `impacts`."""
+    """Return the lengths at which orbits are classified, the last one `impacts`."""
     lengths = [FIRST_LENGTH]
     while lengths[-1] < impacts:
         lengths.append(2 * lengths[-1])
