@@ -79,18 +79,6 @@ def push_frame(a, b, c, lengths, sums, k, g, coefficients, p, q, sine, cosine, t
 
 
 @jit
-def _load(frames, row, i):
-    """Return the three numbers of orbit i from `row` on."""
-    return frames[row + i], frames[row + GROUP + i], frames[row + 2 * GROUP + i]
-
-
-@jit
-def _store(frames, row, i, vector):
-    """Store the three numbers of orbit i from `row` on."""
-    frames[row + i], frames[row + GROUP + i], frames[row + 2 * GROUP + i] = vector
-
-
-@jit
 def _advance(frames, n, k, g, coefficients, states, flights, row):
     """Carry the frames of n orbits over an impact, and make them orthonormal.
 
@@ -100,18 +88,23 @@ def _advance(frames, n, k, g, coefficients, states, flights, row):
     row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
         at = row + i
-        a, b, c = _load(frames, _A, i), _load(frames, _B, i), _load(frames, _C, i)
-        p0, q0, r0 = _load(frames, _GROWN, i)
+        a0, a1, a2 = frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i]
+        b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
+        c0, c1, c2 = frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i]
+        p0, q0, r0 = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
         p, q, r, a, b, c = orthonormal(
-            push_tangent(*a, k, g, coefficients, states, flights, at),
-            push_tangent(*b, k, g, coefficients, states, flights, at),
-            push_tangent(*c, k, g, coefficients, states, flights, at),
+            push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at),
+            push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at),
+            push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at),
         )
+        a0, a1, a2 = a
+        b0, b1, b2 = b
+        c0, c1, c2 = c
         p, q, r = p0 * p, q0 * q, r0 * r
-        _store(frames, _A, i, a)
-        _store(frames, _B, i, b)
-        _store(frames, _C, i, c)
-        _store(frames, _GROWN, i, (p, q, r))
+        frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i] = a0, a1, a2
+        frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
+        frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
+        frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
         extremes += 0 if in_range(p) & in_range(q) & in_range(r) else 1
     return extremes > 0
 
@@ -169,7 +162,7 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
 def _collect(total, frames, n, every):
     """Add the logarithms of lengths to the sums of every orbit, or of those with an extreme one."""
     for i in range(n):
-        p, q, r = _load(frames, _GROWN, i)
+        p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
         if every or not (in_range(p) and in_range(q) and in_range(r)):
             for m in range(3):
                 total[m, i] += log(frames[_GROWN + m * GROUP + i])

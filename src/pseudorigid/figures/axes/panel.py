@@ -126,6 +126,32 @@ class Axes:
         for piece in pieces(*self.place(x, y)):
             self.sheet.draw(*piece, **line_style)
 
+    def minor(self, across: bool = True) -> None:
+        """Draw minor ticks, without labels, at the left and, if `across`, below."""
+        left, bottom, right, top = self.frame
+        line_style, size = {"color": style.FRAME, "lw": 0.5}, 1.5 * POINT
+        if across:
+            for x in left + self.across.between(self.across.minor_ticks()) * (right - left):
+                self.sheet.draw([x, x], [bottom, bottom - size], **line_style)
+        for y in bottom + self.up.between(self.up.minor_ticks()) * (top - bottom):
+            self.sheet.draw([left, left - size], [y, y], **line_style)
+
+    def bars(self, x: Any, low: Any, high: Any, **line_style: Any) -> None:
+        """Draw an upright line at each x, none where an end is NaN."""
+        for at, *span in zip(x, low, high, strict=True):
+            self.line([at, at], span, **line_style)
+
+    def estimates(self, x: Any, values: Any, low: Any, high: Any, color: str) -> None:
+        """Draw a dot for each value, joined by a line, with its bar from low to high."""
+        self.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
+        self.bars(x, low, high, color=color, lw=0.7, zorder=2)
+        known = ~np.isnan(values)
+        self.dots(x[known], values[known], color, size=1.7)
+
+    def dots(self, x: Any, y: Any, color: Any, size: float) -> None:
+        """Draw dots of `size` points; each subclass has its own."""
+        raise NotImplementedError
+
     def note(
         self,
         x: float,
@@ -154,29 +180,7 @@ class Axes:
 
 
 class Panel(Axes):
-    """Axes with minor ticks, bars and marks."""
-
-    def minor(self, across: bool = True) -> None:
-        """Draw minor ticks, without labels, at the left and, if `across`, below."""
-        left, bottom, right, top = self.frame
-        line_style, size = {"color": style.FRAME, "lw": 0.5}, 1.5 * POINT
-        if across:
-            for x in left + self.across.between(self.across.minor_ticks()) * (right - left):
-                self.sheet.draw([x, x], [bottom, bottom - size], **line_style)
-        for y in bottom + self.up.between(self.up.minor_ticks()) * (top - bottom):
-            self.sheet.draw([left, left - size], [y, y], **line_style)
-
-    def bars(self, x: Any, low: Any, high: Any, **line_style: Any) -> None:
-        """Draw an upright line at each x, none where an end is NaN."""
-        for at, *span in zip(x, low, high, strict=True):
-            self.line([at, at], span, **line_style)
-
-    def estimates(self, x: Any, values: Any, low: Any, high: Any, color: str) -> None:
-        """Draw a dot for each value, joined by a line, with its bar from low to high."""
-        self.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
-        self.bars(x, low, high, color=color, lw=0.7, zorder=2)
-        known = ~np.isnan(values)
-        self.dots(x[known], values[known], color, size=1.7)
+    """Axes with marks, also for data beyond an axis, which are drawn at its end."""
 
     def dots(
         self, x: Any, y: Any, color: Any, size: float = 3.2, hollow: bool = False, marker: str = "o"
