@@ -15,7 +15,7 @@ import yaml
 from pipeline.config import PAPER
 from pipeline.config.validation.document import KEYS
 from pipeline.records import machine_code
-from pseudorigid.kernel.compiled import locator
+from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]
 # The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
@@ -101,7 +101,7 @@ class Tree:
     def warm(self):
         """Copy the machine code of modules that mean the same, and the hashes of meanings."""
         self.cold = False
-        here, there = Path(locator.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
+        here, there = Path(compiled.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
         there.mkdir(exist_ok=True)
         for kept in (ROOT / MEANINGS).glob("meanings-*.json"):
             (self.path / MEANINGS).mkdir(exist_ok=True)

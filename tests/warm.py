@@ -2,7 +2,7 @@
 
     python tests/warm.py
 
-pseudorigid.kernel.compiled.locator says where the machine code is kept. A second call does nothing.
+pseudorigid.kernel.compiled says where the machine code is kept. A second call does nothing.
 """
 
 import hashlib
@@ -56,11 +56,11 @@ def compile_the_rest():
 if __name__ == "__main__":
     from pipeline.records.machine_code import SRC
     from pipeline.records.syntax_hash import syntax_hash
-    from pseudorigid.kernel.compiled import locator
+    from pseudorigid.kernel import compiled
 
     files = sorted(file for file in SRC.rglob("*.py") if b"@jit" in file.read_bytes())
     digest = hashlib.sha256(" ".join(map(syntax_hash, files)).encode()).hexdigest()
-    done = Path(locator.folder(), f"by the tests {digest[:16]}")
+    done = Path(compiled.folder(), f"by the tests {digest[:16]}")
     if not done.exists():
         if child := os.fork():
             compile_stages()

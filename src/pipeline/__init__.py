@@ -4,8 +4,8 @@ from .loading import load_from_text
 
 load_from_text()
 
-from pseudorigid.kernel.compiled import naming  # noqa: E402  (loaded from its text)
+from pseudorigid.kernel import compiled  # noqa: E402  (loaded from its text)
 
 from .records import machine_code  # noqa: E402
 
-naming.subfolder = machine_code.subfolder
+compiled.subfolder = machine_code.subfolder

@@ -21,10 +21,10 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.manifolds import trace_manifold
 from pseudorigid.dynamics.periodic import symmetric_orbits
-from pseudorigid.dynamics.tangent_orbits import begin, propagate_with_tangent
 from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from . import states
 from .failures import certified_orbit
@@ -163,7 +163,7 @@ def _spread(seconds: tuple[float, float, float]) -> str:
 def _advance(start, impacts: int, out: np.ndarray) -> None:
     """Advance states; `out` receives every impact, unless it is empty."""
     ball, columns = states.BALL, [np.array(a, ndmin=1) for a in start]
-    ball.map.steps(*columns, ball.k, ball.g, impacts, np.empty(columns[0].size), out)
+    ball.map.steps([*columns, np.empty(columns[0].size)], ball.k, ball.g, impacts, out)
 
 
 def _with_tangent(start, impacts: int) -> None:

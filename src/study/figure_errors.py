@@ -23,14 +23,14 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.starts import start_state
+from pseudorigid.dynamics.orbits import start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.canvas.style import DPI
 from pseudorigid.figures.kinds import closeup, exponents, motion
 from pseudorigid.kernel.arithmetic import log, sincos_each
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.kernel.impact_law import impact_coefficients, rebound
+from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import reference_solver
 from .failures import certified_orbit, energy_drift

@@ -8,7 +8,7 @@ import numpy as np
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel.arithmetic import sincos_each
-from pseudorigid.kernel.impact_law import impact_coefficients, rebound
+from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 BALL = Ball(k=0.2, g=0.04)
 ENERGY = 0.01

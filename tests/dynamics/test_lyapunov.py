@@ -8,11 +8,11 @@ from sections import BALL
 
 from pipeline.checks.compare import summaries
 from pseudorigid import Ball, lyapunov_spectrum, orbit
-from pseudorigid.dynamics import lyapunov
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.kinds import reports
 from pseudorigid.figures.kinds.exponents import draw
+from pseudorigid.kernel import spectrum
 
 
 def bits(a):
@@ -114,5 +114,5 @@ def test_no_largest_exponent_is_minus_zero():
 
 
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):
-    monkeypatch.setattr(lyapunov, "_group", None)
+    monkeypatch.setattr(spectrum, "exponents_of_group", None)
     assert final(BALL.start([0.6, 0.62, 0.65], 0.01), 100).shape == (3, 3)

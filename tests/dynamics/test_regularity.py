@@ -1,4 +1,4 @@
-"""Both criteria for regular orbits agree, and so do the analyses that use them."""
+"""The criteria for regular orbits agree with each other."""
 
 import numpy as np
 import pytest
@@ -12,8 +12,8 @@ from pseudorigid.dynamics.verdict import classify_orbits
 BALL, IMPACTS = Ball(0.2, 0.04), 20_000
 
 
-def regular_in_sweeps(states, energy):
-    """Verdicts of `sweep.verdict`, whose lengths are in g R."""
+def classified(states, energy):
+    """Return the verdicts of `dynamics.verdict`, whose lengths are in g R."""
     x, _, rotation = fixed_point.numbers(BALL.k, energy / BALL.g**2)
     states, size = np.array(states) / BALL.g, len(states[0])
     return classify_orbits(BALL.k, states, np.full(size, x), np.full(size, rotation), IMPACTS)
@@ -21,11 +21,11 @@ def regular_in_sweeps(states, energy):
 
 @pytest.mark.parametrize("energy", [0.001, 0.01, 0.0265])
 def test_the_criteria_agree_on_starts_along_the_symmetry_line(energy):
-    """Growth, as in `rotation`, and the exponents of whole orbits, as in `spread`."""
+    """They are the growth, the exponents of whole orbits, and verdicts before the end."""
     start = np.linspace(-0.97, 0.97, 120)
     by_growth = regular(winding(BALL, energy, start, IMPACTS)[1], IMPACTS)
     states = BALL.start(start, energy)
     exponent = lyapunov_spectrum(BALL, states, IMPACTS, 1)["exponent"].values[0].max(axis=-1)
     assert np.array_equal(by_growth, exponent <= regular_bound(IMPACTS))
-    assert np.array_equal(by_growth, regular_in_sweeps(states, energy).regular)
+    assert np.array_equal(by_growth, classified(states, energy).regular)
     assert 5 < by_growth.sum() < 115

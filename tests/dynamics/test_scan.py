@@ -8,7 +8,7 @@ from sections import BALL
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.variables import of_type
-from pseudorigid.kernel.scan import scan
+from pseudorigid.kernel.impact import scan
 
 SEA = BALL.start(0.534522, 0.01)
 

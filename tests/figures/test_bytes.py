@@ -74,7 +74,7 @@ def test_drawing_leaves_matplotlib_as_it_was():
 
 
 def test_a_drawing_imports_only_what_it_uses():
-    names = "pyplot", "xarray", "pandas", "numba", "scipy", "netCDF4", "backend_pdf"
+    names = "pyplot", "numba", "scipy", "netCDF4", "backend_pdf"
     code = (
         "import sys\n"
         f"from pseudorigid.figures.kinds import {', '.join(KINDS)}\n"

@@ -19,9 +19,9 @@ from slowly import slowly
 
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.figures.axes import box, projection
+from pseudorigid.dynamics.variables import rows, states_of
+from pseudorigid.figures.axes import box, view
 from pseudorigid.figures.canvas import sheet, style
-from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels
 
 
@@ -37,7 +37,7 @@ def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
 
 def test_all_visible_points_are_drawn_and_the_sea_comes_first():
     data = scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.1, -0.2, 0.6], [300, 200, 900])
-    seen = box.Box(SCENES["portrait"]).seen(*(data[name].values for name in style.NAMES))
+    seen = box.Box(SCENES["portrait"]).seen(states_of(data))
     figure = module("portrait").draw(SCENES["portrait"], data)
     dots = [line for line in figure.artists if line.get_marker() == "o"]
     dots = dots[-len(data["row_size"]) :]  # the key's come before
@@ -53,7 +53,7 @@ def test_sine_and_cosine_of_the_view_are_correctly_rounded(degrees):
     with mpmath.workdps(50):
         angle = mpmath.mpf(degrees) * mpmath.pi / 180
         exact = float(mpmath.sin(angle)), float(mpmath.cos(angle))
-    assert projection.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
+    assert view.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
 
 
 def test_snapped_pixels_keep_their_distance_from_every_threshold():
@@ -70,8 +70,8 @@ def test_what_lies_outside_the_box_is_not_drawn():
     before = len(small.figure.artists)
     x = np.array([0.0, 0.1, 0.9, 0.1, 0.0, 0.1])
     y, z = 0 * x - 0.05, 0 * x + 0.24  # above the surface, so that nothing is behind it
-    small.points(x, y, z, style.BLUE, 1)
-    small.line(x, y, z, style.BLUE, 1)
+    small.points(np.array([x, y, z]), style.BLUE, 1)
+    small.line(np.array([x, y, z]), style.BLUE, 1)
     sizes = [len(artist.get_xdata()) for artist in small.figure.artists[before:]]
     assert sizes == [5, 2, 3]
 
@@ -84,12 +84,12 @@ def test_the_surface_hides_what_a_dense_cloud_of_it_covers(azimuth):
     cloud = np.array([*states(400_000, 7).values()])
     some = cloud[:, :2000]
     towards = np.array(picture.view.eye)
-    squares = [*map(tuple, np.floor(np.array(picture.view(*cloud)) / 8).astype(int).T)]
+    squares = [*map(tuple, np.floor(np.array(picture.view(cloud)) / 8).astype(int).T)]
     front = {}
     for square, depth in zip(squares, towards @ cloud, strict=True):
         front[square] = max(front.get(square, -1.0), depth)
     before = np.array([front[square] for square in squares[:2000]]) - towards @ some
-    seen = picture.seen(*some)
+    seen = picture.seen(some)
     assert before[seen].max() < 0.1  # as far as the surface rises within a square
     assert np.mean(before[~seen] > 0.0) > 0.99  # except for squares across the outline
     assert np.sum(before[~seen] > 0.1) > 5
@@ -99,7 +99,9 @@ def test_no_pane_or_axis_shines_through_the_surface():
     picture = box.Box(SCENES["portrait"])
     x, y, z = states(200_000, 8).values()
     inner = (abs(x) < 0.1) & (abs(y - 0.2 * z) < 0.05)  # the main island, all of it visible
-    island = set(zip(*np.floor(np.array(picture.view(x, y, z))[:, inner]).astype(int), strict=True))
+    island = set(
+        zip(*np.floor(np.array(picture.view([x, y, z]))[:, inner]).astype(int), strict=True)
+    )
     image = pixels(picture.figure)[::-1]
     assert all((image[up, across] == 255).all() for across, up in island)
     assert len(island) > 10_000
@@ -111,7 +113,7 @@ def test_impacts_graze_on_the_rim_which_ends_the_outline():
     assert np.array_equal(y, -z)
     k, g, energy = (ATTRS[name] for name in ("k", "g", "energy"))
     assert np.allclose((y * y + k * z * z + k * x * x) / 2 - g * x, energy, rtol=0, atol=1e-15)
-    around = np.array(picture.surface.outline(picture.view))
+    around = picture.surface.outline(picture.view)
     x, y, z = around[:, ~np.isnan(around[0])]
     assert np.all(y + z >= 0.0)
     normal = np.array([k * x - g, y, k * z])
@@ -122,7 +124,7 @@ def test_impacts_graze_on_the_rim_which_ends_the_outline():
 def test_ends_have_open_dots_and_jumps_squares():
     figure, data = drawn("tangle"), manifolds()
     picture = box.Box(SCENES["tangle"])
-    seen = picture.seen(*(data[name].values for name in style.NAMES))
+    seen = picture.seen(states_of(data))
     ends, jumps = np.cumsum(data["row_size"].values) - 1, [99, 103]  # jumps: beside the gap
     marks = {"o": 0, "s": 0}
     for artist in figure.artists:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from samples import DATA, KINDS, SCENES, module
 
+from pseudorigid.dynamics.variables import states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.axes.limits import decades, of_data, refuse_empty, ticks
 
@@ -104,7 +105,7 @@ def test_no_data_are_refused():
 def test_a_view_from_which_the_surface_hides_all_is_refused():
     data = DATA["portrait"]()[0]
     scene = SCENES["portrait"] | {"sea": []}
-    seen = Box(scene).seen(*(data[name].values for name in ("x", "xdot", "udot")))
+    seen = Box(scene).seen(states_of(data))
     assert 0 < seen.sum() < seen.size
     one = data.assign(row_size=("orbit", [1]))
     assert module("portrait").draw(scene, one.isel(point=[int(np.argmax(seen))]))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pseudorigid.figures.canvas.line_simplification import bends
+from pseudorigid.figures.canvas.sheet import bends
 
 
 def kept_by_definition(x, y, tolerance):

@@ -9,7 +9,7 @@ from sections import BALL
 from pipeline.checks.compare import picture
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.dynamics.rotation import chaotic_orbits
+from pseudorigid.dynamics.regularity import chaotic_orbits
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels

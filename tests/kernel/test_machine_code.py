@@ -11,8 +11,7 @@ from matrix_probe import FUSED, traces
 from project import run
 from sections import sea
 
-from pseudorigid.dynamics import lyapunov, tangent_orbits
-from pseudorigid.kernel import arithmetic, impact, lanes, tangents
+from pseudorigid.kernel import arithmetic, impact, lanes, spectrum, tangents
 
 # Flags with which the compiler may change the arithmetic.
 LOOSE = re.compile(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)")
@@ -55,10 +54,10 @@ def test_loops_over_lanes_are_vectorised():
         (lanes._choose, (row, n)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
         (
-            tangent_orbits._observe,
-            (np.ones(tangent_orbits._ROWS), 64, 0.2, 1.0, h, states, flights, 0),
+            tangents._observe,
+            (np.ones(tangents._ROWS), 64, 0.2, 1.0, h, states, flights, 0),
         ),
-        (lyapunov._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
+        (spectrum._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
     ):
         (text,) = compiled(loop, *arguments).inspect_llvm().values()
         assert re.search(r"fdiv <\d+ x double>", text), loop

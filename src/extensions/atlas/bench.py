@@ -6,8 +6,8 @@ from collections.abc import Callable
 import numpy as np
 
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.dynamics.tangent_orbits import begin, propagate_with_tangent
 from pseudorigid.dynamics.verdict import windows
+from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from .cell import cells, sunflower_points
 from .verdicts import random_cells

@@ -17,11 +17,11 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
-from pseudorigid.dynamics.tangent_orbits import angle
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
+from pseudorigid.kernel import formulas
 from pseudorigid.kernel import impact as kernel
-from pseudorigid.kernel import section
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.tangents import angle
 
 # Half widths, in section radii, of the first and the last bracket of a symmetric flight: a thousand
 # rounding errors, doubled until it is as wide as the other.
@@ -242,7 +242,7 @@ class OrbitSearch:
         """Return `_turns` of the orbit from a start on y = 0."""
         k, g = self.ball.k, self.ball.g
         # the state of Ball.start, without its checks of a start, which take as long as the orbit
-        state = section.start(k, g, self.energy, start)
+        state = formulas.start(k, g, self.energy, start)
         return _turns(*state, k, g, self.fixed_x, self.fixed_rotation, half)
 
     def _symmetric_flight(self, start: float, half: int) -> float | None:

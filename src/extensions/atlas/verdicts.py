@@ -24,9 +24,9 @@ import xarray as xr
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.ensemble import threads
 from pseudorigid.dynamics.regularity import GROWTH_THRESHOLD
-from pseudorigid.dynamics.tangent_orbits import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
 from pseudorigid.dynamics.variables import described, of_rows
 from pseudorigid.dynamics.verdict import classify_orbits, means, windows
+from pseudorigid.kernel.tangents import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
 
 from .blocks import AXES
 from .cell import sunflower_points

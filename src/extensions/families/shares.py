@@ -21,10 +21,10 @@ import xarray as xr
 from extensions.atlas.cell import sunflower_points, wilson
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.tangent_orbits import angle
 from pseudorigid.dynamics.variables import ENERGY, described, variables
 from pseudorigid.dynamics.verdict import classify_orbits
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.tangents import angle
 
 from .breakup import breakup
 from .continuation.curve import cramer

@@ -13,8 +13,7 @@ from pipeline.config.build_specs import build_specs
 from pipeline.records.artifacts import load
 from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.orbits import orbit
-from pseudorigid.dynamics.starts import start_state
+from pseudorigid.dynamics.orbits import orbit, start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 
 from .theorems import impacts as proofs

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..kernel import formulas
 from ..kernel import impact as kernel
-from ..kernel import section
-from ..kernel.impact_law import impact_coefficients, rebound
+from ..kernel.formulas import impact_coefficients, rebound
 from .ensemble import ImpactMap
 from .inputs import coordinates, not_allowed, number, whole_number
 
@@ -96,7 +96,7 @@ class Ball:
         the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
         """
         (energy,) = coordinates(energy=energy)
-        square = section.radius_squared(self.k, self.g, energy)
+        square = formulas.radius_squared(self.k, self.g, energy)
         invalid = (square < 0.0) | np.isinf(square)
         if np.any(invalid):
             lowest = self.energy_bounds()[0]
@@ -128,10 +128,10 @@ class Ball:
         The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
-        square = section.contact_speed_squared(self.k, self.g, energy, x, y)
+        square = formulas.contact_speed_squared(self.k, self.g, energy, x, y)
         if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, y and energy: the point is outside the section")
-        x, xdot, udot = section.chart_state(self.k, self.g, energy, x, y)
+        x, xdot, udot = formulas.chart_state(self.k, self.g, energy, x, y)
         return _plain(x), _plain(xdot), _plain(udot)
 
     def start(self, fraction: ArrayLike, energy: ArrayLike) -> State:
@@ -143,7 +143,7 @@ class Ball:
         self.section(energy)
         if not np.all((np.abs(f) <= 1.0) | np.isnan(f)):
             raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
-        x, xdot, udot = section.start(self.k, self.g, energy, f)
+        x, xdot, udot = formulas.start(self.k, self.g, energy, f)
         return _plain(x), _plain(xdot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
@@ -245,8 +245,7 @@ class Ball:
         columns = [a.flatten() for a in self.on_section(*states)]
         columns.append(np.empty(columns[0].size))
         out = np.empty((columns[0].size, kept, 4))
-        x, xdot, udot, tau = columns
-        self.map.steps(x, xdot, udot, self.k, self.g, impacts, tau, out)
+        self.map.steps(columns, self.k, self.g, impacts, out)
         return columns, out
 
 

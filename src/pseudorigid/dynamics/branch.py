@@ -17,9 +17,12 @@ ends where it exceeds LARGEST_SPLIT times the image's extent. For the paper's ba
 vertices lie within 2e-6 section radii of a line drawn ten times as finely.
 """
 
+import math
+
 import numpy as np
 
 from ..kernel.arithmetic import log
+from .ball import Ball, Rows
 from .variables import chart
 
 # Length of the first segment, in section radii; it misses the branch by about the square.
@@ -43,34 +46,24 @@ class Branch:
     Raises ValueError if the orbit is elliptic, or not symmetric and the branch stable.
     """
 
-    def __init__(self, ball, energy, points, saddle, side, stable):
+    def __init__(
+        self, ball: Ball, energy: float, points: np.ndarray, saddle: int, side: str, stable: bool
+    ) -> None:
         self.ball, self.energy, self.mirrored = ball, energy, stable
         self.radius = ball.section(energy)[1]
         xy = chart(ball.k, *points)
         if stable:
-            mirrored = xy[:, saddle] * np.array([1.0, -1.0])
-            gaps = np.max(np.abs(xy - mirrored[:, None]), axis=0)
-            saddle = int(np.argmin(gaps))
-            if gaps[saddle] > 1e-9 * self.radius:
-                raise ValueError(
-                    "the orbit is not symmetric: its stable manifold is no mirror image"
-                )
+            saddle = _mirror_image(xy, saddle, 1e-9 * self.radius)
         self.point, self.origin = points[:, saddle], xy[:, saddle]
         self.period = points.shape[1]
-        (a, b), (c, d) = ball.chart_jacobian(*self.point, impacts=self.period)
-        trace = a + d
-        if abs(trace) <= 2.0:
-            raise ValueError("the orbit is elliptic: it has no stable and unstable manifolds")
-        root = np.sqrt((abs(trace) - 2.0) * (abs(trace) + 2.0))
-        multiplier = np.copysign(0.5 * (abs(trace) + root), trace)
-        # The larger row of J - lambda gives the direction.
-        e = np.array([b, multiplier - a]) if abs(b) > abs(c) else np.array([multiplier - d, c])
+        x, xdot, udot = self.point
+        multiplier, e = _unstable(ball.chart_jacobian(x, xdot, udot, self.period))
         # Outer is away from the middle of the orbit, in coordinates in which the section is round.
         scale = np.array([1.0, 1.0 / np.sqrt(ball.k * (1.0 + ball.k))])
         outward = (self.origin - xy.mean(axis=1)) * scale * (e * scale)
         e = e / np.sqrt(np.sum((e * scale) ** 2))
         sign = 1.0 if (np.sum(outward) > 0.0) == (side == "outer") else -1.0
-        self.multiplier = float(multiplier)
+        self.multiplier = multiplier
         if self.multiplier < 0.0:  # images alternate between the sides, so take every second one
             self.period *= 2
             self.multiplier *= self.multiplier
@@ -78,10 +71,10 @@ class Branch:
         self.images = MOST_IMAGES
         if self.weak:
             self.images = int(MOST_IMAGES * log(WEAK) / log(self.multiplier))
-        self.ended = None
+        self.ended: float | None = None
         self.first = SEGMENT * self.radius / self.multiplier * sign * e
 
-    def next(self, new_u, u, states):
+    def next(self, new_u: np.ndarray, u: np.ndarray, states: np.ndarray) -> np.ndarray:
         """Return states (3, m) at new parameters (m,), from the known `states` at u."""
         if not self.weak or u.size < 2 * POINTS_OF_IMAGE:
             return self(new_u)
@@ -90,7 +83,9 @@ class Branch:
             new_states[:, ~accurate] = self(new_u[~accurate])
         return new_states
 
-    def _forward(self, before, u, states):
+    def _forward(
+        self, before: np.ndarray, u: np.ndarray, states: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return images of the states at parameters `before`, and which of them are accurate."""
         ball = self.ball
         at = np.minimum(np.searchsorted(u, before), u.size - 1)
@@ -99,9 +94,8 @@ class Branch:
         nearby = self._mirror(states[:, four])
         columns = nearby[:, at - four[0], np.arange(at.size)]
         xy = chart(ball.k, *nearby)
-        first, second = (
-            _interpolated(u[four[part]], xy[:, part], before) for part in (slice(0, 3), slice(1, 4))
-        )
+        first = _interpolated(u[four[:3]], xy[:, :3], before)
+        second = _interpolated(u[four[1:]], xy[:, 1:], before)
         accurate = np.ones(at.size, bool)
         if self.energy > ball.g * ball.g * (1.0 + 0.5 * ball.k):  # the map may jump
             extent = np.max(np.ptp(xy, axis=1), axis=0)
@@ -112,46 +106,70 @@ class Branch:
         columns[:, between] = ball.state_xy(x[between], y[between], self.energy)
         return self._mirror(self._image(columns, 1)), accurate | is_vertex
 
-    def __call__(self, u):
+    def __call__(self, u: np.ndarray) -> np.ndarray:
         """Return states (3, n) at the parameters u (n,), each mapped from the first segment."""
         image = np.floor(u)
         sigma = 1.0 + (self.multiplier - 1.0) * (u - image)
         start = self.origin[:, None] + sigma * self.first[:, None]
-        states = np.stack(self.ball.state_xy(*start, self.energy))
+        states = np.stack(self.ball.state_xy(start[0], start[1], self.energy))
         for m in np.unique(image):
             selected = image == m
             states[:, selected] = self._image(states[:, selected], int(m))
         return self._mirror(states)
 
-    def _image(self, states, images):
+    def _image(self, states: np.ndarray, images: int) -> np.ndarray:
         """Return the states after a number of images."""
         return self.ball.after(states, images * self.period)[:3]
 
-    def _mirror(self, states):
+    def _mirror(self, states: np.ndarray) -> np.ndarray:
+        """Return the states, or on a stable branch their mirror images."""
         return np.stack(self.ball.reflect(*states)) if self.mirrored else states
 
-    def is_accurate(self, image, u, states):
+    def is_accurate(self, image: int, u: np.ndarray, states: np.ndarray) -> bool:
         """Return whether the orbits to where images `image - 1` and `image` join agree so far."""
         if image < 2:
             return True
         extent = np.max(np.ptp(states[:, u >= image - 1], axis=1))
-        return self._gap(image) <= LARGEST_SPLIT * extent
+        return bool(self._gap(image) <= LARGEST_SPLIT * extent)
 
-    def _gap(self, image):
+    def _gap(self, image: int) -> float:
         """Return the distance of the two orbits to where images `image - 1` and `image` join."""
         ends = self(np.array([np.nextafter(float(image), 0.0), float(image)]))
-        return np.max(np.abs(ends[:, 1] - ends[:, 0]))
+        return float(np.max(np.abs(ends[:, 1] - ends[:, 0])))
 
-    def base(self):
+    def base(self) -> np.ndarray:
         """Return the orbit's point as an array (3, 1)."""
         return self._mirror(self.point[:, None])
 
-    def start_error(self):
+    def start_error(self) -> float:
         """Return the distance, in section radii, of the segment's end from its start's image."""
-        return float(self._gap(1) / self.radius)
+        return self._gap(1) / self.radius
 
 
-def _interpolated(nodes, values, at):
+def _mirror_image(xy: np.ndarray, saddle: int, tolerance: float) -> int:
+    """Return the index of the point of an orbit (2, n) that is the mirror image of another one."""
+    mirrored = xy[:, saddle] * np.array([1.0, -1.0])
+    gaps = np.max(np.abs(xy - mirrored[:, None]), axis=0)
+    image = int(np.argmin(gaps))
+    if gaps[image] > tolerance:
+        raise ValueError("the orbit is not symmetric: its stable manifold is no mirror image")
+    return image
+
+
+def _unstable(jacobian: Rows) -> tuple[float, np.ndarray]:
+    """Return the multiplier and the direction of the unstable manifold of an orbit."""
+    (a, b), (c, d) = jacobian
+    trace = a + d
+    if abs(trace) <= 2.0:
+        raise ValueError("the orbit is elliptic: it has no stable and unstable manifolds")
+    root = math.sqrt((abs(trace) - 2.0) * (abs(trace) + 2.0))
+    multiplier = math.copysign(0.5 * (abs(trace) + root), trace)
+    # The larger row of J - multiplier gives the direction.
+    e = [b, multiplier - a] if abs(b) > abs(c) else [multiplier - d, c]
+    return multiplier, np.array(e)
+
+
+def _interpolated(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Return the parabolas through values (2, 3, n) at nodes (3, n), at `at` (n,)."""
     a, b, c = nodes
     slope = (values[:, 1] - values[:, 0]) / (b - a)

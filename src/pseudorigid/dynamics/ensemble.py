@@ -1,6 +1,7 @@
 """Impact map over arrays of states, in SIMD lanes and on all cores."""
 
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,7 +22,7 @@ def threads() -> int:
     return max(1, int(setting)) if setting.isdigit() else len(os.sched_getaffinity(0))
 
 
-def shared(work, impacts, *arrays):
+def shared(work: Callable[..., int], impacts: int, *arrays: np.ndarray) -> int:
     """Apply `work` to pieces of arrays, one in each thread, and return the sum of its results.
 
     The arrays are cut along their first axis, the orbits, which have `impacts` impacts each.
@@ -50,7 +51,7 @@ class ImpactMap:
     impacts: int = field(default=0, init=False, repr=False, compare=False)
     missed: int = field(default=0, init=False, repr=False, compare=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.scan is not None:
             try:
                 step, tolerance = self.scan
@@ -64,19 +65,23 @@ class ImpactMap:
         """Whether no impact can be missed."""
         return self.scan is None
 
-    def count(self, impacts, missed):
+    def count(self, impacts: int, missed: int) -> None:
         """Add to the numbers of impacts computed and missed."""
         self.impacts += impacts
         self.missed += missed
 
-    def steps(self, x, v, w, k, g, impacts, tau, out):
-        """Advance states in place as `kernel.impact.steps` does, in lanes and threads."""
-        for_lanes = self.certified and impacts > 0 and not numba.config.DISABLE_JIT
+    def steps(
+        self, columns: list[np.ndarray], k: float, g: float, impacts: int, out: np.ndarray
+    ) -> None:
+        """Advance columns x, v, w, tau in place, as `kernel.impact.steps`, in lanes and threads."""
+        compiled = not getattr(numba.config, "DISABLE_JIT", False)
+        for_lanes = self.certified and impacts > 0 and compiled
 
-        def advance_piece(x, v, w, tau, out):
+        def advance_piece(*arrays: np.ndarray) -> int:
+            x, v, w, tau, out = arrays
             if for_lanes and x.size >= lanes.MIN_ORBITS_FOR_LANES:
                 lanes.steps(x, v, w, k, g, impacts, tau, out)
                 return 0
             return impact.steps(x, v, w, k, g, impacts, tau, out, self.scan)
 
-        self.count(impacts * x.size, shared(advance_piece, impacts, x, v, w, tau, out))
+        self.count(impacts * len(out), shared(advance_piece, impacts, *columns, out))

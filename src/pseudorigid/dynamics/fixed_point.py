@@ -13,11 +13,12 @@ e are E/g^2.
 """
 
 import math
+from collections.abc import Callable
 
 from ..kernel.arithmetic import sincos
 
 
-def _one_minus_theta_cot(theta):
+def _one_minus_theta_cot(theta: float) -> float:
     sine, cosine = sincos(theta)
     return 1.0 - theta * cosine / sine
 
@@ -65,7 +66,7 @@ def resonance(k: float, turns: int, impacts: int) -> float:
     return energy(k, _root(lambda theta: trace(k, theta) > trace_wanted, math.pi))
 
 
-def _root(below, end):
+def _root(below: Callable[[float], bool], end: float) -> float:
     """Return the number in (0, end) up to which `below` holds, by bisection to the last bit."""
     low, high = 0.0, end
     while True:

@@ -2,16 +2,20 @@
 
 import math
 import reprlib
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from numbers import Real
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
+Condition = Callable[[float], bool]
 _STATE = ("x", "xdot", "udot")
 _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 
 
-def doubles(name: str, value) -> np.ndarray:
+def doubles(name: str, value: Any) -> np.ndarray:
     """Convert a real number, or an array of them, to doubles; masked elements become NaN.
 
     Raises ValueError, with the argument's name, for text, None, a bool, a complex number, ..., and
@@ -28,14 +32,14 @@ def doubles(name: str, value) -> np.ndarray:
     raise not_allowed(name, value, allowed)
 
 
-def coordinates(**values) -> list[np.ndarray]:
+def coordinates(**values: Any) -> list[np.ndarray]:
     """Convert named numbers and arrays that broadcast to arrays of one shape, by `doubles`.
 
     Where one of them is not finite, all are NaN. Raises ValueError if shapes do not broadcast.
     """
     arrays = [doubles(name, value) for name, value in values.items()]
     try:
-        arrays = np.broadcast_arrays(*arrays)
+        arrays = [*np.broadcast_arrays(*arrays)]
     except ValueError:
         shapes = ", ".join(str(array.shape) for array in arrays)
         raise ValueError(f"{', '.join(values)} of shapes {shapes} do not broadcast") from None
@@ -43,7 +47,9 @@ def coordinates(**values) -> list[np.ndarray]:
     return arrays if finite.all() else [np.where(finite, array, np.nan) for array in arrays]
 
 
-def number(name: str, value, allowed="one finite number", holds=math.isfinite) -> float:
+def number(
+    name: str, value: Any, allowed: str = "one finite number", holds: Condition = math.isfinite
+) -> float:
     """Convert one finite number for which `holds` is true; `allowed` is the text of the error."""
     try:
         array = doubles(name, value)
@@ -54,19 +60,19 @@ def number(name: str, value, allowed="one finite number", holds=math.isfinite) -
     raise not_allowed(name, value, allowed)
 
 
-def whole_number(name: str, value, least=1) -> int:
+def whole_number(name: str, value: Any, least: int = 1) -> int:
     """Convert one whole number from `least` to 2^53 - 1."""
     allowed = f"a whole number, at least {least} and below 2^53"
     return int(number(name, value, allowed, lambda v: least <= v < _END_OF_COUNTS and v == int(v)))
 
 
-def one_of(name: str, value, words) -> None:
+def one_of(name: str, value: Any, words: Sequence[str]) -> None:
     """Raise ValueError unless the value is one of some words."""
     if not (isinstance(value, str) and value in words):
         raise not_allowed(name, value, " or ".join(map(repr, words)))
 
 
-def state_of(state) -> tuple:
+def state_of(state: Any) -> tuple[Any, ...]:
     """Return x, xdot and udot of a state (x, xdot, udot), or of the last states of a Dataset."""
     if hasattr(state, "data_vars"):
         return _last_state(state)
@@ -78,7 +84,7 @@ def state_of(state) -> tuple:
     return x, xdot, udot
 
 
-def not_allowed(name: str, value, allowed: str) -> ValueError:
+def not_allowed(name: str, value: Any, allowed: str) -> ValueError:
     """Return the ValueError, of one line, for an argument."""
     try:
         text = " ".join(reprlib.repr(value).split())
@@ -87,7 +93,7 @@ def not_allowed(name: str, value, allowed: str) -> ValueError:
     return ValueError(f"{name} = {text} is not allowed: {allowed}")
 
 
-def _converted(value):
+def _converted(value: Any) -> np.ndarray:
     """Convert to an array of doubles; raise TypeError or OverflowError if that is impossible."""
     if hasattr(value, "__array__") and not np.ma.isMaskedArray(value):
         value = np.asarray(value)
@@ -109,7 +115,7 @@ def _converted(value):
     return np.where(mask, np.nan, array) if mask.any() else array
 
 
-def _double(element):
+def _double(element: Any) -> float:
     """Convert one element of an array of objects."""
     if np.ma.is_masked(element):
         return math.nan
@@ -123,7 +129,7 @@ def _double(element):
     return value
 
 
-def _last_state(data):
+def _last_state(data: xr.Dataset) -> tuple[Any, ...]:
     """Return x, xdot and udot of the last state of each orbit in a Dataset."""
     if missing := [name for name in _STATE if name not in data]:
         raise ValueError(f"state: a Dataset without {', '.join(missing)}")

@@ -147,7 +147,7 @@ def scene_manifolds(
     period: int,
     type: str,
     resolution: dict[str, float],
-    branches: dict[str, dict[str, float]] | None = None,
+    branches: dict[str, dict[str, Any]] | None = None,
     point: int | None = None,
     window: dict[str, list[float]] | None = None,
     length: float | None = None,
@@ -168,19 +168,13 @@ def scene_manifolds(
     12
     """
     orbit = of_type(periodic, type, period)
-    extents: dict[str, dict[str, Any]]
     attributes: dict[str, Any] = {}
-    if window is None:
-        lengths = branches or {}
-        extents = {side: {"length": lengths[side]["length"]} for side in sorted(lengths)}
+    if branches is not None:
+        extents = {side: dict(branches[side]) for side in sorted(branches)}
     else:
-        radius = ball.section(energy)[1]
-        centre = {name: float(orbit[name].values[point]) for name in ("x", "xdot")}
-        edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
-        box = (*edges["x"], *edges["xdot"])
-        extents = {side: {"length": length, "window": box} for side in ("inner", "outer")}
-        attributes = {f"window_{name}": edges[name] for name in centre}
-        attributes |= {f"point_{name}": centre[name] for name in centre}
+        attributes = _window_around(orbit.isel(point=point), window, ball.section(energy)[1])
+        shown = {"length": length, "window": attributes["window_x"] + attributes["window_xdot"]}
+        extents = {"inner": shown, "outer": shown}
     lines, rows, total = [], [], 0
     for side, stable, saddle in product(extents, (False, True), range(period)):
         options = {"stable": stable, "side": side} | extents[side] | resolution
@@ -197,3 +191,11 @@ def scene_manifolds(
     whole = xr.concat(lines, "vertex", combine_attrs="override").assign(of_rows(_BRANCHES, rows))
     whole["row_size"].attrs["sample_dimension"] = "vertex"
     return whole.assign_attrs(attributes)
+
+
+def _window_around(point: xr.Dataset, window: Any, radius: float) -> dict[str, Any]:
+    """Return a window's edges around a point, given relative to it, and the point itself."""
+    centre = {name: float(point[name]) for name in ("x", "xdot")}
+    edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
+    attributes: dict[str, Any] = {f"window_{name}": edges[name] for name in centre}
+    return attributes | {f"point_{name}": centre[name] for name in centre}

@@ -1,13 +1,14 @@
 """Motion in time, between the impacts of an orbit."""
 
 import itertools
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.impact_law import impact_coefficients, rebound
+from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import not_allowed, number, state_of
 from .variables import LENGTH, TIME, of_type, states_of, variables
@@ -16,15 +17,27 @@ from .variables import LENGTH, TIME, of_type, states_of, variables
 SAMPLES = 200
 # Flights of a motion; more than 2 million samples cannot be drawn.
 MOST_FLIGHTS = 10_000
+_SAMPLE_NAMES = {
+    "t": ("time", TIME),
+    "position": ("position of the mass centre, downwards", LENGTH),
+    "strain": "strain",
+}
+_IMPACT_NAMES = {
+    "impact_t": ("time of impact", TIME),
+    "impact_position": ("position at impact, downwards", LENGTH),
+}
 
 
-def _flights(ball, state, repeated):
+def _flights(
+    ball: Ball, state: Sequence[Any], repeated: Sequence[tuple[float, ...]]
+) -> Iterator[tuple[Any, ...]]:
     """Yield (x, xdot, udot, tau) of each flight: the repeated ones, or else those from a state."""
     yield from itertools.cycle(repeated)
+    x, xdot, udot = state
     while True:
-        *after, tau = ball.impact(*state)
-        yield (*state, tau)
-        state = after
+        *after, tau = ball.impact(x, xdot, udot)
+        yield x, xdot, udot, tau
+        x, xdot, udot = after
 
 
 def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
@@ -57,10 +70,10 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     7
     """
     duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
-    repeated = ()
+    repeated: list[tuple[float, ...]] = []
     if "point" in getattr(start, "dims", ()):
         columns = (start[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
-        repeated = tuple(zip(*columns, strict=True))
+        repeated = [*zip(*columns, strict=True)]
         start = repeated[0][:3]
     state = ball.on_section(*state_of(start))
     if state[0].shape:
@@ -68,7 +81,9 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     flights = _flights(ball, [float(a) for a in state], repeated)
     following = next(flights)
     coefficients = impact_coefficients(ball.k)
-    columns, impacts, time = [], [], 0.0
+    samples: list[tuple[np.ndarray, ...]] = []
+    impacts: list[tuple[float, float]] = []
+    time = 0.0
     while time <= duration:
         (x, xdot, udot, tau), following = following, next(flights)
         if len(impacts) == MOST_FLIGHTS:
@@ -84,14 +99,10 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
         if time + tau <= duration:
             end = following[0]
             position[-1], strain[-1] = end, -end
-        columns.append((time + t, position, strain))
+        samples.append((time + t, position, strain))
         time += tau
-    position_text = "position of the mass centre, downwards", LENGTH
-    names = {"t": ("time", TIME), "position": position_text, "strain": "strain"}
-    data = variables("sample", np.concatenate(columns, axis=1), names)
-    position_text = "position at impact, downwards", LENGTH
-    names = {"impact_t": ("time of impact", TIME), "impact_position": position_text}
-    return xr.Dataset(data | variables("impact", np.transpose(impacts), names))
+    data = variables("sample", np.concatenate(samples, axis=1), _SAMPLE_NAMES)
+    return xr.Dataset(data | variables("impact", np.transpose(impacts), _IMPACT_NAMES))
 
 
 def scene_motion(

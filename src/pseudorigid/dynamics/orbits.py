@@ -1,15 +1,15 @@
 """Orbits of the impact map, from states or from the starts of a scene."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from .ball import Ball, require_short_flights
+from .ball import Ball, State, require_short_flights
 from .inputs import not_allowed, one_of, state_of, whole_number
-from .starts import start_state, start_variables
-from .variables import attributes_of, orbit_dims, variables
+from .variables import LENGTH, RADIUS, SPEED, Variables, attributes_of, orbit_dims, variables
 
 
 def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset:
@@ -81,7 +81,7 @@ def scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
-    Starts are as in `starts.start_state`. `impacts` is the number of all orbits, or a list.
+    Starts are as in `start_state`. `impacts` is the number of all orbits, or a list.
 
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
@@ -105,3 +105,33 @@ def ragged_orbits(
         attributes_of("number of impacts") | {"sample_dimension": "point"},
     )
     return xr.Dataset(data)
+
+
+def start_state(ball: Ball, energy: float, start: Any) -> State:
+    """Return the state (x, xdot, udot) of a start.
+
+    A start is a fraction of the section's radius along y = 0, from -1 to 1, or a mapping with x and
+    either xdot or y = xdot - k udot. Of two states with this xdot, the one with the larger udot is
+    taken. Raises ValueError for a start off the section.
+    """
+    if not isinstance(start, dict):
+        return ball.start(start, energy)
+    if "y" in start:
+        return ball.state_xy(start["x"], start["y"], energy)
+    return ball.state(start["x"], start["xdot"], energy)
+
+
+def start_variables(starts: Sequence[Any], states: Any) -> Variables:
+    """Return dataset variables on `orbit` for some starts and their states.
+
+    `start` is the fraction, NaN where a start is a point. start_x and start_xdot are present if one
+    is.
+    """
+    fractions = [np.nan if isinstance(start, dict) else start for start in starts]
+    attributes = attributes_of("start along y = 0, in section radii from the centre", RADIUS)
+    data = {"start": ("orbit", np.asarray(fractions, dtype=float), attributes)}
+    if any(isinstance(start, dict) for start in starts):
+        for i, (name, scale) in enumerate((("x", LENGTH), ("xdot", SPEED))):
+            values = np.array([state[i] for state in states], dtype=float)
+            data[f"start_{name}"] = ("orbit", values, attributes_of(f"{name} of the start", scale))
+    return data

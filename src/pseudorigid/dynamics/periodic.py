@@ -6,16 +6,20 @@ on Fix R (y = 0) and returns to it after m impacts, or does so on Fix RP. An orb
 in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
 """
 
+import math
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..kernel.arithmetic import sincos_each
-from ..kernel.impact_law import impact_coefficients, rebound
+from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import number, whole_number
-from .variables import NAMES, TIME, variables
+from .variables import NAMES, TIME, Variables, variables
 
 # Cells into which a symmetry line is divided to find sign changes. For the paper's ball at energies
 # 0.0017, 0.01 and 0.03, ten times as many cells show no further orbit of a period up to 12.
@@ -23,7 +27,6 @@ RESOLUTION = 20_000
 # Distance in section radii below which two points are the same. The error of a solution is smaller,
 # and the cells of the search are wider.
 SAME = 1e-9
-TURN = float.fromhex("0x1.921fb54442d18p+2")  # 2 pi
 # Largest |P^n z - z| of a solution, in section radii: about fifty roundings. If |multiplier| > 50
 # it is multiplied by |multiplier|/50, because the map multiplies the error of z.
 CLOSURE = 1e-14
@@ -75,34 +78,30 @@ def symmetric_orbits(ball: Ball, energy: float, period: int) -> xr.Dataset:
     """
     period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
-    seen, orbits_seen, solved = np.empty((3, 0)), 0, []
-    for line in _lines(ball, energy, period):
-        for state in _solutions(ball, line, period, radius):
-            points = _orbit_from(ball, state, period)
-            others = np.append(seen, points[:3, 1:], axis=1)
-            if np.any(np.all(np.abs(points[:3, :1] - others) < SAME * radius, axis=0)):
-                continue  # the orbit was seen before, or its prime period is a divisor
-            seen = np.append(others, points[:3, :1], axis=1)
-            orbits_seen += 1
-            # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
-            trace = float(np.trace(ball.jacobian(*points[:3, 0], impacts=period)) - 1.0)
-            limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
-            # If the orbit is too sensitive at its first point, begin it at another one.
-            nearest = (_closest(ball, energy, point, period) for point in points[:3].T)
-            first = next((state for state, gap in nearest if gap <= limit), None)
-            if first is not None:
-                solved.append((trace, _orbit_from(ball, first, period)))
+    solved, unsolved = [], 0
+    for seen in _distinct_orbits(ball, energy, period, radius):
+        # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
+        x, xdot, udot, _ = seen[:, 0]
+        trace = float(np.trace(ball.jacobian(x, xdot, udot, period)) - 1.0)
+        limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
+        # If the orbit is too sensitive at its first point, begin it at another one.
+        nearest = (_closest(ball, energy, point, period) for point in seen[:3].T)
+        first = next((state for state, gap in nearest if gap <= limit), None)
+        if first is None:
+            unsolved += 1
+        else:
+            solved.append((trace, _orbit_from(ball, first, period)))
     solved.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
     points = np.array([p for _, p in solved]).reshape(len(solved), 4, period)
     names = NAMES | {"tau": ("time of flight to the next point", TIME)}
     data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
     attrs = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
-    attrs |= {"resolution": RESOLUTION, "unsolved": orbits_seen - len(solved)}
+    attrs |= {"resolution": RESOLUTION, "unsolved": unsolved}
     traces = np.array([t for t, _ in solved])
     return xr.Dataset(data | _stability(traces, points[:, 3]), attrs=attrs)
 
 
-def _stability(traces, tau):
+def _stability(traces: np.ndarray, tau: np.ndarray) -> Variables:
     """Return variables on `orbit` from the traces (n,) and the times of flight (n, period)."""
     kinds = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
     kinds[np.abs(traces) < 2.0] = "elliptic"
@@ -113,36 +112,56 @@ def _stability(traces, tau):
         "total_time": ("sum of the times of flight", TIME),
     }
     values = traces, _multiplier(traces), _rotation_number(traces), tau.sum(axis=1)
-    return variables("orbit", values, names) | {
-        "type": ("orbit", kinds, {"long_name": "type of stability"})
-    }
+    data = variables("orbit", values, names)
+    return data | {"type": ("orbit", kinds, {"long_name": "type of stability"})}
 
 
-def _lines(ball, energy, period):
-    """Yield (states along a line, parameters, defect) of each search; orbits have defect 0."""
+class _Line(NamedTuple):
+    """A symmetry line: states (3, n) at parameters (n,), and a defect that is 0 for orbits."""
+
+    states: Callable[[np.ndarray], np.ndarray]
+    parameters: np.ndarray
+    defect: Callable[..., np.ndarray]
+
+
+def _distinct_orbits(ball: Ball, energy: float, period: int, radius: float) -> Iterator[np.ndarray]:
+    """Yield the points (4, period) of each orbit of this prime period on the symmetry lines."""
+    seen = np.empty((3, 0))
+    for line in _lines(ball, energy, period):
+        for state in _solutions(ball, line, period, radius):
+            points = _orbit_from(ball, state, period)
+            others = np.append(seen, points[:3, 1:], axis=1)
+            if np.any(np.all(np.abs(points[:3, :1] - others) < SAME * radius, axis=0)):
+                continue  # the orbit was seen before, or its prime period is a divisor
+            seen = np.append(others, points[:3, :1], axis=1)
+            yield points
+
+
+def _lines(ball: Ball, energy: float, period: int) -> Iterator[_Line]:
+    """Yield the symmetry lines on which orbits of a period are searched for."""
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
-    def on_r(q):
+    def on_r(q: np.ndarray) -> np.ndarray:
         # A rational parametrization of the circle resolves its ends, where s = 0.
         udot = radius * ((1.0 - q) * (1.0 + q) / (1.0 + q * q)) / np.sqrt(1.0 + k)
         return np.stack((centre + radius * (2.0 * q / (1.0 + q * q)), k * udot, udot))
 
-    def symmetric_flight(x, xdot, udot):
-        """Return b + g tau/2, which is 0 on Fix RP."""
-        _, after, _, tau = ball.impact(x, xdot, udot)
-        return after - 0.5 * g * tau
+    def off_rp(*state: np.ndarray) -> np.ndarray:
+        """Return b + g tau/2, which is 0 on Fix RP, where a flight is symmetric."""
+        _, after, _, tau = ball.impact(*state)
+        return np.asarray(after - 0.5 * g * tau)
 
     # The rim is left out, because a ball there is at rest.
     inside = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
     if period % 2:
-        yield on_r, inside, symmetric_flight
+        yield _Line(on_r, inside, off_rp)
         return
-    yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y is 0 on Fix R
+    yield _Line(on_r, inside, lambda x, xdot, udot: xdot - k * udot)  # y is 0 on Fix R
     longest = radius * np.sqrt(k) / g
     for sign in (1.0, -1.0):
         on_rp = partial(symmetric_flights, ball, energy, sign)
-        yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, symmetric_flight
+        yield _Line(on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, off_rp)
 
 
 def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray) -> np.ndarray:
@@ -163,15 +182,14 @@ def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray)
     return np.where(np.abs(tau - 2.0 * theta) <= 1e-7 * (1.0 + theta), state, np.nan)
 
 
-def _solutions(ball, line, period, radius):
+def _solutions(ball: Ball, line: _Line, period: int, radius: float) -> Iterator[np.ndarray]:
     """Yield the states on one symmetry line that return after `period` impacts."""
-    start, parameters, defect = line
 
-    def value(p):
-        return defect(*ball.after(start(p), period // 2)[:3])
+    def value(p: np.ndarray) -> np.ndarray:
+        return line.defect(*ball.after(line.states(p), period // 2)[:3])
 
-    ends = np.concatenate(_sign_changes(value, parameters))
-    states = start(ends)
+    ends = np.concatenate(_sign_changes(value, line.parameters))
+    states = line.states(ends)
     _, gaps = _gaps(ball, states, period)
     states, gaps = states.reshape(3, 2, -1), gaps.reshape(2, -1)
     for root in range(gaps.shape[1]):
@@ -179,7 +197,9 @@ def _solutions(ball, line, period, radius):
             yield states[:, np.argmin(gaps[:, root]), root]
 
 
-def _sign_changes(value, parameters):
+def _sign_changes(
+    value: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the ends, neighbouring doubles, of sign changes of `value`, NaN off the line."""
     on_line = ~np.isnan(value(parameters))
     low, high = parameters[:-1].copy(), parameters[1:].copy()
@@ -195,7 +215,9 @@ def _sign_changes(value, parameters):
     return _halve(low[change], high[change], lambda p: at_low * value(p) > 0.0)
 
 
-def _halve(low, high, goes_right):
+def _halve(
+    low: np.ndarray, high: np.ndarray, goes_right: Callable[[np.ndarray], np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
     """Bisect intervals (n,) down to neighbouring doubles; goes_right(middle) selects halves."""
     while True:
         middle = 0.5 * (low + high)
@@ -205,13 +227,13 @@ def _halve(low, high, goes_right):
         low, high = np.where(right, middle, low), np.where(right, high, middle)
 
 
-def _gaps(ball, states, period):
+def _gaps(ball: Ball, states: np.ndarray, period: int) -> tuple[np.ndarray, np.ndarray]:
     """Return P^n z, and the largest coordinate of P^n z - z (n,), for states z (3, n)."""
     after = ball.after(states, period)[:3]
     return after, np.max(np.abs(after - states), axis=0)
 
 
-def _closest(ball, energy, state, period):
+def _closest(ball: Ball, energy: float, state: np.ndarray, period: int) -> tuple[np.ndarray, float]:
     """Return the state nearby from which an orbit closes best, and the gap that it leaves."""
     best, least = state, np.inf
     for _ in range(NEWTON_STEPS):
@@ -219,40 +241,42 @@ def _closest(ball, energy, state, period):
         if not gap[0] < least:
             break
         best, least = state, gap[0]
-        (a, b), (c, d) = ball.chart_jacobian(*state, impacts=period)
-        y = state[1] - ball.k * state[2]
-        fx, fy = after[0, 0] - state[0], (after[1, 0] - ball.k * after[2, 0]) - y
+        x, xdot, udot = state
+        (a, b), (c, d) = ball.chart_jacobian(x, xdot, udot, period)
+        y = xdot - ball.k * udot
+        fx, fy = after[0, 0] - x, (after[1, 0] - ball.k * after[2, 0]) - y
         determinant = (a - 1.0) * (d - 1.0) - b * c
         if determinant == 0.0:
             break
         dx = (b * fy - (d - 1.0) * fx) / determinant
         dy = (c * fx - (a - 1.0) * fy) / determinant
         try:
-            state = np.stack(ball.state_xy(state[0] + dx, y + dy, energy))
+            state = np.stack(ball.state_xy(x + dx, y + dy, energy))
         except ValueError:  # off the section
             break
     shift = np.indices((5, 5, 5)).reshape(3, -1) - 2
     near = best[:, None] + shift * np.spacing(best)[:, None]
     near = near[:, near[1] + near[2] >= 0.0]
     _, gaps = _gaps(ball, near, period)
-    return near[:, np.argmin(gaps)], np.min(gaps)
+    return near[:, np.argmin(gaps)], float(np.min(gaps))
 
 
-def _orbit_from(ball, state, period):
+def _orbit_from(ball: Ball, state: np.ndarray, period: int) -> np.ndarray:
     """Return x, xdot, udot and the time of the next flight (4, period) along an orbit."""
     after = ball.history(state, period)[0].T
     return np.vstack((np.column_stack((state, after[:3, :-1])), after[3]))
 
 
-def _multiplier(trace):
+def _multiplier(trace: ArrayLike) -> np.ndarray:
     """Return the eigenvalue of largest modulus at determinant 1, or the modulus, 1, if complex."""
     size = np.maximum(np.abs(trace), 2.0)
     root = np.sqrt((size - 2.0) * (size + 2.0))
     return np.where(size > 2.0, np.copysign(0.5 * (size + root), trace), 1.0)
 
 
-def _rotation_number(traces):
+def _rotation_number(traces: np.ndarray) -> np.ndarray:
     """Return arccos(trace/2)/(2 pi), by bisection on `sincos` for reproducible bits."""
     low, high = np.zeros(traces.size), np.full(traces.size, 0.5)
-    low, high = _halve(low, high, lambda turn: 2.0 * sincos_each(TURN * turn)[1] > traces)
+    turn = 2.0 * math.pi
+    low, high = _halve(low, high, lambda part: 2.0 * sincos_each(turn * part)[1] > traces)
     return np.where(traces <= -2.0, 0.5, 0.5 * (low + high))

@@ -1,15 +1,15 @@
 """Quantities of orbits that users ask for: rotation number, residue and regularity."""
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from ..kernel.tangents import turns_and_growth
 from . import fixed_point
 from .ball import Ball
 from .inputs import not_allowed, state_of, whole_number
-from .rotation import turns_and_growth
 from .variables import attributes_of, orbit_dims, variables
 from .verdict import classify_orbits as follow_until_decided
 
@@ -54,7 +54,8 @@ def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
     >>> round(rotation_number(ball, ball.start(-0.2, 0.01)), 6)
     0.176039
     """
-    states, finite, centre, expected, impacts = _read(ball, state, impacts)
+    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
+    finite, states, centre, expected = _read(ball, state)
     turns = np.full(finite.shape, math.nan)
     turns[finite], _ = turns_and_growth(ball.k, states, centre, expected, impacts)
     return turns if turns.shape else float(turns)
@@ -139,10 +140,11 @@ def classify_orbits(ball: Ball, state: Any, impacts: int = 10_000) -> xr.Dataset
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']
     """
-    states, finite, centre, expected, impacts = _read(ball, state, impacts)
+    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
+    finite, states, centre, expected = _read(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     winding, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
-    if centre.size:
+    if finite.any():
         verdicts = follow_until_decided(ball.k, states, centre, expected, impacts)
         words = np.where(verdicts.regular, "regular", "chaotic")
         types[finite] = np.where(np.isnan(verdicts.growth), "undefined", words)
@@ -164,14 +166,22 @@ def require_default_map(ball: Ball) -> None:
         raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
 
 
-def _read(ball: Ball, state: Any, impacts: int) -> tuple[Any, Any, Any, Any, int]:
-    """Read the finite states, in g R, which these are, and the fixed points at their energies."""
+class _Orbits(NamedTuple):
+    """Orbits of finite states, as `kernel.tangents.begin` takes them."""
+
+    finite: np.ndarray  # which of all states are finite
+    states: tuple[np.ndarray, ...]  # x, xdot, udot in g R
+    centre: np.ndarray  # x of the fixed point at each orbit's energy
+    expected: np.ndarray  # its rotation number
+
+
+def _read(ball: Ball, state: Any) -> _Orbits:
+    """Return the orbits of the finite ones among some states."""
     require_default_map(ball)
-    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
     x, xdot, udot = ball.on_section(*state_of(state))
     finite = np.isfinite(x)
     columns = [np.atleast_1d(a[finite]) for a in (x, xdot, udot)]
     energies, inverse = np.unique(ball.energy(*columns) / ball.g**2, return_inverse=True)
     fixed_points = [fixed_point.numbers(ball.k, energy) for energy in energies.tolist()]
     centre, _, expected = np.array(fixed_points).reshape(-1, 3)[inverse.reshape(-1)].T
-    return tuple(a / ball.g for a in columns), finite, centre, expected, impacts
+    return _Orbits(finite, tuple(a / ball.g for a in columns), centre, expected)

@@ -13,8 +13,11 @@ tests/dynamics/test_regularity.py checks that both criteria agree.
 """
 
 import numpy as np
+import xarray as xr
 
 from ..kernel.arithmetic import log
+from ..kernel.tangents import turns_and_growth
+from .variables import states_of
 
 # Half the threshold still exceeds a regular orbit's 0.85.
 GROWTH_THRESHOLD = 2.2
@@ -27,6 +30,7 @@ WINDING_TOLERANCE = 1e-7
 # Before its end an orbit is called chaotic only if G is larger than this: on a regular orbit G is
 # about ln n after n impacts, 9.7 after 16,000.
 MIN_CHAOTIC_G = 15.0
+_LEAST_IMPACTS = 2000  # behind a verdict on an orbit of a scene
 
 
 def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
@@ -44,3 +48,18 @@ def regular_bound(length: int) -> float:
     room for any other constant of proportionality.
     """
     return 3.0 * log(float(length)) / length
+
+
+def chaotic_orbits(ball: dict[str, float], orbits: xr.Dataset) -> list[int]:
+    """Return the indices of the orbits of a dataset of `scene_orbits` that are chaotic.
+
+    An orbit with few impacts is followed further, since its growth tells little.
+    """
+    sizes, found = orbits["row_size"].values, []
+    states = np.array(states_of(orbits)) / ball["g"]
+    for index, first in enumerate((np.cumsum(sizes) - sizes).tolist()):
+        impacts = max(int(sizes[index]), _LEAST_IMPACTS)
+        _, exponent = turns_and_growth(ball["k"], states[:, [first]], 0.0, np.nan, impacts)
+        if not regular(exponent, impacts)[0]:
+            found.append(index)
+    return found

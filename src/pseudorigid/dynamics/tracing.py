@@ -4,10 +4,14 @@ Where two neighbours are too far apart or the line bends too much, a point is in
 of their parameters u.
 """
 
+import math
+
 import numpy as np
 
 from ..kernel.arithmetic import sincos
-from .branch import POINTS_OF_IMAGE
+from .branch import POINTS_OF_IMAGE, Branch
+
+Window = tuple[float, float, float, float]  # x_low, x_high, xdot_low, xdot_high
 
 # Length of a side, as a share of the largest one, below which its bend is ignored. Without this
 # limit a corner of the line would be refined for ever.
@@ -15,16 +19,17 @@ FINEST = 1e-3
 # Largest side outside a window, in section radii, as for the paper's whole branches.
 COARSE = 0.01
 MOST_VERTICES = 3_000_000
-DEGREE = float.fromhex("0x1.1df46a2529d39p-6")  # pi/180
 
 
-def trace(branch, length, distance, bend, window):
+def trace(
+    branch: Branch, length: float, distance: float, bend: float, window: Window | None
+) -> np.ndarray:
     """Return the polyline (3, n) of a branch, image by image until it is long enough.
 
     The arguments are those of `manifolds.trace_manifold`. The branch's `ended` is set if it ends
     before. Raises ValueError for too many points or images.
     """
-    straight = sincos(bend * DEGREE)[1]
+    straight = sincos(bend * (math.pi / 180.0))[1]
     u, states, travelled = np.empty(0), np.empty((3, 0)), np.zeros(1)
     for image in range(branch.images):
         if branch.weak and not branch.is_accurate(image, u, states):
@@ -60,22 +65,31 @@ def trace(branch, length, distance, bend, window):
     return _pieces(states, keep)
 
 
-def _sides(vertices):
+def _sides(vertices: np.ndarray) -> np.ndarray:
     """Return the lengths of the sides of a polyline."""
     steps = np.diff(vertices, axis=1)
     return np.sqrt(np.sum(steps * steps, axis=0))
 
 
-def _is_jump(u):
+def _is_jump(u: np.ndarray) -> np.ndarray:
     """Return where u cannot be halved further, so that a remaining gap is a jump of the map."""
     middle = 0.5 * (u[:-1] + u[1:])
     return (u[1:] - u[:-1] < 2.0**-40) | (middle == u[:-1]) | (middle == u[1:])
 
 
-def _too_coarse(branch, u, states, distance, straight, window):
+def _too_coarse(
+    branch: Branch,
+    u: np.ndarray,
+    states: np.ndarray,
+    distance: float,
+    straight: float,
+    window: Window | None,
+) -> np.ndarray:
     """Return which sides of the polyline need a point in their middle."""
-    drawn, inside, coarse = states / branch.radius, True, False
-    if window is not None:
+    if window is None:
+        drawn, inside = states / branch.radius, np.ones(u.size - 1, bool)
+        coarse = ~inside
+    else:
         sizes = np.array([window[1] - window[0], window[3] - window[2]])
         drawn = states[:2] / sizes[:, None]
         inside = _meets(states, window, 1.0)
@@ -91,7 +105,7 @@ def _too_coarse(branch, u, states, distance, straight, window):
     return ((fine & inside) | coarse) & ~_is_jump(u)
 
 
-def _meets(states, window, margin):
+def _meets(states: np.ndarray, window: Window, margin: float) -> np.ndarray:
     """Return whether a side's box, widened by `margin` times its longer edge, meets the window."""
     low = np.minimum(states[:2, 1:], states[:2, :-1])
     high = np.maximum(states[:2, 1:], states[:2, :-1])
@@ -100,7 +114,7 @@ def _meets(states, window, margin):
     return np.all((low - widen <= most) & (high + widen >= least), axis=0)
 
 
-def _pieces(states, keep):
+def _pieces(states: np.ndarray, keep: np.ndarray) -> np.ndarray:
     """Return the vertices of the sides to keep, with a row of NaN between separate pieces."""
     ends = np.concatenate([[False], keep]) | np.concatenate([keep, [False]])
     gap = ends[:-1] & ends[1:] & ~keep  # a single dropped side separates two pieces

@@ -1,6 +1,13 @@
 """Names, meanings and dims of variables in datasets of orbits, and selections from them."""
 
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
+
 import numpy as np
+import xarray as xr
+
+Variables = dict[str, tuple[Any, Any, dict[str, str]]]
 
 # Scales, by which numbers in datasets are multiplied. R is the ball's radius, omega the frequency
 # of its vibration and m its mass.
@@ -14,7 +21,7 @@ NAMES = {
 }
 
 
-def variables(dims, values, names=NAMES) -> dict:
+def variables(dims: Any, values: Iterable[Any], names: dict[str, Any] = NAMES) -> Variables:
     """Return Dataset variables {name: (dims, array, attributes)} that share their dims.
 
     `names` has, in the order of `values`, the meaning of each name, or (meaning, scale).
@@ -24,7 +31,7 @@ def variables(dims, values, names=NAMES) -> dict:
     return described({name: (dims, array, *text) for (name, text), array in pairs})
 
 
-def described(table) -> dict:
+def described(table: dict[str, tuple[Any, ...]]) -> Variables:
     """Return Dataset variables {name: (dims, array, attributes)} from a table.
 
     `table` is {name: (dims, values, meaning[, scale])}. Values are dimensionless numbers or words.
@@ -38,12 +45,12 @@ def described(table) -> dict:
     return result
 
 
-def attributes_of(meaning: str, scale: str = "1") -> dict:
+def attributes_of(meaning: str, scale: str = "1") -> dict[str, str]:
     """Return long_name, units and scale: a variable's quantity is the number times the scale."""
     return {"long_name": meaning, "units": "1", "scale": scale}
 
 
-def of_rows(table, rows) -> dict:
+def of_rows(table: dict[str, tuple[Any, ...]], rows: Iterable[Sequence[Any]]) -> Variables:
     """Return Dataset variables from rows of values in the order of `table`.
 
     `table` is {name: (dims, meaning[, scale])}; the first dim counts the rows.
@@ -52,17 +59,23 @@ def of_rows(table, rows) -> dict:
     return described({name: (dims, column, *text) for (name, (dims, *text)), column in columns})
 
 
-def states_of(dataset) -> np.ndarray:
+def states_of(dataset: xr.Dataset) -> np.ndarray:
     """Return the states of a dataset as an array with the rows x, xdot, udot."""
     return np.stack([dataset[name].values for name in ("x", "xdot", "udot")])
 
 
-def chart(k, x, xdot, udot) -> np.ndarray:
+def rows(dataset: xr.Dataset) -> list[slice]:
+    """Return a slice for each row of a CF contiguous ragged array, from its `row_size`."""
+    ends = [0, *np.cumsum(dataset["row_size"].values, dtype=np.int64).tolist()]
+    return [slice(start, end) for start, end in pairwise(ends)]
+
+
+def chart(k: float, x: Any, xdot: Any, udot: Any) -> np.ndarray:
     """Return the points (x, y = xdot - k udot) of states as an array (2, ...)."""
     return np.stack([x, xdot - k * udot])
 
 
-def orbit_dims(shape) -> tuple[str, ...]:
+def orbit_dims(shape: tuple[int, ...]) -> tuple[str, ...]:
     """Return the dim `orbit` of many orbits, or orbit_0, orbit_1, ... for more dimensions."""
     return ("orbit",) if len(shape) == 1 else tuple(f"orbit_{i}" for i in range(len(shape)))
 
@@ -73,7 +86,7 @@ class NoOrbitError(ValueError):
     lasting = True
 
 
-def of_type(orbits, kind, period=None):
+def of_type(orbits: xr.Dataset, kind: str, period: int | None = None) -> xr.Dataset:
     """Return the first orbit of a type, on `point`, among those of `symmetric_orbits`.
 
     Raises NoOrbitError if there is none, and ValueError if the orbits have another period.
@@ -90,7 +103,7 @@ def of_type(orbits, kind, period=None):
     return orbits.isel(orbit=int(matches[0]))
 
 
-def final_exponents(lyapunov) -> np.ndarray:
+def final_exponents(lyapunov: xr.Dataset) -> np.ndarray:
     """Return exponents (orbit, index) at each orbit's last record before NaN, the largest first."""
     exponent = lyapunov["exponent"].values
     recorded = ~np.isnan(exponent[:, :, 0])

@@ -2,8 +2,8 @@
 
 All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
 on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
-vector (`analyses.regularity`), and the difference between the winding numbers of the two halves,
-which are weighted Birkhoff averages as in `analyses.rotation`.
+vector (`regularity`), and the difference between the winding numbers of the two halves, which are
+weighted Birkhoff averages (`kernel.tangents.propagate_with_tangent`).
 
 Before the end an orbit is regular if its growth is below half of GROWTH_THRESHOLD and its winding
 numbers agree to WINDING_TOLERANCE. It is chaotic if its growth is above twice GROWTH_THRESHOLD and
@@ -13,11 +13,12 @@ the map has no derivative, is not regular.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
+from ..kernel.tangents import SIZE, begin, propagate_with_tangent, weight
 from .regularity import GROWTH_THRESHOLD, MARGIN_FACTOR, MIN_CHAOTIC_G, WINDING_TOLERANCE
-from .tangent_orbits import SIZE, begin, propagate_with_tangent, weight
 
 FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
 # Verdict on an orbit and what it rests on. `strict` and `lenient` are the verdicts with half and
@@ -34,14 +35,16 @@ VERDICT = [
 
 
 def lengths_to_decide(impacts: int) -> list[int]:
-    """Lengths at which orbits are classified, the last one `impacts`."""
+    """Return the lengths at which orbits are classified, the last one `impacts`."""
     lengths = [FIRST_LENGTH]
     while lengths[-1] < impacts:
         lengths.append(2 * lengths[-1])
     return [*lengths[:-1], impacts]
 
 
-def classify_orbits(k, states, centre, expected, impacts) -> np.recarray:
+def classify_orbits(
+    k: float, states: Any, centre: np.ndarray, expected: np.ndarray, impacts: int
+) -> np.recarray:
     """Follow orbits for at most `impacts` impacts, at least 4, and return their VERDICT (n,).
 
     `states` are x, v, w (n,) just before an impact, lengths in g R. `centre` (n,) is the x of the
@@ -98,7 +101,9 @@ def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
     return np.array(turning), np.array(growing)
 
 
-def means(turning, growing, turned, growth) -> tuple[np.ndarray, np.ndarray]:
+def means(
+    turning: np.ndarray, growing: np.ndarray, turned: np.ndarray, growth: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
     weights = np.array([[weight(length)] for _, length in turning])
     late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]

@@ -3,18 +3,86 @@
 All functions are compiled. A state is (x, v, w), that is (x, xdot, udot) just before an impact, and
 `coefficients` are `impact_coefficients` of k. `root_finder` selects, when a function is compiled,
 how the next impact is found: None for `flight.first_impact`, (step, tolerance) in 1/omega for
-`scan.scanned_impact`. Loops return how many impacts the scan missed. The arrays x, v, w have the
-shape (n,), and a loop gives each state the bits that it has alone.
+`scanned_impact`. Loops return how many impacts the scan missed. The arrays x, v, w have the shape
+(n,), and a loop gives each state the bits that it has alone.
+
+The scan reads the paper's "variant of the bisection method", for which it gives no step, and serves
+only for comparison. It can step over an impact; the ball then passes through the floor, and its
+energy does not show it. Every flight is therefore also computed by `flight.first_impact`, and late
+impacts are counted.
 """
 
-from . import impact_law
-from .arithmetic import quadrant, quarter_turns
+import math
+
+from . import formulas
+from .arithmetic import quadrant, quarter_turns, sincos
 from .compiled import jit
 from .flight import first_impact
-from .scan import scanned_impact
 
-impact_coefficients = jit(impact_law.impact_coefficients)
-rebound = jit(impact_law.rebound)
+# Steps after which a scan gives up. A flight takes about 3 time units, or 3e7 steps of 1e-7.
+MOST_SCAN_STEPS = 50_000_000
+# Time beyond the tolerance by which a scan's impact is late if an earlier one was missed. Where the
+# ball almost touches the floor, the first impact is only known to the root of a rounding, 1e-8.
+_TOUCH = 1e-6
+
+impact_coefficients = jit(formulas.impact_coefficients)
+rebound = jit(formulas.rebound)
+
+
+@jit
+def _gap(t, x, b, c, g):
+    """Return f(t), eq. (21), with its terms as in the paper."""
+    sine, cosine = sincos(t)
+    return (x + t * (b + 0.5 * g * t)) + (c * sine - x * cosine)
+
+
+@jit
+def scan(x, b, c, g, step, tolerance):
+    """Find the next impact by steps and bisection, without a guarantee that it is the first.
+
+    Bisection ends with a bracket no longer than the tolerance or of neighbouring doubles. Returns
+    its middle and the evaluations of the gap. The time is NaN for input that is not finite, and if
+    the gap keeps its sign over MOST_SCAN_STEPS steps.
+    """
+    if not abs(x) + abs(b) + abs(c) + g < math.inf:
+        return math.nan, 0
+    low = 0.0
+    high = 0.0
+    count = 0
+    while True:
+        count += 1
+        high = count * step
+        if _gap(high, x, b, c, g) > 0.0:
+            break
+        low = high
+        if not count < MOST_SCAN_STEPS:
+            return math.nan, count
+    while high - low > tolerance:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        count += 1
+        if _gap(middle, x, b, c, g) > 0.0:
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high), count
+
+
+@jit
+def scanned_impact(x, b, c, s, g, root_finder):
+    """Return the scan's tau, position and udot, and 1 if it missed an earlier impact, else 0.
+
+    `root_finder` is (step, tolerance) in 1/omega. Raises ArithmeticError if no impact is found.
+    """
+    step, tolerance = root_finder
+    tau, count = scan(x, b, c, g, step, tolerance)
+    if math.isnan(tau) and count:
+        raise ArithmeticError("the scan for the next impact does not end")
+    first, _, _, _ = first_impact(x, b, c, s, g)
+    sine, cosine = sincos(tau)
+    missed = 1 if tau > first + tolerance + _TOUCH else 0
+    return tau, x * cosine - c * sine, x * sine + c * cosine, missed
 
 
 @jit

@@ -46,13 +46,13 @@ X0, B, C, S, A, T, RISE, RATE, FREE, LANDING, LOW, HIGH, F, DF, DDF, P, Q, STEP 
 )
 # Rows of decisions: 1 where the flight ends, and the state and the time of flight there; the next
 # time of the march and 1 if `_march` is enough to find it; and one of three cases.
-ENDS, P1, V1, Q1, TAU1, AHEAD, MARCHES, ODD = (i * LANES for i in range(22, 30))
+ENDS, P1, V1, Q1, TAU1, AHEAD, MARCHES, CASE = (i * LANES for i in range(22, 30))
 SIZE = 30 * LANES
 # `impact.step` does flights of more rounds than this, and flights whose time or contact speed is
 # below _TINY, near the rounding of numbers of order one.
 _MOST_ROUNDS = 50
 _TINY = 1e-15
-# Values of ODD: the common case, a lane for `_step_alone`, and a lane whose next step of the march
+# Values of CASE: the common case, a lane for `_step_alone`, and a lane whose next step of the march
 # is longer than `_march` finds.
 _PLAIN, _ALONE, _LONG = 0.0, 1.0, 2.0
 
@@ -156,22 +156,26 @@ def _march(lanes, n, g):
 
 @jit
 def _choose(lanes, n):
-    """Choose the next time of n lanes, and return 0 if every lane is in the common case."""
+    """Choose the next time of n lanes, and return 0 if every lane is in the common case.
+
+    A lane that lands steps to its root, by the series or else by Newton's method; any other lane
+    takes the step of the march.
+    """
     exceptions = 0
     for i in range(n):
         f, df, ddf, p, q = lanes[F + i], lanes[DF + i], lanes[DDF + i], lanes[P + i], lanes[Q + i]
         t, h, ahead = lanes[T + i], lanes[STEP + i], lanes[AHEAD + i]
         landing, low, high = lanes[LANDING + i] != 0.0, lanes[LOW + i], lanes[HIGH + i]
         marches = lanes[MARCHES + i] != 0.0
-        far = newton(f, df, ddf, p, q)
-        after = t + (far if math.isnan(h) else h)
-        lands = (df > 0.0) & (f != 0.0) & (low < after) & (after < high) & (after != t)
-        following = after if landing else ahead
-        plain = (lands if landing else marches) & (following > _TINY) & (following < WIDE)
-        odd = _ALONE if landing | (not t < WIDE) else _LONG
-        odd = _PLAIN if plain else odd
-        lanes[T + i], lanes[ODD + i] = following if plain else t, odd
-        exceptions += int(odd)
+        newton_step = newton(f, df, ddf, p, q)
+        root = t + (newton_step if math.isnan(h) else h)
+        lands = (df > 0.0) & (f != 0.0) & (low < root) & (root < high) & (root != t)
+        after = root if landing else ahead
+        plain = (lands if landing else marches) & (after > _TINY) & (after < WIDE)
+        case = _ALONE if landing | (not t < WIDE) else _LONG
+        case = _PLAIN if plain else case
+        lanes[T + i], lanes[CASE + i] = after if plain else t, case
+        exceptions += int(case)
     return exceptions
 
 
@@ -212,8 +216,8 @@ def advance(lanes, orbit, n, k, g, coefficients):
         _march(lanes, n, g)
         if _choose(lanes, n) > 0:
             for i in range(n):
-                odd = lanes[ODD + i]
-                if odd == _ALONE or (odd == _LONG and not _stride_alone(lanes, i, g)):
+                case = lanes[CASE + i]
+                if case == _ALONE or (case == _LONG and not _stride_alone(lanes, i, g)):
                     _step_alone(lanes, orbit, i, k, g, coefficients)
     for i in range(n):
         if not math.isnan(lanes[T + i]):

@@ -1,15 +1,25 @@
-"""One step of Benettin's method, for a frame of three tangent vectors.
+"""Benettin's method: Lyapunov exponents from a frame of three tangent vectors.
 
 The analytic Jacobian, eq. (33), carries the frame over an impact, and Gram and Schmidt's method
 makes it orthonormal again. The lengths are multiplied, and their logarithms are added to sums only
 where a product nears the limits of a double, and at the end.
+
+`exponents_of_orbit` and `exponents_of_group` write the exponents after each of the impacts `at`
+(m,) to `out`, (m, 3) or (n, m, 3), and return how many impacts were missed, as in `impact`.
 """
 
 import math
 
+import numpy as np
+
 from .arithmetic import log
 from .compiled import jit
-from .impact import tangent
+from .impact import impact_coefficients, step_with_flight, tangent
+from .tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
+
+# Offsets of each orbit's frame, three vectors, and the products of their lengths; rows as in
+# `tangents`.
+_A, _B, _C, _GROWN, _SIZE = (3 * i * GROUP for i in range(5))
 
 
 @jit
@@ -66,3 +76,94 @@ def push_frame(a, b, c, lengths, sums, k, g, coefficients, p, q, sine, cosine, t
         sums = with_logarithms(sums, lengths)
         lengths = 1.0, 1.0, 1.0
     return a, b, c, lengths, sums
+
+
+@jit
+def _advance(frames, n, k, g, coefficients, states, flights, row):
+    """Carry the frames of n orbits over an impact, and make them orthonormal.
+
+    Return whether one of the products of lengths nears the limits of a double.
+    """
+    extremes = 0
+    row = max(row, 0)  # LLVM vectorises the loop only if no index can be negative
+    for i in range(n):
+        at = row + i
+        a0, a1, a2 = frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i]
+        b0, b1, b2 = frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i]
+        c0, c1, c2 = frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i]
+        p0, q0, r0 = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
+        p, q, r, a, b, c = orthonormal(
+            push_tangent(a0, a1, a2, k, g, coefficients, states, flights, at),
+            push_tangent(b0, b1, b2, k, g, coefficients, states, flights, at),
+            push_tangent(c0, c1, c2, k, g, coefficients, states, flights, at),
+        )
+        a0, a1, a2 = a
+        b0, b1, b2 = b
+        c0, c1, c2 = c
+        p, q, r = p0 * p, q0 * q, r0 * r
+        frames[_A + i], frames[_A + GROUP + i], frames[_A + 2 * GROUP + i] = a0, a1, a2
+        frames[_B + i], frames[_B + GROUP + i], frames[_B + 2 * GROUP + i] = b0, b1, b2
+        frames[_C + i], frames[_C + GROUP + i], frames[_C + 2 * GROUP + i] = c0, c1, c2
+        frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i] = p, q, r
+        extremes += 0 if in_range(p) & in_range(q) & in_range(r) else 1
+    return extremes > 0
+
+
+@jit
+def exponents_of_orbit(x, v, w, k, g, at, out, root_finder):
+    """Compute the exponents of one orbit; its frame stays in the processor's registers."""
+    coefficients = impact_coefficients(k)
+    a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    sums, lengths = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    missed, done = 0, 0
+    for m in range(at.size):
+        while done < at[m]:
+            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
+                x, v, w, k, g, coefficients, root_finder
+            )
+            a, b, c, lengths, sums = push_frame(
+                a, b, c, lengths, sums, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c
+            )
+            missed += late
+            done += 1
+        sums, lengths = with_logarithms(sums, lengths), (1.0, 1.0, 1.0)
+        for j in range(3):
+            out[m, j] = sums[j] / done
+    return missed
+
+
+@jit
+def exponents_of_group(x, v, w, k, g, at, out, root_finder):
+    """Compute the exponents of at most GROUP orbits."""
+    n = x.size
+    missed, done = 0, 0
+    coefficients = impact_coefficients(k)
+    states, flights = allocate_buffers()
+    frames, total = np.zeros(_SIZE), np.zeros((3, n))
+    for i in range(n):
+        frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
+        frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
+    for m in range(at.size):
+        while done < at[m]:
+            impacts = min(CHUNK, at[m] - done)
+            missed += advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder)
+            for row in range(0, impacts * GROUP, GROUP):
+                if _advance(frames, n, k, g, coefficients, states, flights, row):
+                    _collect(total, frames, n, False)
+            done += impacts
+        _collect(total, frames, n, True)
+        for i in range(n):
+            for j in range(3):
+                out[i, m, j] = total[j, i] / done
+    return missed
+
+
+@jit
+def _collect(total, frames, n, every):
+    """Add the logarithms of lengths to the sums of every orbit, or of those with an extreme one."""
+    for i in range(n):
+        p, q, r = frames[_GROWN + i], frames[_GROWN + GROUP + i], frames[_GROWN + 2 * GROUP + i]
+        if every or not (in_range(p) and in_range(q) and in_range(r)):
+            for m in range(3):
+                total[m, i] += log(frames[_GROWN + m * GROUP + i])
+                frames[_GROWN + m * GROUP + i] = 1.0

@@ -17,7 +17,7 @@ import numpy as np
 from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.kernel.scan import MOST, scan
+from pseudorigid.kernel.impact import MOST_SCAN_STEPS, scan
 
 MARCH, SCAN, ENGINE = 0, 1, 2
 
@@ -35,7 +35,7 @@ def _engine(x, b, c, g, step):
         strain += step * w
         if position + strain >= 0.0 and v + w >= 0.0:
             return count * step, position, v, w, count
-        if not count < MOST:
+        if not count < MOST_SCAN_STEPS:
             return math.nan, position, v, w, count
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pseudorigid.kernel.impact_law import impact_coefficients, rebound
+from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 # Time after the impact at which integration starts, on the exact flight: event detection looks for
 # a change of sign, and the gap is 0 at the impact itself. No flight is as short as this.

@@ -9,7 +9,8 @@ from content import content_hash
 
 from extensions.atlas import blocks, cell, grid
 from pseudorigid import Ball, lyapunov_spectrum
-from pseudorigid.dynamics import fixed_point, tangent_orbits
+from pseudorigid.dynamics import fixed_point
+from pseudorigid.kernel import tangents
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 40, "impacts": 1000, "block": 2}
 
@@ -38,9 +39,9 @@ def test_the_rotation_number_and_its_resonances():
 def test_the_angle_is_that_of_atan2():
     rng = np.random.default_rng(3)
     for a, b in [*rng.normal(size=(2000, 2)), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1)]:
-        angle = tangent_orbits.angle(float(a), float(b))
+        angle = tangents.angle(float(a), float(b))
         assert angle == pytest.approx(math.atan2(b, a), abs=1e-14)
-    assert tangent_orbits.angle(0.0, 0.0) == 0.0
+    assert tangents.angle(0.0, 0.0) == 0.0
 
 
 def test_starts_are_even_in_area_and_have_the_energy():

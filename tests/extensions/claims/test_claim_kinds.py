@@ -16,8 +16,8 @@ from extensions.proofs.theorems import scenes
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.render import pixels, render
 
 SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}

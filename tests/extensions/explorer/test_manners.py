@@ -18,7 +18,7 @@ from selenium.webdriver import Keys
 
 from pipeline import config
 from pseudorigid import Ball
-from pseudorigid.dynamics.starts import start_state
+from pseudorigid.dynamics.orbits import start_state
 
 pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01

@@ -11,7 +11,7 @@ from extensions.families import chains
 from extensions.families.continuation import loci
 from extensions.families.continuation.half_orbit import B
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.figures.canvas.ragged_rows import rows
+from pseudorigid.dynamics.variables import rows
 
 PLANE = {
     "k": [0.14, 0.2, 0.26, 0.33],

@@ -9,8 +9,7 @@ from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import Panel, Window, corner, letters, log10, title, upright
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import pieces
-from pseudorigid.figures.canvas.sheet import POINT, Sheet
+from pseudorigid.figures.canvas.sheet import POINT, Sheet, pieces
 
 from . import raster
 

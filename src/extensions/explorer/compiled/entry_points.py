@@ -7,9 +7,9 @@ They take doubles, 32-bit counts, and addresses in the module's memory. k, g and
 from numba import carray, int64
 from numba.extending import register_jitable
 
-from pseudorigid.kernel import arithmetic, impact, lanes, section, spectrum
+from pseudorigid.kernel import arithmetic, formulas, impact, lanes, spectrum
 
-for _formula in (section.radius_squared, section.contact_speed_squared):
+for _formula in (formulas.radius_squared, formulas.contact_speed_squared):
     register_jitable(_formula)  # the states on the section call them
 
 
@@ -90,7 +90,7 @@ ENTRY_POINTS = {
     impact.impact_coefficients: "f8,",
     impact.rebound: "f8, f8, f8, UniTuple(f8, 2)",
     impact.reflect: "f8, f8, f8, f8, UniTuple(f8, 2)",
-    section.start: "f8, f8, f8, f8",
-    section.chart_state: "f8, f8, f8, f8, f8",
+    formulas.start: "f8, f8, f8, f8",
+    formulas.chart_state: "f8, f8, f8, f8, f8",
     elementary: "f8,",
 }

@@ -1,7 +1,7 @@
 "use strict";
 /*
  * What the page finds out about orbits, in the worker. The formulas are those of the package
- * pseudorigid: analyses/regularity.py, analyses/rotation.py and dynamics/tangent_orbits.py (facts of
+ * pseudorigid: analyses/regularity.py, analyses/rotation.py and kernel/tangents.py (facts of
  * an orbit), dynamics/periodic.py, dynamics/branch.py with dynamics/tracing.py, analyses/jumps.py.
  * The impacts come from the kernel, bit for bit; sums here may differ in the last digits.
  */

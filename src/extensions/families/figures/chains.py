@@ -4,8 +4,8 @@ from itertools import cycle
 
 from extensions.atlas.figures import atlas, raster
 from extensions.atlas.figures.atlas import LEFT
+from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import rows
 
 _SIZE = 6.0  # points: text beside lines
 BOTTOM = 395  # pixels below the frame

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import around, inside, linear
 from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 125, 1000  # pixels

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from pseudorigid.kernel import impact_law
+from pseudorigid.kernel import formulas
 
 # Dimensional: radius, mass, inertia, stiffness EV0, gravity, time.
 R, M, E0, EV0, GRAVITY, T = sp.symbols("R m E_0 E_V gamma t", positive=True)
@@ -29,7 +29,7 @@ def zero(*expressions: sp.Expr) -> bool:
 
 def rebound(v, w):
     """Velocities b, c after an impact, by the code's own law on symbols."""
-    return impact_law.rebound(v, w, k, (2 / (1 + k), 0))[:2]
+    return formulas.rebound(v, w, k, (2 / (1 + k), 0))[:2]
 
 
 def flight(x, b, c, t):

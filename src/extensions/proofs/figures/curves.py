@@ -5,7 +5,7 @@ import numpy as np
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.panel import key
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import runs
+from pseudorigid.figures.canvas.sheet import runs
 
 _HATCH = 400  # lines of the shading across the section
 _SHADE = "#f0c3a6"

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from pseudorigid.dynamics.variables import chart, states_of
+from pseudorigid.dynamics.variables import chart, rows, states_of
 from pseudorigid.figures.axes.limits import complete, inside, of_data, refuse_empty
 from pseudorigid.figures.axes.panel import Axis, Window, corner, key, letters
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.ragged_rows import rows
 from pseudorigid.figures.canvas.sheet import Sheet
 
 _HIGH = 1500  # pixels

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.starts import start_state
+from pseudorigid.dynamics.orbits import start_state
 from pseudorigid.dynamics.variables import states_of
 from study.enclosure.surface import Exact
 from study.reference_solver import impact_errors

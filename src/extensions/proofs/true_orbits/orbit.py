@@ -12,8 +12,7 @@ from flint import ctx
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.inputs import whole_number
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-from pseudorigid.dynamics.orbits import ragged_orbits
-from pseudorigid.dynamics.starts import start_state
+from pseudorigid.dynamics.orbits import ragged_orbits, start_state
 from pseudorigid.dynamics.variables import attributes_of, variables
 from pseudorigid.kernel.arithmetic import log
 from study.enclosure.flight import UndecidedError

@@ -55,6 +55,6 @@ class Start:
         return x, xdot - k * udot
 
     def floats(self) -> float | dict[str, float]:
-        """Return the start in the form that `dynamics.starts.start_state` takes."""
+        """Return the start in the form that `dynamics.orbits.start_state` takes."""
         numbers = {name: float(value) for name, value in self.numbers.items()}
         return numbers.get("start", numbers)

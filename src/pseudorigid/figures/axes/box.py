@@ -1,14 +1,27 @@
 """A three-dimensional box with panes, axes and the opaque energy surface."""
 
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from ..canvas import style
-from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, Sheet, width
+from ..canvas.sheet import POINT, Sheet, pieces, width
 from .limits import inside, refuse_empty
-from .occluding_ellipsoid import OccludingEllipsoid
-from .panel import key
-from .projection import Projection
+from .panel import Entry, key
+from .view import OccludingEllipsoid, Projection
+
+Step = tuple[float, float]  # on the sheet, across and up
+
+
+class _Label(NamedTuple):
+    at: list[float]  # its tick, or the middle of its axis, in the box
+    step: Step  # unit vector from there to the label
+    reach: float  # points from there to the label
+    text: str
+    size: float
+
 
 _WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
@@ -23,71 +36,76 @@ class Box:
 
     What lies behind the surface is not drawn. The scene has `axes` with limits and ticks of x, xdot
     and udot; `view` with elevation (between 0 and 90) and azimuth; `energy` and `ball`, which are
-    written above the box. `entries` are those of `panel.key`. Raises ValueError, one line, if
-    there are states `shown` (3, n) that the axes or the surface all hide.
+    written above the box. `entries` are those of `panel.key`. Points are arrays (3, n). Raises
+    ValueError, one line, if there are points `shown` that the axes or the surface all hide.
     """
 
-    def __init__(self, scene, entries=(), shown=None):
+    def __init__(
+        self, scene: dict[str, Any], entries: Sequence[Entry] = (), shown: np.ndarray | None = None
+    ) -> None:
         self.spans = [scene["axes"][name]["limits"] for name in style.NAMES]
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
         self.view = Projection(self.spans, scene["view"])
         self.surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
         if shown is not None:
             refuse_empty(scene["axes"], dict(zip(style.NAMES, shown, strict=True)))
-            if not self.seen(*shown).any():
+            if not self.seen(shown).any():
                 hides = "the energy surface hides all that is drawn"
                 raise ValueError(f"view {scene['view']}: {hides}")
-        if self.seen(*self.surface.rim()).any():
+        if self.seen(self.surface.rim()).any():
             entries = [*entries, ("grazing rim", style.RIM, "", False, _RIM)]
-        text = style.setting(scene)
-        wide = [7 * POINT + width(name, _SIZE) + _BETWEEN for name, *_ in entries]
-        left, row = _LEFT + width(text, _SIZE) + _BETWEEN, 0
-        if left + sum(wide) > _WIDE:
-            left, row = _LEFT, 1
-        self.sheet = self._fit(1 + row)
-        self.ticks = [self._apart(along) for along in range(3)]
-        self.figure = self.sheet.figure
-        top = self.sheet.high - (4 + _ROW / 2) * POINT
-        self.sheet.text(_LEFT - 8, top, text, size=_SIZE)
-        for entry, space in zip(entries, wide, strict=True):
-            key(self.sheet, [entry], top - row * _ROW * POINT, 1, left, size=_SIZE)
-            left += space
+        self._lay_out(style.setting(scene), entries)
         self._panes()
         self._edges()
-        self.line(*self.surface.outline(self.view), style.PANE, 0.6)
-        self.line(*self.surface.rim(), style.RIM, _RIM)
+        self.line(self.surface.outline(self.view), style.PANE, 0.6)
+        self.line(self.surface.rim(), style.RIM, _RIM)
 
-    def points(self, x, y, z, color, size, **line_style):
+    def points(self, points: np.ndarray, color: str, size: float, **line_style: Any) -> None:
         """Draw opaque dots of `size` points across, in the order given."""
-        visible = self.seen(x, y, z)
-        across, up = self.view(x[visible], y[visible], z[visible])
+        across, up = self.view(points[:, self.seen(points)])
         line_style = {"mew": 0, "marker": "o"} | line_style
         self.sheet.draw(across, up, ls="none", ms=size, color=color, **line_style)
 
-    def line(self, x, y, z, color, width):
+    def line(self, points: np.ndarray, color: str, width: float) -> None:
         """Draw a line of `width` points, broken where a coordinate is NaN."""
-        x = np.where(self.seen(x, y, z), x, np.nan)
-        for piece in pieces(*self.view(x, y, z)):
+        across, up = self.view(points)
+        for piece in pieces(np.where(self.seen(points), across, np.nan), up):
             self.sheet.draw(*piece, lw=width, color=color)
 
-    def seen(self, x, y, z):
+    def seen(self, points: np.ndarray) -> np.ndarray:
         """Return whether each point lies in the box and the surface in the box does not hide it."""
-        visible = inside(self.spans, (x, y, z))
-        for front in self.surface.before(self.view.eye, x, y, z):
-            visible &= ~(inside(self.spans, front) & self.surface.has(*front))
+        visible = inside(self.spans, points)
+        for front in self.surface.before(self.view.eye, points):
+            visible &= ~(inside(self.spans, front) & self.surface.has(front))
         return visible
 
-    def _fit(self, rows):
+    def _lay_out(self, setting: str, entries: Sequence[Entry]) -> None:
+        """Make a sheet that fits the box, and write the setting and a key of one row above it."""
+        widths = [7 * POINT + width(name, _SIZE) + _BETWEEN for name, *_ in entries]
+        left, row = _LEFT + width(setting, _SIZE) + _BETWEEN, 0
+        if left + sum(widths) > _WIDE:
+            left, row = _LEFT, 1
+        self.sheet = self._fit(1 + row)
+        self.figure = self.sheet.figure
+        self.ticks = [self._apart(along) for along in range(3)]
+        top = self.sheet.high - (4 + _ROW / 2) * POINT
+        self.sheet.text(_LEFT - 8, top, setting, size=_SIZE)
+        for entry, space in zip(entries, widths, strict=True):
+            key(self.sheet, [entry], top - row * _ROW * POINT, 1, left, size=_SIZE)
+            left += space
+
+    def _fit(self, rows: int) -> Sheet:
         """Place the box on a sheet with room for labels and `rows` of the key; return the sheet."""
         left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
         right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
         inner = _WIDE - (left + right) * POINT
-        inner_high = float(self.view.place(left * POINT, 0, inner))
+        inner_high = self.view.place(left * POINT, 0, inner)
         # A hanging label reaches down by its height, another one by half of that.
         edges = [0.0, inner_high]
-        for at, step, reach, _, size in self._labels():
-            middle = self.view(*at)[1] + step[1] * reach * POINT
-            edges += [middle - 1.5 * size * POINT, middle + 1.5 * size * POINT * (step[1] > 0.5)]
+        for label in self._labels():
+            _, middle = self._place(label)
+            hangs, size = label.step[1] > 0.5, 1.5 * label.size * POINT
+            edges += [middle - size, middle + size * hangs]
         bottom, top = 4 * POINT - min(edges), (10 + rows * _ROW) * POINT
         needed = bottom + max(edges) + top
         high = 75 * int(np.ceil(needed / 75))
@@ -95,27 +113,26 @@ class Box:
         self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
 
-    def _apart(self, along):
+    def _apart(self, along: int) -> list[float]:
         """Return every n-th tick of an axis, so that no label covers the next one."""
         ticks = self.ticks[along]
-        right, up = (
-            abs(part[along]) * self.view.scale / POINT for part in (self.view.right, self.view.up)
-        )
+        right = abs(self.view.right[along]) * self.view.scale / POINT
+        up = abs(self.view.up[along]) * self.view.scale / POINT
         for every in range(1, len(ticks)):
             step = ticks[every] - ticks[0]
             if step * up > _SIZE or step * right > _SIZE * (_ems(ticks) + 0.3):
                 return ticks[::every]
         return ticks[:1]
 
-    def _edge(self, start, along, color, width):
+    def _edge(self, start: list[float], along: int, color: str, width: float) -> None:
         """Draw the line of the box through `start` in the direction of one axis."""
         low, high = self.spans[along]
-        vertices = np.array([start] * (_SIDES + 1), dtype=float)
-        vertices[:, along] = low + (high - low) * np.arange(_SIDES + 1) / _SIDES
-        vertices[-1, along] = high
-        self.line(*vertices.T, color, width)
+        vertices = np.array([start] * (_SIDES + 1), dtype=float).T
+        vertices[along] = low + (high - low) * np.arange(_SIDES + 1) / _SIDES
+        vertices[along, -1] = high
+        self.line(vertices, color, width)
 
-    def _panes(self):
+    def _panes(self) -> None:
         """Draw the three panes behind the data: their grid lines, then their outlines."""
         # The pane behind the data is the one whose outward normal points away from the eye.
         back = [span[eye <= 0] for span, eye in zip(self.spans, self.view.eye, strict=True)]
@@ -127,58 +144,63 @@ class Box:
                         start[fixed] = value
                         self._edge(start, along, color, 0.6)
 
-    def _axes(self):
+    def _axes(self) -> list[tuple[list[float], Step]]:
         """Return the start of the three edges that are axes, and the direction of their ticks."""
         (x0, x1), (y0, y1), (z0, _) = self.spans
         east, north, _ = self.view.eye
         front = (x1 if east > 0 else x0), (y1 if north > 0 else y0)
         corners = [(x, y) for x in (x0, x1) for y in (y0, y1)]
-        leftmost = min(corners, key=lambda corner: float(self.view(*corner, z0)[0]))
+        leftmost = min(corners, key=lambda corner: float(self.view([*corner, z0])[0]))
         return [
             ([x0, front[1], z0], self._towards(1, north)),
             ([front[0], y0, z0], self._towards(0, east)),
             ([*leftmost, z0], (-1.0, 0.0)),
         ]
 
-    def _towards(self, along, sign):
+    def _towards(self, along: int, sign: float) -> Step:
         """Return the unit step on the sheet along an axis, forwards or backwards."""
         across, up = self.view.right[along], self.view.up[along]
-        length = float(np.sqrt(across * across + up * up)) * (1 if sign > 0 else -1)
+        length = math.sqrt(across * across + up * up) * (1 if sign > 0 else -1)
         return across / length, up / length
 
-    def _labels(self):
-        """Yield (place in the box, direction from there, distance in points, text, size)."""
+    def _labels(self) -> Iterator[_Label]:
+        """Yield the labels of ticks and the names of the axes."""
         for along, (start, step) in enumerate(self._axes()):
             for tick in self.ticks[along]:
                 at = [*start[:along], tick, *start[along + 1 :]]
-                yield at, step, _TICK + _GAP, style.number(tick), _SIZE
+                yield _Label(at, step, _TICK + _GAP, style.number(tick), _SIZE)
             low, high = self.spans[along]
             name = list(style.NAMES.values())[along]
             if along == 2:  # this name stands above its axis, the others beside the middle
-                yield [*start[:2], high], (-0.3, 1.0), 2 * _GAP, name, _NAME
+                yield _Label([*start[:2], high], (-0.3, 1.0), 2 * _GAP, name, _NAME)
                 continue
             size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
             at = [*start[:along], (low + high) / 2, *start[along + 1 :]]
-            yield at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME
+            yield _Label(at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME)
 
-    def _edges(self):
+    def _edges(self) -> None:
         """Draw the axes with their ticks and labels."""
         for along, (start, step) in enumerate(self._axes()):
             self._edge(start, along, style.FRAME, 0.8)
             for tick in self.ticks[along]:
-                across, up = self.view(*start[:along], tick, *start[along + 1 :])
+                across, up = map(float, self.view([*start[:along], tick, *start[along + 1 :]]))
                 far = _TICK * POINT
                 ends = [across, across + step[0] * far], [up, up + step[1] * far]
                 self.sheet.draw(*ends, color=style.FRAME, lw=0.8)
-        for at, step, reach, text, size in self._labels():
-            across, up = self.view(*at)
-            across, up = across + step[0] * reach * POINT, up + step[1] * reach * POINT
+        for label in self._labels():
+            step = label.step
             ha = "center" if abs(step[0]) < 0.25 else ("left" if step[0] > 0 else "right")
             va = "center_baseline" if abs(step[1]) < 0.5 else ("bottom" if step[1] > 0 else "top")
-            self.sheet.text(across, up, text, ha=ha, va=va, size=size)
+            self.sheet.text(*self._place(label), label.text, ha=ha, va=va, size=label.size)
+
+    def _place(self, label: _Label) -> tuple[float, float]:
+        """Return where a label stands on the sheet."""
+        across, up = map(float, self.view(label.at))
+        right, high = (part * label.reach * POINT for part in label.step)
+        return across + right, up + high
 
 
-def _ems(ticks):
+def _ems(ticks: Sequence[float]) -> float:
     """Return an upper bound of the width of the widest label, in units of its size."""
     wide = {".": 0.26, "\N{MINUS SIGN}": 0.7}
     return max(sum(wide.get(char, 0.51) for char in style.number(tick)) for tick in ticks)

@@ -4,10 +4,14 @@ Matplotlib's locators use logarithms of the C library; the arithmetic here is ex
 """
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..canvas import style
 from .panel import Axis, log10
@@ -21,12 +25,14 @@ _FEW = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
 _MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
-def of_window(low, high):
+def of_window(low: float, high: float) -> dict[str, list[float]]:
     """Return an axis with a window's edges as limits and round ticks inside."""
     return {"limits": [low, high], "ticks": ticks(low, high, 4)}
 
 
-def of_data(*values, margin=0.0, room=0.03, most=8):
+def of_data(
+    *values: ArrayLike, margin: float = 0.0, room: float = 0.03, most: int = 8
+) -> dict[str, list[float]]:
     """Return an axis, limits and ticks, with round limits around arrays that may have NaN.
 
     `margin` is the part of the axis without ticks at either end, for axes that meet at a corner;
@@ -40,19 +46,19 @@ def of_data(*values, margin=0.0, room=0.03, most=8):
     low, high = low - room * (high - low), high + room * (high - low)
     step = _step((high - low) / most)
     fine = step / 5  # limits are whole numbers of it
-    low, high = _as_written(low) // fine, -(-_as_written(high) // fine)
-    first, last = low + margin * (high - low), high - margin * (high - low)
+    start, end = _as_written(low) // fine, -(-_as_written(high) // fine)
+    first, last = start + margin * (end - start), end - margin * (end - start)
     ticks = range(-int(-first // 5), int(last // 5) + 1)
     return {
-        "limits": [float(low * fine), float(high * fine)],
+        "limits": [float(start * fine), float(end * fine)],
         "ticks": [float(tick * step) for tick in ticks],
     }
 
 
-def linear(low, high, count, name=""):
+def linear(low: float, high: float, count: float, name: str = "") -> Axis:
     """Return an axis with round ticks; what long labels have in common is in the name."""
     low, high = float(low), float(high)
-    values = ticks(low, high, count) if count else ()
+    values = ticks(low, high, count) if count else []
     if all(len(style.number(value)) <= _LONGEST for value in values):
         return Axis((low, high), values, name)
     power = int(f"{(high - low) / count:e}".partition("e")[2])
@@ -64,7 +70,9 @@ def linear(low, high, count, name=""):
     return Axis((low, high), values, rf"{name}, / $10^{{{power}}}$", labels=labels)
 
 
-def around(values, room, count, name="", above=None):
+def around(
+    values: ArrayLike, room: float, count: float, name: str = "", above: float | None = None
+) -> Axis:
     """Return an axis with round ticks around values that may have NaN.
 
     It is wider by `room` of their span at either end, or by `above` of it at the upper one.
@@ -76,7 +84,7 @@ def around(values, room, count, name="", above=None):
     return linear(low - room * span, high + (above or room) * span, count, name)
 
 
-def ticks(low, high, count):
+def ticks(low: float, high: float, count: float) -> list[float]:
     """Return about `count` round numbers from low to high, more if there would be less than two."""
     step = _step((high - low) / count * (1.0 + 1e-9))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
@@ -85,7 +93,7 @@ def ticks(low, high, count):
     return [float(i * step) for i in range(first, last + 1)]
 
 
-def decades(limits, name=""):
+def decades(limits: Sequence[float], name: str = "") -> Axis:
     """Return a logarithmic axis with ticks at every n-th whole power of ten.
 
     If there is not even one decade between two ticks, they are at multiples of the powers.
@@ -105,7 +113,7 @@ def decades(limits, name=""):
     return Axis(limits, range(first, math.floor(high + 1e-9) + 1, every), name, True)
 
 
-def complete(scene, **axes):
+def complete(scene: dict[str, Any], **axes: Callable[[], Any]) -> dict[str, Any]:
     """Return the scene with all named axes, calling `axes[name]()` for those that it lacks.
 
     A mapping scene["completed"], if there is one, is filled with the axes.
@@ -116,37 +124,37 @@ def complete(scene, **axes):
     return scene | {"axes": whole}
 
 
-def complete_box(scene, *datasets):
+def complete_box(scene: dict[str, Any], *datasets: xr.Dataset) -> dict[str, Any]:
     """Return the scene with the axes of a box, around the datasets for those that it lacks."""
     data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
     axes = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
     return complete(scene, **axes)
 
 
-def inside(limits, values):
+def inside(limits: Iterable[Sequence[float]], values: Iterable[Any]) -> np.ndarray:
     """Return where every array of `values` is within its limits (low, high)."""
     pairs = zip(limits, values, strict=True)
-    return np.logical_and.reduce([(low <= part) & (part <= high) for (low, high), part in pairs])
+    return np.all([(low <= part) & (part <= high) for (low, high), part in pairs], axis=0)
 
 
-def _step(least):
+def _step(least: float) -> Fraction:
     """Return the smallest of 1, 2, 5 times a power of ten that is at least `least`, exactly."""
     power = Fraction(10) ** int(f"{least:e}".partition("e")[2])
     return next(digit * power for digit in (1, 2, 5, 10, 20) if float(digit * power) >= least)
 
 
-def _as_written(value):
+def _as_written(value: float) -> Fraction:
     """Return the decimal that a double is written as: 0.3 is three tenths."""
     return Fraction(repr(value))
 
 
-def refuse_empty(axes, values, joined=False):
+def refuse_empty(axes: dict[str, Any], values: dict[str, Any], joined: bool = False) -> None:
     """Raise ValueError, one line, if axes show none of the data or shrink them to a spot.
 
     `values` has an array, all of one shape, for each name. If lines join consecutive values
     (`joined`), the first name is the abscissa, and the data may be flat along the others.
     """
-    visible = []
+    visible: list[np.ndarray] = []
     for name, value in values.items():
         low, high = axes[name]["limits"]
         known = value[np.isfinite(value)]

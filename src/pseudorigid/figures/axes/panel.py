@@ -1,21 +1,25 @@
 """A frame with linear or logarithmic axes. A sheet may have several."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from string import ascii_lowercase
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..canvas import style
-from ..canvas.ragged_rows import pieces
-from ..canvas.sheet import POINT, width
+from ..canvas.sheet import POINT, Sheet, pieces, width
+
+Frame = tuple[float, float, float, float]  # left, bottom, right, top in pixels
+Entry = tuple[Any, ...]  # of a key: text, colour[, marker, hollow, size]
 
 _SIZE, _SMALL = 8.0, 7.0  # points: labels and names, notes
 _LABEL_GAP = 6  # pixels, the least between labels below a frame
 _KEY_LEFT, _KEY_WIDTH = 60, 960  # pixels
 
 
-def log10(values):
+def log10(values: ArrayLike) -> np.ndarray:
     """Return decimal logarithms, NaN where there is none; the bits of numpy's logarithm vary."""
     from ...kernel.arithmetic import log  # compiled code, which a linear picture does not need
 
@@ -28,38 +32,38 @@ def log10(values):
 class Axis:
     """Limits and ticks of one axis; with `decades` both are exponents of ten."""
 
-    limits: Sequence
-    ticks: Sequence
+    limits: Sequence[float]
+    ticks: Sequence[float]
     name: str = ""
     decades: bool = False
-    labels: Sequence | None = None  # in place of the numbers
+    labels: Sequence[str] | None = None  # in place of the numbers
 
-    def fraction(self, values):
+    def fraction(self, values: ArrayLike) -> np.ndarray:
         """Return where values lie between the limits, 0 to 1."""
         return self.between(log10(values) if self.decades else values)
 
-    def between(self, values):
+    def between(self, values: ArrayLike) -> np.ndarray:
         """Return where values in the units of the limits lie between these, 0 to 1."""
         low, high = self.limits
         return (np.atleast_1d(np.asarray(values, dtype=float)) - low) / (high - low)
 
-    def minor_ticks(self):
+    def minor_ticks(self) -> np.ndarray:
         """Return the middles between equally spaced ticks, or 2, 3, ... 9 times powers of ten."""
         low, high = self.limits
         if self.decades:
             values = np.add.outer(np.arange(np.floor(low), np.ceil(high)), log10(range(2, 10)))
         elif len(self.ticks) < 2:
-            return []
+            return np.empty(0)
         else:
             middles = np.arange(len(self.ticks) + 1) - 0.5
             values = self.ticks[0] + middles * (self.ticks[1] - self.ticks[0])
         return values[(low <= values) & (values <= high)]
 
-    def blank(self):
+    def blank(self) -> "Axis":
         """Return the axis without name and labels, for a panel that stands above another."""
         return replace(self, name="", labels=[""] * len(self.ticks))
 
-    def texts(self):
+    def texts(self) -> Sequence[str]:
         """Return the labels of the ticks."""
         if self.labels is not None:
             return self.labels
@@ -68,7 +72,7 @@ class Axis:
         return [style.number(tick) for tick in self.ticks]
 
 
-class Panel:
+class Axes:
     """A frame with two axes; data beyond an axis are drawn at its end.
 
     `frame` is (left, bottom, right, top) in pixels. Subclasses override the class attributes.
@@ -80,7 +84,9 @@ class Panel:
     corners = "butt"  # cap style of the frame
     clip_range = (0.0, 1.0)  # fractions of an axis; data beyond are moved to its ends
 
-    def __init__(self, sheet, frame, across, up, grid=True):
+    def __init__(
+        self, sheet: Sheet, frame: Frame, across: Axis, up: Axis, grid: bool = True
+    ) -> None:
         self.sheet, self.frame, self.across, self.up = sheet, frame, across, up
         left, bottom, right, top = frame
         tick, reach = self.tick * POINT, (self.tick + self.gap) * POINT
@@ -108,7 +114,19 @@ class Panel:
         outline = [left, right, right, left, left], [bottom, bottom, top, top, bottom]
         self._frame_line(*outline, solid_capstyle=self.corners, zorder=3)
 
-    def minor(self, across=True):
+    def place(self, x: ArrayLike, y: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """Return the pixels of points as arrays."""
+        left, bottom, right, top = self.frame
+        across = np.clip(self.across.fraction(x), *self.clip_range)
+        up = np.clip(self.up.fraction(y), *self.clip_range)
+        return left + across * (right - left), bottom + up * (top - bottom)
+
+    def line(self, x: ArrayLike, y: ArrayLike, **line_style: Any) -> None:
+        """Draw a line, broken where a coordinate is NaN."""
+        for piece in pieces(*self.place(x, y)):
+            self.sheet.draw(*piece, **line_style)
+
+    def minor(self, across: bool = True) -> None:
         """Draw minor ticks, without labels, at the left and, if `across`, below."""
         left, bottom, right, top = self.frame
         line_style, size = {"color": style.FRAME, "lw": 0.5}, 1.5 * POINT
@@ -118,51 +136,57 @@ class Panel:
         for y in bottom + self.up.between(self.up.minor_ticks()) * (top - bottom):
             self.sheet.draw([left, left - size], [y, y], **line_style)
 
-    def place(self, x, y):
-        """Return the pixels of points as arrays."""
-        left, bottom, right, top = self.frame
-        x = np.clip(self.across.fraction(x), *self.clip_range)
-        y = np.clip(self.up.fraction(y), *self.clip_range)
-        return left + x * (right - left), bottom + y * (top - bottom)
-
-    def line(self, x, y, **line_style):
-        """Draw a line, broken where a coordinate is NaN."""
-        for piece in pieces(*self.place(x, y)):
-            self.sheet.draw(*piece, **line_style)
-
-    def bars(self, x, low, high, **line_style):
+    def bars(self, x: Any, low: Any, high: Any, **line_style: Any) -> None:
         """Draw an upright line at each x, none where an end is NaN."""
         for at, *span in zip(x, low, high, strict=True):
             self.line([at, at], span, **line_style)
 
-    def estimates(self, x, values, low, high, color):
+    def estimates(self, x: Any, values: Any, low: Any, high: Any, color: str) -> None:
         """Draw a dot for each value, joined by a line, with its bar from low to high."""
         self.line(x, values, color=style.pale(color), lw=0.6, zorder=1)
         self.bars(x, low, high, color=color, lw=0.7, zorder=2)
         known = ~np.isnan(values)
         self.dots(x[known], values[known], color, size=1.7)
 
-    def dots(self, x, y, color, size=3.2, hollow=False, marker="o"):
-        """Draw marks of `size` points, filled or hollow."""
-        _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
+    def dots(self, x: Any, y: Any, color: Any, size: float) -> None:
+        """Draw dots of `size` points; each subclass has its own."""
+        raise NotImplementedError
 
-    def note(self, x, y, text, shift=(0.0, 0.0), ha="left", va="center"):
+    def note(
+        self,
+        x: float,
+        y: float,
+        text: str,
+        shift: tuple[float, float] = (0, 0),
+        ha: str = "left",
+        va: str = "center",
+    ) -> None:
         """Write `text` beside a point, `shift` points away, on the other side if only that fits."""
         left, bottom, right, top = self.frame
-        (x,), (y,) = self.place(x, y)
-        x, ha = _beside(float(x), shift[0] * POINT, ha, width(text, self.small), left, right)
-        y, va = _beside(float(y), shift[1] * POINT, va, self.small * POINT, bottom, top)
-        self.sheet.text(x, y, text, ha=ha, va=va, size=self.small)
+        (across,), (up,) = (part.tolist() for part in self.place(x, y))
+        across, ha = _beside(across, shift[0] * POINT, ha, width(text, self.small), left, right)
+        up, va = _beside(up, shift[1] * POINT, va, self.small * POINT, bottom, top)
+        self.sheet.text(across, up, text, ha=ha, va=va, size=self.small)
 
-    def _label(self, x, text):
-        """Return the middle of a label below the frame."""
+    def _label(self, x: float, text: str) -> float:
+        """Return the middle of a label below the frame, whose tick is at x."""
         return x
 
-    def _frame_line(self, across, up, **line_style):
+    def _frame_line(self, across: list[float], up: list[float], **line_style: Any) -> None:
         self.sheet.draw(across, up, **({"color": style.FRAME, "lw": 0.6} | line_style))
 
-    def _text(self, across, up, text, ha, va):
+    def _text(self, across: float, up: float, text: str, ha: str, va: str) -> None:
         self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
+
+
+class Panel(Axes):
+    """Axes with marks, also for data beyond an axis, which are drawn at its end."""
+
+    def dots(
+        self, x: Any, y: Any, color: Any, size: float = 3.2, hollow: bool = False, marker: str = "o"
+    ) -> None:
+        """Draw marks of `size` points, filled or hollow."""
+        _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
 
 
 class Window(Panel):
@@ -171,30 +195,33 @@ class Window(Panel):
     small = _SIZE
     clip_range = (-np.inf, np.inf)
 
-    def line(self, x, y, **line_style):
+    def line(self, x: ArrayLike, y: ArrayLike, **line_style: Any) -> None:
         """Draw the part of a line inside the frame, broken where a coordinate is NaN."""
         beyond = not self.within(x, y).all()
         super().line(x, y, clip=self.frame if beyond else None, **line_style)
 
-    def dots(self, x, y, *arguments, **options):
+    def dots(self, x: Any, y: Any, *arguments: Any, **options: Any) -> None:
         """Draw the marks that lie inside the frame."""
         within = self.within(x, y)
         super().dots(np.asarray(x)[within], np.asarray(y)[within], *arguments, **options)
 
-    def within(self, x, y):
+    def within(self, x: ArrayLike, y: ArrayLike) -> np.ndarray:
         """Return whether each point is within the limits; NaN counts as within."""
         fractions = self.across.fraction(x), self.up.fraction(y)
-        return ~np.logical_or.reduce([(part < 0.0) | (part > 1.0) for part in fractions])
+        across, up = ((part < 0.0) | (part > 1.0) for part in fractions)
+        return ~(across | up)
 
 
-def _apart(marks, size, texts):
+def _apart(marks: np.ndarray, size: float, texts: Sequence[str]) -> list[str]:
     """Return the labels of ticks, without those between every n-th if labels of `size` touch."""
     room = float(np.abs(np.diff(marks)).min(initial=np.inf))
     every = max(int(np.ceil(size / room)), 1)
     return ["" if i % every else text for i, text in enumerate(texts)]
 
 
-def _beside(at, shift, side, size, low, high):
+def _beside(
+    at: float, shift: float, side: str, size: float, low: float, high: float
+) -> tuple[float, str]:
     """Return coordinate and side of a text beside `at`, mirrored if only so it fits the frame."""
     other = {"left": "right", "right": "left", "bottom": "top", "top": "bottom"}
     for by, end in ((shift, side), (-shift, other.get(side, side))):
@@ -204,7 +231,7 @@ def _beside(at, shift, side, size, low, high):
     return at + shift, side
 
 
-def upright(panels, at, **line_style):
+def upright(panels: Sequence[Axes], at: float, **line_style: Any) -> float:
     """Draw a line through panels at a value of the abscissa and return its x in pixels."""
     x = float(panels[0].place(at, 0.0)[0][0])
     for panel in panels:
@@ -213,30 +240,38 @@ def upright(panels, at, **line_style):
     return x
 
 
-def vacant(sheet, frame, text):
+def vacant(sheet: Sheet, frame: Frame, text: str) -> None:
     """Write in the middle of a frame why nothing is drawn there."""
     middle = 0.5 * (frame[0] + frame[2]), 0.5 * (frame[1] + frame[3])
     sheet.text(*middle, text, ha="center", va="center", size=_SMALL)
 
 
-def title(sheet, frame, text, rise=4, size=_SMALL):
+def title(sheet: Sheet, frame: Frame, text: str, rise: float = 4, size: float = _SMALL) -> None:
     """Write `text` above a frame's left end, `rise` points away."""
     sheet.text(frame[0], frame[3] + rise * POINT, text, ha="left", va="bottom", size=size)
 
 
-def corner(sheet, frame, text, rise=4, size=_SMALL):
+def corner(sheet: Sheet, frame: Frame, text: str, rise: float = 4, size: float = _SMALL) -> None:
     """Write `text` above a frame's right end, `rise` points away."""
     sheet.text(frame[2], frame[3] + rise * POINT, text, ha="right", va="bottom", size=size)
 
 
-def letters(sheet, *frames):
+def letters(sheet: Sheet, *frames: Frame) -> None:
     """Write (a), (b), ... at the left above frames, beside titles and above labels of ticks."""
     for name, (left, _, _, top) in zip(ascii_lowercase, frames, strict=False):
         text = rf"$\mathbf{{({name})}}$"
         sheet.text(left - 2 * POINT, top + 4.7 * POINT, text, ha="right", va="bottom", size=_SIZE)
 
 
-def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SIZE):
+def key(
+    sheet: Sheet,
+    entries: Iterable[Entry | None],
+    top: float,
+    columns: int,
+    left: float = _KEY_LEFT,
+    width: float = _KEY_WIDTH,
+    size: float = _SIZE,
+) -> None:
     """Draw a key of entries (text, colour[, marker, hollow, size]) in rows from the top left.
 
     An entry without a marker is a line, full or (hollow) dashed. Its size is that of the mark or
@@ -245,8 +280,7 @@ def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SI
     for i, entry in enumerate(entries):
         if entry is None:
             continue
-        text, color, *mark = entry
-        marker, hollow, points = (*mark, *("", False, None)[len(mark) :])
+        text, color, marker, hollow, points = entry + ("", False, None)[len(entry) - 2 :]
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * size * POINT
         if marker:
@@ -257,6 +291,8 @@ def key(sheet, entries, top, columns, left=_KEY_LEFT, width=_KEY_WIDTH, size=_SI
         sheet.text(x + 7 * POINT, y, text, size=size)
 
 
-def _mark(sheet, across, up, color, size, hollow, marker):
+def _mark(
+    sheet: Sheet, across: Any, up: Any, color: Any, size: float, hollow: bool, marker: str
+) -> None:
     edge = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
     sheet.draw(across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **edge)

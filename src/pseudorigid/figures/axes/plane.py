@@ -1,18 +1,21 @@
 """A figure of one panel with the limits and ticks of a scene."""
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 from .limits import inside
-from .panel import Axis, Panel
+from .panel import Axes, Axis
 
 _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
 
 
-class Plane(Panel):
+class Plane(Axes):
     """A figure of a column's width that cuts off what lies beyond its axes.
 
     `axes` are two keys of scene["axes"], and `names` the names of these axes. The height `high` is
@@ -25,7 +28,16 @@ class Plane(Panel):
     corners = "projecting"
     clip_range = (-np.inf, np.inf)
 
-    def __init__(self, scene, axes, names, high=825, right=60, energy=True, room=0):
+    def __init__(
+        self,
+        scene: dict[str, Any],
+        axes: tuple[str, str],
+        names: tuple[str, str],
+        high: int = 825,
+        right: int = 60,
+        energy: bool = True,
+        room: int = 0,
+    ) -> None:
         high += room
         sheet = Sheet(style.COLUMN, high)
         self.figure = sheet.figure
@@ -40,20 +52,20 @@ class Plane(Panel):
         setting = style.setting(scene, energy)
         self._text(_LEFT, high - 4 * POINT, setting, "left", "top")
 
-    def line(self, x, y, **line_style):
+    def line(self, x: ArrayLike, y: ArrayLike, **line_style: Any) -> None:
         """Draw a line inside the frame, broken where a coordinate is NaN."""
         super().line(x, y, clip=self.frame, **line_style)
 
-    def dots(self, x, y, color, size, **line_style):
+    def dots(self, x: ArrayLike, y: ArrayLike, color: Any, size: float, **line_style: Any) -> None:
         """Draw the dots of `size` points that lie within the limits, also across the frame."""
         x, y = np.array([x, y])[:, self.shows(x, y)]
         self._dots(*self.place(x, y), color, size, **line_style)
 
-    def shows(self, x, y):
+    def shows(self, x: ArrayLike, y: ArrayLike) -> np.ndarray:
         """Return whether each point lies within the limits."""
         return inside((self.across.limits, self.up.limits), np.array([x, y]))
 
-    def beside(self, entries):
+    def beside(self, entries: Sequence[tuple[float, str]]) -> None:
         """Write (y, text), in falling order, right of the frame if y is within the limits.
 
         They are moved apart if need be.
@@ -68,7 +80,7 @@ class Plane(Panel):
         for height, (_, text) in zip(heights, entries, strict=True):
             self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
 
-    def legend(self, *entries):
+    def legend(self, *entries: Any) -> None:
         """Name lines and dots, (text, width in points, style), above the right end of the frame.
 
         An entry that is not true is left out.
@@ -85,17 +97,17 @@ class Plane(Panel):
                 self.sheet.draw([start, end], [up, up], **line_style)
             across = start - 8 * POINT
 
-    def _label(self, x, text):
+    def _label(self, x: float, text: str) -> float:
         """Move a label to the left if it would leave the sheet."""
         half_width = 0.32 * len(text) * style.PLAIN * POINT  # an upper bound
         return min(x, style.COLUMN - half_width - 6)
 
-    def _dots(self, across, up, color, size, **line_style):
+    def _dots(self, across: Any, up: Any, color: Any, size: float, **line_style: Any) -> None:
         line_style = {"mew": 0} | line_style
         self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **line_style)
 
 
-def thousands(ticks):
+def thousands(ticks: Sequence[float]) -> int:
     """Return the power of ten to take out of tick labels: 0 if none has five digits."""
     power = len(str(int(max(abs(tick) for tick in ticks)))) - 1
     return power if power >= 4 else 0

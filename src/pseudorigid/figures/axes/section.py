@@ -1,17 +1,20 @@
 """The section at an energy in the chart (x, y): an elliptic disk bounded by the grazing rim."""
 
 import math
+from collections.abc import Container
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from ...dynamics.ball import Ball
-from ...dynamics.variables import chart, states_of
+from ...dynamics.regularity import chaotic_orbits
+from ...dynamics.variables import chart, rows, states_of
 from ...kernel.arithmetic import sincos_each
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 from ..canvas.sheet import Sheet
 from .limits import linear
-from .panel import Panel, corner
+from .panel import Entry, Frame, Panel, corner
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
 SEA = "#d4d4d4"  # of chaotic orbits beside regular ones
@@ -23,17 +26,26 @@ _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 class Section(Panel):
     """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis."""
 
-    def __init__(self, sheet, frame, ball, radius, room=1.06, ticks=5, names=("$x$", NAME)):
+    def __init__(
+        self,
+        sheet: Sheet,
+        frame: Frame,
+        ball: dict[str, float],
+        radius: float,
+        room: float = 1.06,
+        ticks: int = 5,
+        names: tuple[str, str] = ("$x$", NAME),
+    ) -> None:
         self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius
         self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
         half = room * radius
-        up = _STEP * math.ceil(self.high / _STEP) * half
-        spans = (self.centre - half, self.centre + half), (-up, up)
-        axes = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
-        super().__init__(sheet, frame, *axes, grid=False)
+        high = _STEP * math.ceil(self.high / _STEP) * half
+        spans = (self.centre - half, self.centre + half), (-high, high)
+        across, up = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
+        super().__init__(sheet, frame, across, up, grid=False)
         self.minor()
 
-    def orbits(self, orbits, chaotic):
+    def orbits(self, orbits: xr.Dataset, chaotic: Container[int]) -> None:
         """Draw orbits as dots, first and paler those whose indices are in `chaotic`."""
         x, y = chart(self.k, *states_of(orbits))
         spans = rows(orbits)
@@ -41,21 +53,23 @@ class Section(Panel):
             hue, size = (SEA, 0.7) if index in chaotic else (style.BACKDROP, 0.9)
             self.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
-    def rim(self, zorder=4.5):
+    def rim(self, zorder: float = 4.5) -> None:
         """Draw the rim."""
         sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
         x = self.centre + self.radius * cosine
         self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
 
 
-def at_top(sheet, scene):
+def at_top(sheet: Sheet, scene: dict[str, Any]) -> Section:
     """Return a large panel of the section of a scene's ball and energy at the top of a sheet."""
     top = sheet.high - 75
     frame = LEFT, top - SIDE, LEFT + SIDE, top
     return Section(sheet, frame, scene["ball"], Ball(**scene["ball"]).section(scene["energy"])[1])
 
 
-def over_orbits(scene, orbits, high=1200):
+def over_orbits(
+    scene: dict[str, Any], orbits: xr.Dataset, high: int = 1200
+) -> tuple[Section, Entry | None, Entry | None]:
     """Draw the section with its rim and orbits at the top of a new sheet.
 
     Return the panel, and the entries of a key for regular and for chaotic orbits, None for one that
@@ -63,8 +77,6 @@ def over_orbits(scene, orbits, high=1200):
     """
     sheet = Sheet(style.COLUMN, high)
     panel = at_top(sheet, scene)
-    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
-
     chaotic = chaotic_orbits(scene["ball"], orbits)
     panel.orbits(orbits, chaotic)
     panel.rim()

@@ -83,5 +83,5 @@ def png(image: np.ndarray, dpi: float) -> bytes:
     )
 
 
-def _chunk(name, data):
+def _chunk(name: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))

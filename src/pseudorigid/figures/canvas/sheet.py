@@ -4,7 +4,16 @@ Matplotlib's axes transform coordinates by products of matrices, whose last bit 
 processor (fused multiply-add, BLAS kernels). That bit shows where a coordinate falls halfway
 between two pixels. A Sheet rounds coordinates to values away from such places, and matplotlib then
 only multiplies them by the resolution.
+
+Where two edges of a line are almost parallel, matplotlib's rasteriser joins them at the
+intersection of two almost parallel lines. The last bit of a product then decides the shade of a
+pixel, and that bit depends on the processor: on aarch64 the rasteriser is compiled with fused
+multiply-add. A Sheet therefore leaves out the vertices on straight pieces of a line.
 """
+
+import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,12 +21,15 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.textpath import text_to_path
 from matplotlib.transforms import Bbox, TransformedBbox
+from numpy.typing import ArrayLike
 
 from . import style
-from .line_simplification import bends
 
 POINT = style.DPI / 72  # pixels
 _GRID = 256  # steps of the rasteriser in a pixel
+_LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
+_AHEAD = 64  # vertices between a kept one and the one in whose direction u is measured
+_SAFETY = 1.0 - 1e-6  # of the tolerance; rounding errors of slopes are far smaller
 
 
 class Sheet:
@@ -26,14 +38,14 @@ class Sheet:
     Coordinates count pixels from the lower left corner; sizes of lines, marks and text are points.
     """
 
-    def __init__(self, wide, high):
+    def __init__(self, wide: int, high: int) -> None:
         if wide % 75 or high % 75:
             raise ValueError(f"{wide} x {high} pixels: not whole quarters of an inch")
         self.wide, self.high = wide, high
         size = (wide / style.DPI, high / style.DPI)
         self.figure = Figure(figsize=size, dpi=style.DPI, facecolor="white")
 
-    def draw(self, across, up, clip=None, **line_style):
+    def draw(self, across: Any, up: Any, clip: Any = None, **line_style: Any) -> None:
         """Draw a line or marks (Line2D) inside the rectangle `clip` (left, bottom, right, top)."""
         inches = self.figure.dpi_scale_trans
         across, up = snap_to_pixels(across), snap_to_pixels(up)
@@ -46,24 +58,102 @@ class Sheet:
             artist.set_clip_box(TransformedBbox(Bbox([[left, bottom], [right, top]]), inches))
         self.figure.add_artist(artist)
 
-    def text(self, across, up, text, *, size, ha="left", va="center"):
+    def text(
+        self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center"
+    ) -> None:
         """Write horizontal text; `ha` and `va` say which side of it the coordinates are."""
-        across, up = (float(snap_to_pixels(value)) / style.DPI for value in (across, up))
+        x, y = (float(snap_to_pixels(value)) / style.DPI for value in (x, y))
         inches = self.figure.dpi_scale_trans
-        self.figure.text(across, up, text, ha=ha, va=va, size=size, transform=inches)
+        self.figure.text(x, y, text, ha=ha, va=va, size=size, transform=inches)
 
 
-def width(text, size):
+def width(text: str, size: float) -> float:
     """Return the width in pixels of `text` at `size` points."""
     font = FontProperties(size=size)
     extent = text_to_path.get_text_width_height_descent(text, font, "$" in text)
     return float(extent[0]) * POINT
 
 
-def snap_to_pixels(pixels):
+def snap_to_pixels(pixels: Any) -> np.ndarray:
     """Round to a quarter step beside the rasteriser's grid, where no last bit matters.
 
     A last bit matters at the wholes and halves of the grid, at whole pixels, to which text and
     marks are moved, and at the sixth decimals in which SVG and PDF write points.
     """
     return (np.floor(np.asarray(pixels) * _GRID) + 0.25) / _GRID
+
+
+def runs(gap: np.ndarray) -> list[slice]:
+    """Return a slice for each run of places where `gap` is false."""
+    return np.ma.clump_unmasked(np.ma.array(gap, mask=gap)) if gap.size else []
+
+
+def pieces(*coordinates: np.ndarray) -> Iterator[list[np.ndarray]]:
+    """Yield the runs of a line without NaN, long ones in pieces that share a vertex."""
+    for run in runs(np.any(np.isnan(coordinates), axis=0)):
+        for first in range(run.start, max(run.stop - 1, run.start + 1), _LONGEST):
+            span = slice(first, min(first + _LONGEST + 1, run.stop))
+            yield [coordinate[span] for coordinate in coordinates]
+
+
+def bends(across: ArrayLike, up: ArrayLike, tolerance: float) -> list[int]:
+    """Return the indices of the vertices to keep, which include both ends.
+
+    A line through them passes the others within `tolerance`, at least 1. Coordinates are whole
+    numbers.
+    """
+    x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
+    keep, xs, ys = [0], x.tolist(), y.tolist()
+    while keep[-1] < len(x) - 1:
+        keep.append(_end_of_piece(x, y, xs, ys, keep[-1], tolerance))
+    return keep
+
+
+def _end_of_piece(
+    x: np.ndarray, y: np.ndarray, xs: list[int], ys: list[int], first: int, tolerance: float
+) -> int:
+    """Return the last vertex up to which each chord from `first` passes the vertices between.
+
+    Most chords are known to pass without a look at all of these: let u be the coordinate in the
+    direction of one chord, v the other one, in its units. A chord of slope m passes a vertex within
+    the tolerance if |v - m u| is at most that, so that each vertex bounds m. The vertex lies beside
+    the chord, too, if |v| < u/2, |m| < 1/2 and u + |v m| is at most the chord's u.
+    """
+    x0, y0, ahead = xs[first], ys[first], min(first + _AHEAD, len(xs) - 1)
+    du, dv = xs[ahead] - x0, ys[ahead] - y0
+    near = _SAFETY * tolerance * math.sqrt(du * du + dv * dv)
+    least, most, farthest, widest = -0.5, 0.5, 0, 0
+    u, v = _turned(xs, ys, first + 1, x0, y0, du, dv)
+    for i in range(first + 1, len(xs) - 1):
+        if 2 * abs(v) < u:
+            least, most = max(least, (v - near) / u), min(most, (v + near) / u)
+            farthest, widest = max(farthest, u), max(widest, abs(v))
+        else:
+            least = math.inf
+        u, v = _turned(xs, ys, i + 1, x0, y0, du, dv)
+        slope = v / u if u > 0 else math.nan
+        surely = least <= slope <= most and farthest + widest * abs(slope) < u - 1
+        if not (surely or _passes(x, y, first, i + 1, tolerance)):
+            return i
+    return len(xs) - 1
+
+
+def _turned(
+    xs: list[int], ys: list[int], i: int, x0: int, y0: int, du: int, dv: int
+) -> tuple[int, int]:
+    """Return u and v of a vertex."""
+    wide, high = xs[i] - x0, ys[i] - y0
+    return wide * du + high * dv, high * du - wide * dv
+
+
+def _passes(x: np.ndarray, y: np.ndarray, first: int, last: int, tolerance: float) -> bool:
+    """Return whether the chord from one vertex to another passes those between."""
+    inner = slice(first + 1, last)
+    wide, high = x[last] - x[first], y[last] - y[first]
+    dx, dy = x[inner] - x[first], y[inner] - y[first]
+    length_squared = wide * wide + high * high
+    along = dx * wide + dy * high
+    off = np.abs(dx * high - dy * wide)
+    near = off <= tolerance * np.sqrt(float(length_squared))
+    between = (along >= 0) & (along <= length_squared)
+    return bool(length_squared > 0 and (near & between).all())

@@ -1,6 +1,8 @@
 """The style of all pictures: matplotlib's defaults, its own fonts, and fixed colours."""
 
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import matplotlib
 from matplotlib import font_manager
@@ -24,7 +26,7 @@ RIM = BLACK
 
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 
-_SETTINGS = {
+_SETTINGS: Any = {
     # One family for words, numbers and formulas, which matplotlib ships.
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
@@ -42,13 +44,14 @@ _SETTINGS = {
 
 
 @contextmanager
-def shipped_fonts():
+def shipped_fonts() -> Iterator[None]:
     """Let matplotlib find only the fonts that it ships with.
 
     Fonts of the system may be other versions of these. There is no setting that leaves them out, so
     a private attribute is used; a test fails if it stops having an effect.
     """
-    manager, folder = font_manager.fontManager, matplotlib.get_data_path()
+    manager: Any = font_manager.fontManager
+    folder = matplotlib.get_data_path()
     all_fonts = manager.ttflist
     try:
         manager.ttflist = [font for font in all_fonts if font.fname.startswith(folder)]
@@ -60,7 +63,7 @@ def shipped_fonts():
 
 
 @contextmanager
-def pinned():
+def pinned() -> Iterator[None]:
     """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system."""
     with matplotlib.rc_context(), shipped_fonts():
         matplotlib.rcdefaults()
@@ -68,23 +71,23 @@ def pinned():
         yield
 
 
-def pale(color):
+def pale(color: str) -> str:
     """Return `color` (#rrggbb) mixed with twice as much white."""
     return "#" + bytes((part + 2 * 255) // 3 for part in bytes.fromhex(color[1:])).hex()
 
 
-def setting(scene, energy=True):
+def setting(scene: dict[str, Any], energy: bool = True) -> str:
     """Return a line with the energy and the ball of a scene, without `energy` the ball alone."""
     values = {"E": scene["energy"]} if energy else {}
     values |= scene["ball"]
     return ", ".join(f"${name}$ = {number(value)}" for name, value in values.items())
 
 
-def plural(noun, count):
+def plural(noun: str, count: int) -> str:
     """Return a noun in the number that a count needs."""
     return noun if count == 1 else f"{noun}s"
 
 
-def number(value, power=0):
+def number(value: float, power: int = 0) -> str:
     """Return value / 10**power as a tick label: shortest decimal form, a proper minus sign."""
     return f"{value / 10**power:.10g}".replace("-", "\N{MINUS SIGN}")

@@ -1,13 +1,16 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
+from ...dynamics.variables import rows
 from ..axes.limits import complete, of_window, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 
 _DOT = 3.4  # points
 _NAMES = style.NAMES["x"], style.NAMES["xdot"]
@@ -15,7 +18,7 @@ plane = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
 
 
 @style.pinned()
-def draw(scene, manifolds):
+def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
     """Draw the branches inside a window around a saddle; stable ones green, unstable ones blue.
 
     The scene's axes default to the window's. Raises ValueError if they or the window show nothing.

@@ -1,8 +1,11 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from ...dynamics.variables import final_exponents
 from ..axes.limits import complete, inside, of_data, refuse_empty, ticks
@@ -18,7 +21,7 @@ plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
 @style.pinned()
-def draw(scene, lyapunov):
+def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
 
     If some orbits are regular and others chaotic, inset and names are those of chaotic ones, and a
@@ -45,7 +48,7 @@ def draw(scene, lyapunov):
         entries = [(_name(start, sea), hue, "", dashed) for start, sea, (hue, dashed) in names]
         key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
     ends = np.median(final[chosen], axis=0)
-    inset = _inset(picture, scene["axes"]["largest"], *ends[:2], last=impact[-1])
+    inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
     if inset:
         later = impact >= inset.across.limits[0]
         refuse_empty(scene["axes"], {"largest": greatest[later]})
@@ -60,7 +63,7 @@ def draw(scene, lyapunov):
     return picture.figure
 
 
-def _chaotic(lyapunov):
+def _chaotic(lyapunov: xr.Dataset) -> np.ndarray:
     """Return whether the largest exponent of each orbit exceeds `regular_bound`."""
     from ...dynamics.regularity import regular_bound  # compiled code, which other kinds do not need
 
@@ -69,7 +72,7 @@ def _chaotic(lyapunov):
     return final_exponents(lyapunov).max(axis=1) > [regular_bound(int(n)) for n in lengths]
 
 
-def _name(start, chaotic):
+def _name(start: Any, chaotic: bool) -> str:
     """Return a start as a key has it, with the verdict on its orbit."""
     points = start.items() if isinstance(start, dict) else [("start", start)]
     text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
@@ -80,7 +83,9 @@ class _Inset(Window):
     size = 7.0
 
 
-def _inset(picture, largest, first, second, last):
+def _inset(
+    picture: Plane, largest: dict[str, Any], first: float, second: float, last: float
+) -> _Inset | None:
     """Return the panel between the first exponent and the second, None if there is no room."""
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])

@@ -1,8 +1,11 @@
 """A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from ..axes.limits import complete, of_data, refuse_empty
 from ..axes.plane import Plane
@@ -13,7 +16,7 @@ plane = partial(Plane, axes=("t", "displacement"), names=("$t$", r"$-x,\ u$"))
 
 
 @style.pinned()
-def draw(scene, motion):
+def draw(scene: dict[str, Any], motion: xr.Dataset) -> Figure:
     """Draw -x(t) and u(t), with their impacts; ValueError if the axes show nothing of them."""
     t, x, u = (motion[name].values for name in ("t", "position", "strain"))
     scene = complete(

@@ -1,21 +1,25 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
-from ...dynamics.variables import states_of
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ...dynamics.variables import rows, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box
 from ..canvas import style
-from ..canvas.ragged_rows import rows
 
 _CURVE, _SEA = 0.8, 0.4  # points
 
 
 @style.pinned()
-def draw(scene, orbits):
+def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
     """Draw orbits in (x, xdot, udot) on the opaque energy surface, chaotic ones in grey.
 
     Raises ValueError if nothing can be seen.
     """
-    from ...dynamics.rotation import chaotic_orbits  # compiled code, which other kinds do not need
+    from ...dynamics.regularity import chaotic_orbits  # compiled code: other kinds need none
 
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     chaotic = chaotic_orbits(scene["ball"], orbits)
@@ -25,5 +29,5 @@ def draw(scene, orbits):
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
     for index in chaotic + regular:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
-        box.points(*states[:, spans[index]], hue, size)
+        box.points(states[:, spans[index]], hue, size)
     return box.figure

@@ -1,13 +1,18 @@
 """Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
 
-import numpy as np
+from collections.abc import Sequence
+from typing import Any
 
-from ...dynamics.variables import of_type, states_of
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ...dynamics.variables import of_type, rows, states_of
 from ..axes.box import Box
 from ..axes.limits import complete_box
+from ..axes.panel import Entry
 from ..canvas import style
-from ..canvas.ragged_rows import rows, runs
-from ..canvas.sheet import POINT
+from ..canvas.sheet import POINT, runs
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
@@ -17,7 +22,9 @@ _BRANCHES = (("stable", 1, style.STABLE, 1.0), ("unstable", 0, style.UNSTABLE, 0
 
 
 @style.pinned()
-def draw(scene, orbits, manifolds, periodic):
+def draw(
+    scene: dict[str, Any], orbits: xr.Dataset, manifolds: xr.Dataset, periodic: xr.Dataset
+) -> Figure:
     """Draw the branches of a hyperbolic orbit, of type scene["type"], over a backdrop of orbits.
 
     Stable branches are green, unstable ones blue. An open dot marks the end of a line that is not
@@ -27,52 +34,55 @@ def draw(scene, orbits, manifolds, periodic):
     scene = complete_box(scene, orbits, manifolds)
     branches, jumps = states_of(manifolds), _jumps(manifolds)
     saddles = states_of(of_type(periodic, scene["type"]))
-    entries = [
+    entries: list[Entry] = [
         *((name, hue, "", False, width) for name, _, hue, width in _BRANCHES),
         ("saddles", style.VERMILION, "o"),
         ("orbits", style.BACKDROP, "o"),
     ]
     trial = Box(scene, shown=branches)
-    spans, pixels = rows(manifolds), np.array(trial.view(*branches))
+    spans, pixels = rows(manifolds), np.array(trial.view(branches))
     tips = [span.start + tip for span in spans for tip in _tips(pixels[:, span], pixels)]
     for name, marker, hollow, size, at in (
         ("cut off", "o", True, None, [span.stop - 1 for span in spans]),
         ("jump", "s", True, None, jumps),
         ("fold", "o", False, _TIP, tips),
     ):
-        if trial.seen(*branches[:, at]).any():
+        if trial.seen(branches[:, at]).any():
             entries.append((name, style.FRAME, marker, hollow, size))
     box = Box(scene, entries)
-    box.points(*states_of(orbits), style.BACKDROP, _BACKDROP)
+    box.points(states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds, branches, jumps, tips)
-    box.points(*saddles, "white", _SADDLE + 1.2)
-    box.points(*saddles, style.VERMILION, _SADDLE)
+    box.points(saddles, "white", _SADDLE + 1.2)
+    box.points(saddles, style.VERMILION, _SADDLE)
     return box.figure
 
 
-def _branches(box, manifolds, states, jumps, tips):
+def _branches(
+    box: Box, manifolds: xr.Dataset, states: np.ndarray, jumps: np.ndarray, tips: Sequence[int]
+) -> None:
     """Draw the branches, and on top of them the marks of their tips, jumps and ends."""
-    spans, marks = rows(manifolds), []
+    spans = rows(manifolds)
+    marks: list[tuple[np.ndarray, str, float, dict[str, Any]]] = []
     hollow = {"mfc": "white", "mew": 0.6}
     for _, stable, hue, width in _BRANCHES:
         for span in (spans[i] for i in np.flatnonzero(manifolds["stable"].values == stable)):
             line = states[:, span]
-            box.line(*line, hue, width)
+            box.line(line, hue, width)
             sharp = [tip for tip in tips if span.start <= tip < span.stop]
             marks.append((states[:, sharp], hue, _TIP, {}))
             marks.append((line[:, jumps[span]], hue, _END, hollow | {"marker": "s"}))
             marks.append((line[:, [-1]], hue, _END, hollow))
     for at, hue, size, line_style in marks:
-        box.points(*at, hue, size, **line_style)
+        box.points(at, hue, size, **line_style)
 
 
-def _jumps(manifolds):
+def _jumps(manifolds: xr.Dataset) -> np.ndarray:
     """Return whether each vertex is next to a jump of the map, which interrupts its line."""
     gap = np.isnan(manifolds["x"].values)
     return ~gap & (np.append(gap[1:], False) | np.insert(gap[:-1], 0, False))
 
 
-def _tips(line, all_lines):
+def _tips(line: np.ndarray, all_lines: np.ndarray) -> list[int]:
     """Return the vertices of a line's sharp folds, in pixels (2, n), that no line continues."""
     reach, tips = _REACH * POINT, []
     all_lines = all_lines[:, ~np.isnan(all_lines[0])]

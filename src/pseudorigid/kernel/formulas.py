@@ -1,4 +1,4 @@
-"""States of one energy on the section, eq. (22), from numbers or arrays.
+"""Section, eq. (22), and impact law, eq. (25), for numbers and arrays; not compiled.
 
 In the chart (x, y = xdot - k udot) the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
 Energies are in m omega^2 R^2. Arguments are not checked: a state off the section is NaN.
@@ -29,3 +29,32 @@ def chart_state(k, g, energy, x, y):
     """Return the state (x, xdot, udot) at a point of the chart."""
     s = np.sqrt(contact_speed_squared(k, g, energy, x, y))
     return x, (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+
+
+def impact_coefficients(k):
+    """Return 2/(1 + k) as the sum of its first 26 bits and a double.
+
+    With one rounded constant every impact would add the same relative error, 1e-16, to the energy.
+    """
+    total = 1.0 + k
+    missing = k - (total - 1.0)
+    ratio = 2.0 / total
+    cut = 134217729.0 * ratio
+    high = cut - (cut - ratio)
+    cut = 134217729.0 * total
+    upper = cut - (cut - total)
+    rest = ((2.0 - high * upper) - high * (total - upper)) - high * missing
+    return high, rest / total
+
+
+def rebound(v, w, k, coefficients):
+    """Return the velocities b = xdot and c = udot just after an impact, eq. (25), and s = v + w.
+
+    v (R omega) and w (omega) are xdot and udot just before the impact, `coefficients` those from
+    `impact_coefficients`; all may be arrays or sympy expressions. The impact reverses the contact
+    speed s: b + c = -s without rounding.
+    """
+    high, low = coefficients
+    s = v + w
+    e = s * high + s * low
+    return v - k * e, w - e, s

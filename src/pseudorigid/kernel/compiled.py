@@ -1,0 +1,102 @@
+"""Compilation with strict arithmetic, one thread, and machine code that is kept.
+
+Numba notices an edit of the file in which a function stands, but not of the files that it calls.
+Machine code is therefore kept in a folder of its own for each state of the package.
+"""
+
+import hashlib
+import os
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+_SEEN: set[tuple[str, str]] = set()  # (module, name) of each function that was compiled
+
+
+def jit(function):
+    """Compile a function on its first call, with strict arithmetic and without the GIL.
+
+    Without fastmath and parallel, every + - * / and sqrt is rounded once, in the order written.
+    error_model="numpy" makes 1/0 infinite instead of an exception.
+    """
+    import numba  # slow to import, and every start of the pipeline imports this module
+
+    config: Any = numba.config
+    previous = config.CACHE_LOCATOR_CLASSES
+    config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
+    try:
+        keep = _keeps(function)
+        return numba.njit(cache=keep, error_model="numpy", fastmath=False, nogil=True)(function)
+    finally:
+        config.CACHE_LOCATOR_CLASSES = previous
+
+
+class Locator:
+    """Where numba keeps the machine code of one function; CACHE_LOCATOR_CLASSES names the class."""
+
+    def __init__(self, function, file):
+        self._module, self._py_file = function.__module__, file
+
+    @classmethod
+    def from_function(cls, py_func, py_file):
+        return cls(py_func, py_file)
+
+    def ensure_cache_path(self):
+        os.makedirs(_path(self._module), exist_ok=True)
+
+    def get_cache_path(self):
+        return _path(self._module)
+
+    def get_source_stamp(self):
+        return os.path.basename(_path(self._module))
+
+    def get_disambiguator(self):
+        return ""
+
+
+def folder():
+    """Return the folder that holds the folders of all modules."""
+    return os.environ.get("NUMBA_CACHE_DIR") or str(Path(__file__).parent / "__pycache__")
+
+
+def subfolder(module: str) -> str | None:
+    """Return the name of the folder for a module's machine code, or None to keep none.
+
+    An edit of any file in the module's package, or in this one, gives another name. A program may
+    replace this function by one that knows better what a module depends on.
+    """
+    return f"{module}-{_digest(*{name.partition('.')[0] for name in (module, __name__)})}"
+
+
+@cache
+def _digest(*packages):
+    """Return a hash of all modules of some packages."""
+    files = [file for name in packages for file in Path(*sys.modules[name].__path__).rglob("*.py")]
+    return hashlib.sha256(b"".join(file.read_bytes() for file in sorted(files))).hexdigest()[:16]
+
+
+def _keeps(function):
+    """Return whether machine code of a function is kept; if not, each process compiles it.
+
+    It is not kept if the folder cannot be written, if `subfolder` says so, for functions of the
+    main program, or for a second function with the same name.
+    """
+    module, name = function.__module__, function.__qualname__
+    first = (module, name) not in _SEEN
+    _SEEN.add((module, name))
+    return first and "." in module and _path(module) is not None
+
+
+@cache
+def _path(module):
+    """Return the folder for a module's machine code, or None if nothing is to be kept."""
+    name = subfolder(module)
+    if name is None:
+        return None
+    path = os.path.join(folder(), name)
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError:
+        return None
+    return path if os.access(path, os.W_OK) else None
