@@ -16,7 +16,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.jobs.plan import plan
 from pipeline.jobs.server import ADDRESS
-from pipeline.records.files import disk_is_full, identity
+from pipeline.records.files import disk_is_full, inode
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
@@ -35,7 +35,7 @@ class LogHandler(LogHandlerBase):
         self.results: dict[int, str] = {}  # job -> result
         self.started: dict[int, float] = {}  # job -> time
         self.running: dict[int, float] = {}  # job that has not ended -> time of the monotonic clock
-        self.before: dict[str, int | None] = {}  # result -> its identity before the job
+        self.before: dict[str, int | None] = {}  # result -> its inode before the job
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
@@ -53,7 +53,7 @@ class LogHandler(LogHandlerBase):
             case LogEvent.JOB_INFO:
                 # Snakemake appends a file's flags to its name, in parentheses.
                 result = str((record.output or [""])[0]).partition(" (")[0]
-                self.results[record.jobid], self.before[result] = result, identity(result)
+                self.results[record.jobid], self.before[result] = result, inode(result)
             case LogEvent.JOB_STARTED:
                 self.started |= dict.fromkeys(record.jobs, record.created)
                 self.running |= dict.fromkeys(record.jobs, time.monotonic())
@@ -64,7 +64,7 @@ class LogHandler(LogHandlerBase):
                 job, now = self.finished
                 result = self.results[job]
                 words = f"{now - self.started[job]:.1f} s"
-                if identity(result) and identity(result) == self.before[result]:
+                if inode(result) and inode(result) == self.before[result]:
                     words = "as it was"
                 self.steps = f"{record.done} of {record.total}"
                 self._print(job, words, self.steps)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..records.artifacts import ArtifactError, load
 from ..records.differences import differing_keys, differing_origin
-from ..records.files import FileError, file_hash, obstacle
+from ..records.files import FileError, file_hash, why_not_a_file
 from ..records.pictures import PictureError, describe, difference
 from ..records.record import git, versions
 from ..records.sources import syntax_hash
@@ -70,7 +70,7 @@ class Comparison:
         """Return the layer drawing or file, if it differs in the published file or in results."""
         published, drawn = f"{self.published_set.folder}/{name}", self.published_set.drawn[name]
         if self.file_hash(published) is None:
-            why = obstacle(self.root / published)
+            why = why_not_a_file(self.root / published)
             missing = f"{published} is missing: {self.published_set.command} makes it"
             return {"file": f"{published}: {why}" if why else missing}
         encoding: dict[str, str] = {}

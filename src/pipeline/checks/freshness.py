@@ -8,7 +8,7 @@ from typing import Any
 from ..config.build_specs import with_dependencies
 from ..records.build_spec import BuildSpec
 from ..records.differences import differing_files, differing_origin
-from ..records.files import file_hash, obstacle
+from ..records.files import file_hash, why_not_a_file
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import syntax_hash
 
@@ -110,7 +110,7 @@ class Freshness:
 
     def _own_reason(self, path: str) -> str | None:
         if self.digest(path) is None:
-            return obstacle(self.root / path) or MISSING
+            return why_not_a_file(self.root / path) or MISSING
         try:
             record = read_record(self.root, record_path(path))
         except RecordError as error:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..config import Config
-from ..records.files import file_hash, obstacle
+from ..records.files import file_hash, why_not_a_file
 from ..records.record import failure
 from . import manifest
 from .difference import UPSTREAM, Comparison
@@ -87,7 +87,7 @@ class Findings:
                 return ": ".join(filter(None, [f"{path} is missing", failure(path)]))
         for name, drawing in self.published_set.drawn.items():
             published, drawn = f"{self.published_set.folder}/{name}", file_hash(root / drawing)
-            if words := obstacle(root / published):
+            if words := why_not_a_file(root / published):
                 return f"{published}: {words}"
             if drawn != file_hash(root / published) and not (partial and drawn is None):
                 return f"{published} is not {drawing}"

@@ -15,7 +15,7 @@ from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.kinds import KINDS
 from ..config.schema.sets import PUBLISHED
 from ..records.differences import columns
-from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
+from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import running
@@ -67,7 +67,7 @@ def make(
     specs = build_specs(checked, [group])
     if set(results) - set(specs):
         specs = build_specs(checked)
-    before = {drawing: identity(drawing) for drawing in wanted.values()}
+    before = {drawing: inode(drawing) for drawing in wanted.values()}
 
     def blocks(drawings: Iterable[str]) -> dict[str, Any]:
         scenes = {PurePath(path).stem for path in drawings}
@@ -94,7 +94,7 @@ def make(
             state = outdated[drawing]
         elif drawing in outdated:
             state = _failed(with_dependencies(specs, [drawing]), outdated[drawing])
-        elif identity(drawing) == before[drawing]:
+        elif inode(drawing) == before[drawing]:
             state = "current"
         states[path] = state
     good = {path: drawing for path, drawing in wanted.items() if drawing not in outdated}
@@ -112,7 +112,7 @@ def make(
     rows += [(name, path, reasons[name]) for path, name in left_out.items()]
     for drawing in (*(refused & {*wanted.values()}), *left_out):
         for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
-            if not obstacle(ROOT / old):
+            if not why_not_a_file(ROOT / old):
                 (ROOT / old).unlink(missing_ok=True)
     if rows:
         _print_table(folder, rows, notes)
@@ -159,7 +159,7 @@ def _publish(drawings: dict[str, str]) -> dict[str, str]:
     problems = {}
     for path, drawing in drawings.items():
         published = ROOT / path
-        if words := obstacle(published):
+        if words := why_not_a_file(published):
             problems[path] = words
         elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
             try:

@@ -11,7 +11,7 @@ from typing import Any
 from ..checks.freshness import DAMAGED, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs.server import job_server
-from ..records.files import disk_is_full, obstacle
+from ..records.files import disk_is_full, why_not_a_file
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import Arguments
@@ -41,7 +41,7 @@ def make(freshness: Freshness, wanted: Iterable[str], args: Arguments) -> int:
     outdated = freshness.outdated(paths)
     for path, reason in outdated.items():
         for file in (path, record_path(path), log_path(path)):
-            if words := obstacle(ROOT / file):
+            if words := why_not_a_file(ROOT / file):
                 raise UsageError(f"{file}: {words}")
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
