@@ -5,7 +5,7 @@ from pathlib import Path
 from ..config import Config
 from ..records.files import read_bytes, write_whole
 from . import manifest
-from .difference import UPSTREAM
+from .layers import UPSTREAM
 from .published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 

@@ -13,8 +13,8 @@ from ..config import Config
 from ..records.files import file_hash, why_not_a_file
 from ..records.record import failure
 from . import manifest
-from .difference import UPSTREAM, Comparison
 from .freshness import MISSING, Freshness
+from .layers import UPSTREAM, Comparison
 from .published_sets import (
     MANIFEST,
     SUMS,
