@@ -119,7 +119,7 @@ def contents(root: Path, checked: Config, packages: Collection[Path] = ()) -> Co
     for pattern in _INPUTS:
         paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
     for published_set in published_sets.committed_sets(checked):
-        paths += published_set.texts
+        paths += published_set.text_files
         if not manifest.is_present(root, published_set):
             continue
         names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]

@@ -15,6 +15,7 @@ from ..records.sources import syntax_hash
 CURRENT = "current"
 MISSING = "missing"
 DAMAGED = "changed after it was made"
+REFUSED = "cannot exist: "  # how the reason begins then
 _FROM_CONFIG = "made from another config:"
 # Differing layer -> the beginning of the reason to recompute a result.
 _MADE = {
@@ -104,7 +105,7 @@ class Freshness:
     def _reason(self, path: str) -> str | None:
         """Return why a result has to be recomputed."""
         if why := self.refusal(path):
-            return f"cannot exist: {why}"
+            return REFUSED + why
         if why := self.direct_reason(path):
             return why
         for used in self.build_specs[path].inputs:

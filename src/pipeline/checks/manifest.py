@@ -68,12 +68,15 @@ class _Manifest(pydantic.BaseModel):
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the manifest's entry for a dataset: hashes of its attributes and its variables."""
+    """Return the entry for a dataset in a manifest: hashes of its attributes and variables."""
     variables = {}
     for name, variable in dataset.variables.items():
         kind, values = canonical_values(variable)
-        starts = range(0, len(values), BLOCK)
-        blocks = [_block_bytes(values[start : start + BLOCK]) for start in starts]
+        slices = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
+        blocks = [
+            json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
+            for block in slices
+        ]
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
@@ -87,14 +90,14 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:
-    """Return the manifest of a tree; raises ValueError or OSError if a file cannot be read."""
+    """Return a manifest of the files of a tree; ValueError or OSError if one cannot be read."""
     artifacts = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
     files = sorted(set().union(*sources.values()))
     folder = root / published_set.folder
     return {
         "environment": versions(),
-        "texts": {path: file_hash(root / path) for path in published_set.texts},
+        "texts": {path: file_hash(root / path) for path in published_set.text_files},
         "sources": {path: syntax_hash(root / path) for path in files},
         "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(artifacts)},
         "scenes": {
@@ -137,7 +140,7 @@ def read(root: Path, folder: str) -> Manifest:
 
 
 def sums(manifest: Manifest) -> dict[str, str]:
-    """Return file name -> sha256, sorted by name."""
+    """Return file name -> SHA-256 of the pictures in a manifest, sorted by name."""
     figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
     return {name: entry["sha256"] for name, entry in sorted(figures)}
 
@@ -155,18 +158,16 @@ def write(root: Path, folder: str, manifest: Manifest) -> None:
 
 
 def _checksum(manifest: Manifest) -> str:
+    """Return the hash of all entries of a manifest."""
     return hashlib.sha256(canonical_json(manifest).encode()).hexdigest()
 
 
 def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
+    """Return attribute -> hash of its value."""
     return {
         str(name): _short_hash(json.dumps(value).encode())
         for name, value in plain_attributes(source).items()
     }
-
-
-def _block_bytes(block: Any) -> bytes:
-    return json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
 
 
 def _short_hash(data: bytes) -> str:

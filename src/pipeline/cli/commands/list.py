@@ -15,9 +15,9 @@ from ..arguments import Arguments
 
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
-    variants = args.checked.variants
-    freshness = Freshness(ROOT, build_specs(args.checked))
-    for published_set in committed_sets(args.checked):
+    variants = args.config.variants
+    freshness = Freshness(ROOT, build_specs(args.config))
+    for published_set in committed_sets(args.config):
         _print(published_set.command, [*_published(freshness, published_set)])
     for group, scenes in SETS.items():
         apart = [s for s, block in variants[group].items() if paths.is_measured(block)]
@@ -27,11 +27,11 @@ def run(args: Arguments) -> int:
             rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]
             _print(f"{scenes.command}, {kind}", rows)
     rows = []
-    for name in args.checked.own_variants:
+    for name in args.config.own_variants:
         files: dict[str, list[str]] = {}
         for _, upstream in paths.figures(variants, name).values():
             files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
-        for scene, reason in args.checked.left_out[name].items():
+        for scene, reason in args.config.left_out[name].items():
             files.setdefault(reason, []).append(f"{scene}.png")
         rows += [(name, state, " ".join(files[state])) for state in files]
     _print("./reproduce variant NAME", rows)
