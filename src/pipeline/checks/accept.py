@@ -10,13 +10,13 @@ from .published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 
 
-def accept(root: Path, checked: Config) -> int:
+def accept(root: Path, config: Config) -> int:
     """Renew the manifests of the paper and of other published sets that have results here.
 
     Measured charts are published too, without a checksum. Returns the exit status, which is 1 if a
     result of the paper is missing or not current.
     """
-    for published_set in committed_sets(checked):
+    for published_set in committed_sets(config):
         results, command = published_set.build_specs, published_set.command
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue

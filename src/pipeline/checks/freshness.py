@@ -91,7 +91,6 @@ class Freshness:
         return "; ".join(shown + more) or str(self.reason(paths[0]))
 
     def _refusal(self, path: str) -> str | None:
-        """Return why a result or one of its inputs cannot exist, by a record that still fits."""
         spec = self.build_specs[path]
         for used in spec.inputs:
             if used in self.build_specs and (why := self.refusal(used)):
@@ -103,7 +102,6 @@ class Freshness:
         return None if self._difference(record, spec) else str(record["output"].get("refused"))
 
     def _reason(self, path: str) -> str | None:
-        """Return why a result has to be recomputed."""
         if why := self.refusal(path):
             return REFUSED + why
         if why := self.direct_reason(path):
@@ -114,7 +112,6 @@ class Freshness:
         return None
 
     def _direct_reason(self, path: str) -> str | None:
-        """Return why a result has to be recomputed even if its inputs keep their bytes."""
         if self.digest(path) is None:
             return why_not_a_file(self.root / path) or MISSING
         try:

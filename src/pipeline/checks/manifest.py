@@ -17,14 +17,8 @@ from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    format_sums,
-    read_published_text,
-)
+from . import published_sets
+from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
 
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT = 16  # hex digits of the hash of a block or an attribute
@@ -125,7 +119,7 @@ def read(root: Path, folder: str) -> Manifest:
     """Read a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(read_published_text(root, name))
+        manifest = json.loads(published_sets.read_published_text(root, name))
         # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
@@ -147,7 +141,9 @@ def sums(manifest: Manifest) -> dict[str, str]:
 
 def is_listed(root: Path, folder: str, manifest: Manifest) -> bool:
     """Return whether a folder's checksum list is that of a manifest; raises ChecksumError."""
-    return read_published_text(root, f"{folder}/{SUMS}") == format_sums(sums(manifest))
+    return published_sets.read_published_text(root, f"{folder}/{SUMS}") == format_sums(
+        sums(manifest)
+    )
 
 
 def write(root: Path, folder: str, manifest: Manifest) -> None:

@@ -14,17 +14,10 @@ from pathlib import Path
 from ..config import Config
 from ..records.files import file_hash, why_not_a_file
 from ..records.record import failure
-from . import manifest
+from . import manifest, published_sets
 from .freshness import MISSING, Freshness
 from .layers import UPSTREAM, Comparison
-from .published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    committed_sets,
-    edited_lists,
-)
+from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists
 
 _UNCOMPUTED = "not computed here: run ./reproduce, or verify --committed for committed files alone"
 NEW = "new: ./reproduce accept adds it to the manifest"
@@ -135,12 +128,12 @@ class Findings:
                 yield f"not checked, since not there: {_listed(missing)}"
 
 
-def verify(root: Path, checked: Config, committed: bool = False) -> list[Findings]:
+def verify(root: Path, config: Config, committed: bool = False) -> list[Findings]:
     """Compare each published set of a tree with its committed state, if it has one.
 
     With `committed`, figures of the paper need not have been computed here.
     """
-    sets = committed_sets(checked)
+    sets = published_sets.committed_sets(config)
     found = [inspect(root, s) for s in sets if not s.on_request or manifest.is_present(root, s)]
     for findings in found:
         if not (committed or findings.published_set.on_request):
@@ -171,7 +164,7 @@ def inspect(root: Path, published_set: PublishedSet) -> Findings:
         findings.problems += _other_files(root, published_set, committed)
         if not manifest.is_listed(root, folder, committed):
             findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
-    except ChecksumError as error:
+    except published_sets.ChecksumError as error:
         findings.problems.append(str(error))
     findings.stale = freshness.outdated(published_set.build_specs)
     return findings
