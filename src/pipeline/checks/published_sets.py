@@ -83,17 +83,17 @@ def _published(config: Config, group: str) -> PublishedSet:
         if name == group and scene in data:
             data[scene][stage] = path
     return PublishedSet(
-        group,
-        PUBLISHED[group],
-        f"results/{group}",
-        SETS[group].command,
-        SETS[group].texts,
-        group != PAPER,
-        {Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
-        {scene: paths.drawing(block) for scene, block in scenes.items()},
-        data,
-        {path: specs[path] for path in with_dependencies(specs, drawings)},
-        measured,
+        group=group,
+        folder=PUBLISHED[group],
+        results=f"results/{group}",
+        command=SETS[group].command,
+        text_files=SETS[group].texts,
+        on_request=group != PAPER,
+        drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
+        config={scene: paths.drawing(block) for scene, block in scenes.items()},
+        data=data,
+        build_specs={path: specs[path] for path in with_dependencies(specs, drawings)},
+        measured=measured,
     )
 
 
