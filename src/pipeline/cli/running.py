@@ -18,10 +18,10 @@ from .arguments import Arguments
 from .session import UsageError, interruptible, print_error
 
 INTERRUPTED = 130
-# Reasons to make a result again that a user is told of, since nobody edited anything.
+# Reasons that are printed when a result is made again, because no edit explains them.
 _REPORTED = ("its record", "no record", DAMAGED)
-# Those of profiles/default: snakemake prints a line if it reads them there. ./reproduce has its own
-# lock; a killed snakemake would leave one that stops the next run.
+# The options of profiles/default; snakemake prints a line if it reads them there. --nolock: the
+# lock of a killed snakemake would stop the next run, and ./reproduce has a lock of its own.
 OPTIONS = (
     *("--workflow-profile", "none", "--nolock", "--rerun-incomplete", "--keep-going"),
     *("--keep-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy"),
@@ -30,14 +30,13 @@ OPTIONS = (
 _LOGGER = ("--logger", "reproduce")
 
 
-def make(freshness: Freshness, wanted: Iterable[str], args: Arguments) -> int:
-    """Make the results `wanted` that are outdated, and return snakemake's exit status.
+def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
+    """Make those of these results that are outdated, and return snakemake's exit status.
 
     Results that are known not to exist are left out. `-n` alone is answered without snakemake.
     """
-    paths = with_dependencies(
-        freshness.build_specs, [path for path in wanted if not freshness.refusal(path)]
-    )
+    possible = [path for path in results if not freshness.refusal(path)]
+    paths = with_dependencies(freshness.build_specs, possible)
     outdated = freshness.outdated(paths)
     for path, reason in outdated.items():
         for file in (path, record_path(path), log_path(path)):
@@ -93,10 +92,10 @@ def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | No
 
 
 def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
-    """Run a command in a process group of its own, whose stdin closes when this process ends.
+    """Run a command in a process group of its own, and return its exit status.
 
-    The command inherits the lock. On Ctrl-C, one with jobs on other machines is asked to cancel
-    them.
+    The command inherits the lock, and its stdin closes when this process ends. If it is `remote`,
+    with jobs on other machines, it is asked to cancel them on Ctrl-C.
     """
     options: dict[str, Any] = {"env": environment, "process_group": 0, "close_fds": False}
     with subprocess.Popen(command, stdin=subprocess.PIPE, **options) as child:

@@ -18,10 +18,10 @@ SRC = Path(__file__).resolve().parents[2]
 @cache
 def named(src: Path, module: str) -> tuple[str, dict[Path, str]]:
     """Return the name of the folder for a module's functions, and the SHA-256 of its sources."""
-    texts = {file: file.read_bytes() for file in import_closure(src, module)}
-    hashes = [parsed(file.name, data).syntax_hash for file, data in texts.items()]
+    contents = {file: file.read_bytes() for file in import_closure(src, module)}
+    hashes = [parsed(file.name, data).syntax_hash for file, data in contents.items()]
     digest = hashlib.sha256(" ".join(hashes).encode()).hexdigest()[:16]
-    return f"{module}-{digest}", {f: hashlib.sha256(d).hexdigest() for f, d in texts.items()}
+    return f"{module}-{digest}", {f: hashlib.sha256(d).hexdigest() for f, d in contents.items()}
 
 
 def subfolder(module: str) -> str | None:
