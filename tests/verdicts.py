@@ -28,8 +28,7 @@ def verified(tree, strict=False, committed=False):
         for name, layers in findings.differences.items()
     }
     status = any(each.fails(strict) for each in (findings, *others))
-    problems = [*findings.problems, *findings.outdated, *findings.uncomputed]
-    return Found(int(status), wrong, problems, findings.notes, [*findings.report()])
+    return Found(int(status), wrong, findings.failures, findings.notes, findings.report())
 
 
 def commit(folder, *files):

@@ -51,6 +51,11 @@ class Findings:
         return _grouped((path, why + words) for path, why in self.stale.items() if why != MISSING)
 
     @property
+    def failures(self) -> list[str]:
+        """Lines about what fails besides the published files that differ."""
+        return [*self.problems, *self.outdated, *self.uncomputed]
+
+    @property
     def notes(self) -> list[str]:
         """Lines about differences that leave the committed bytes."""
         notes = [(file, "not the committed one, see git diff") for file in self.edited]
@@ -63,8 +68,7 @@ class Findings:
 
     def fails(self, strict: bool = False) -> bool:
         """Return whether the tree is not as committed; notes count if `strict`."""
-        failures = self.differences or self.problems or self.outdated or self.uncomputed
-        return bool(failures or (strict and self.notes))
+        return bool(self.differences or self.failures or (strict and self.notes))
 
     def _harmless(self, name: str) -> bool:
         """Return whether the layers of a listed file leave its committed bytes."""
@@ -93,16 +97,15 @@ class Findings:
 
     def report(self) -> list[str]:
         """Return the lines for the user: those of each published file, then all other findings."""
-        findings = [*self.problems, *self.outdated, *self.uncomputed]
-        notes = self.notes
-        counts = {"other finding": len(findings), "note": len(notes)}
+        failures, notes = self.failures, self.notes
+        counts = {"other finding": len(failures), "note": len(notes)}
         others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
         total, new = len(self.layers), list(self.layers.values()).count(None)
         identical = total - len(self.differences) - new
         return [
             *self._lines_of_files(),
             "",
-            *findings,
+            *failures,
             *(f"note: {line}" for line in notes),
             *self._unchecked(),
             f"{identical} of {total} figures identical{''.join(others)}",
