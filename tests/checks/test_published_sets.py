@@ -12,7 +12,7 @@ from pipeline.checks.published_sets import committed_state, edited_lists
 FIG3 = "paper_figures/fig3.png"
 
 
-def test_a_deleted_figure(moved):
+def test_a_deleted_figure_differs_in_the_layer_file(moved):
     (moved.path / FIG3).unlink()
     found = verified(moved)
     assert found.wrong == {"fig3.png": [f"file: {FIG3} is missing: ./reproduce makes it"]}
@@ -20,7 +20,7 @@ def test_a_deleted_figure(moved):
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n", b"garbage"])
-def test_a_file_that_is_no_figure(moved, content):
+def test_a_file_that_is_no_figure_differs_in_the_layer_drawing(moved, content):
     for name in ("fig3.png", "fig3.svg"):
         (moved.path / "paper_figures" / name).write_bytes(content)
     found = verified(moved)
@@ -44,7 +44,7 @@ def without(word):
     "change",
     [*map(without, ("{", '"matplotlib"', '"pixels"')), "", "[]", "null", "{}", "{", "\0"],
 )
-def test_a_broken_or_edited_manifest(moved, change):
+def test_a_broken_or_edited_manifest_is_a_finding(moved, change):
     path = moved.path / "paper_figures" / "MANIFEST.json"
     path.write_text(change(path.read_text()) if callable(change) else change)
     found = verified(moved)
@@ -67,14 +67,6 @@ def test_sums_with_a_missing_or_broken_line_are_renewed(moved):
     assert accepting(moved)[0] == 0
     assert path.read_text() == text
     assert verified(moved).status == 0
-
-
-def test_a_figure_that_no_scene_makes(moved):
-    shutil.copy(moved.path / FIG3, moved.path / "paper_figures" / "fig9.png")
-    found = verified(moved)
-    assert (found.status, found.wrong) == (1, {})
-    line = "paper_figures/fig9.png: no scene of config.yaml makes it: delete it, "
-    assert found.findings == [f"{line}or put its scene back"]
 
 
 def test_the_pictures_of_a_removed_scene_are_listed(moved):

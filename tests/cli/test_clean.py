@@ -101,7 +101,7 @@ def test_only_named_folders_are_cleaned(root):
 
 
 @pytest.mark.parametrize("answer", ["", "n\n", "y\n"])
-def test_it_asks(root, monkeypatch, capsys, answer):
+def test_nothing_is_deleted_without_a_yes(root, monkeypatch, capsys, answer):
     monkeypatch.setattr("sys.stdin", io.StringIO(answer))
     goes = set()
     if answer == "y\n":
