@@ -222,9 +222,7 @@ def test_other_data_give_other_numbers(scenes):
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
 @pytest.mark.parametrize("width", [1280, 390])
-def test_a_browser_shows_the_page_within_its_width_and_requests_nothing(
-    reported, text, tmp_path, width
-):
+def test_a_browser_shows_the_whole_page_and_requests_nothing(reported, text, tmp_path, width):
     """The page is shown in a frame, as chromium's windows are no narrower than 500 pixels."""
     outer = tmp_path / "outer.html"
     (tmp_path / "page.html").write_text(with_script(text, LOOK))

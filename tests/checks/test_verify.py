@@ -102,9 +102,7 @@ def test_another_version_of_a_package_differs_in_the_layer_environment(moved, mo
         (MOTION, "strain", 1500, "fig4", "block 1 on (value 1,024 of "),
     ],
 )
-def test_a_value_that_differs_in_its_last_bits_is_located(
-    moved, path, variable, index, figure, block
-):
+def test_a_value_that_differs_is_located(moved, path, variable, index, figure, block):
     with netCDF4.Dataset(moved.path / path, "a") as file:
         file.set_auto_mask(False)
         values = file[variable][...]
