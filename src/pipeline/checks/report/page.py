@@ -76,18 +76,12 @@ def _policy_source(script: str) -> str:
 
 
 def _image(file: Path) -> Picture:
-    """Return a PNG as text, with its size in pixels."""
-    high, wide, _ = pixels(file).shape
-    data = base64.b64encode(read_bytes(file)).decode()
-    return {"image": {"data": data, "wide": wide, "high": high, "small": _thumbnail(file)}}
-
-
-def _thumbnail(file: Path) -> str:
-    """Return a small copy of a PNG as text."""
-    small = io.BytesIO()
-    with Image.open(file) as image:
-        image.convert("RGB").reduce(_THUMBNAIL_STEP).save(small, "png")
-    return base64.b64encode(small.getvalue()).decode()
+    """Return a PNG and a small copy of it as text, and its size in pixels."""
+    image, small = pixels(file), io.BytesIO()
+    Image.fromarray(image).reduce(_THUMBNAIL_STEP).save(small, "png")
+    data, thumbnail = (base64.b64encode(x).decode() for x in (read_bytes(file), small.getvalue()))
+    high, wide, _ = image.shape
+    return {"image": {"data": data, "wide": wide, "high": high, "small": thumbnail}}
 
 
 class _Page:
