@@ -23,7 +23,7 @@ from . import running
 from .arguments import Arguments
 from .session import CommandLineError, print_error
 
-Drawings = dict[str, str]  # file, where users find it -> its drawing in results
+Drawings = dict[str, str]  # path where users find a file -> its drawing in results
 
 
 def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None:
@@ -55,10 +55,10 @@ def make(
 ) -> int:
     """Make and publish files, print a table of them, and return the exit status.
 
-    A figure whose periodic orbit does not exist is left out, and the others are made; the status is
-    1 only if it should have been published. `group` is a set of scenes or a variant. Further
-    results to make are `data`, which the table leaves out, as it does files that were current if it
-    is `brief`. `args` say what snakemake does.
+    `group` is a set of scenes or a variant, `data` are further results to make, which the table
+    leaves out, and `args` say what snakemake does. A `brief` table leaves out files that were
+    current. A figure whose periodic orbit does not exist is left out; the status is 1 then only if
+    it should have been published.
     """
     reasons = config.left_out.get(group, {})
     left_out = {path: scene for path in drawings if (scene := PurePath(path).stem) in reasons}
@@ -162,8 +162,8 @@ def _print_table(
     head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
     width = shutil.get_terminal_size((10**6, 24)).columns  # without a terminal, lines stay whole
     wrap = partial(textwrap.wrap, width=width, subsequent_indent="  ", break_long_words=False)
-    found = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    lines = [line for note in (*found, *notes) for line in wrap(note)]
+    explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
+    lines = [line for note in (*explained, *notes) for line in wrap(note)]
     print("", *columns([head, *rows]), *lines, sep="\n")
 
 
