@@ -1,5 +1,6 @@
 """What verify finds and what accept prints, for the tests of both."""
 
+import subprocess
 from contextlib import redirect_stdout
 from io import StringIO
 from typing import NamedTuple
@@ -27,8 +28,14 @@ def verified(tree, strict=False, committed=False):
         for name, layers in findings.differences.items()
     }
     status = any(each.fails(strict) for each in (findings, *others))
-    problems = [*findings.problems, *findings.outdated, *findings.uncomputed]
-    return Found(int(status), wrong, problems, findings.notes, [*findings.report()])
+    return Found(int(status), wrong, findings.failures, findings.notes, findings.report())
+
+
+def commit(folder, *files):
+    """Commit files of a folder to a new repository there."""
+    git = ["git", "-C", folder, "-c", "user.name=x", "-c", "user.email=x@example.org"]
+    for words in (["init", "-q"], ["add", "-f", *files], ["commit", "-q", "-m", "x"]):
+        subprocess.run([*git, *words], check=True)
 
 
 def accepting(tree):

@@ -16,7 +16,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.jobs.plan import plan
 from pipeline.jobs.server import ADDRESS
-from pipeline.records.files import disk_is_full, identity
+from pipeline.records.files import disk_is_full, inode
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
@@ -26,7 +26,7 @@ WIDTH = 6  # characters of a scene's name
 
 
 class LogHandler(LogHandlerBase):
-    """Print `fig2  orbits  1.1 s  3 of 22` for a finished step, or why a step failed."""
+    """Prints `fig2  orbits  1.1 s  3 of 22` for a finished step, or why a step failed."""
 
     writes_to_stream = has_filter = has_formatter = True
     writes_to_file = needs_rulegraph = False
@@ -35,7 +35,7 @@ class LogHandler(LogHandlerBase):
         self.results: dict[int, str] = {}  # job -> result
         self.started: dict[int, float] = {}  # job -> time
         self.running: dict[int, float] = {}  # job that has not ended -> time of the monotonic clock
-        self.before: dict[str, int | None] = {}  # result -> its identity before the job
+        self.before: dict[str, int | None] = {}  # result -> its inode before the job
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
@@ -53,7 +53,7 @@ class LogHandler(LogHandlerBase):
             case LogEvent.JOB_INFO:
                 # Snakemake appends a file's flags to its name, in parentheses.
                 result = str((record.output or [""])[0]).partition(" (")[0]
-                self.results[record.jobid], self.before[result] = result, identity(result)
+                self.results[record.jobid], self.before[result] = result, inode(result)
             case LogEvent.JOB_STARTED:
                 self.started |= dict.fromkeys(record.jobs, record.created)
                 self.running |= dict.fromkeys(record.jobs, time.monotonic())
@@ -64,7 +64,7 @@ class LogHandler(LogHandlerBase):
                 job, now = self.finished
                 result = self.results[job]
                 words = f"{now - self.started[job]:.1f} s"
-                if identity(result) and identity(result) == self.before[result]:
+                if inode(result) and inode(result) == self.before[result]:
                     words = "as it was"
                 self.steps = f"{record.done} of {record.total}"
                 self._print(job, words, self.steps)
@@ -82,7 +82,7 @@ class LogHandler(LogHandlerBase):
         super().close()
 
     def _running(self) -> str:
-        """Describe the jobs that run."""
+        """Describe the jobs that run, as the heartbeat prints them."""
         now, jobs = time.monotonic(), []
         for job, started in [*self.running.items()]:
             spec = plan().freshness.build_specs.get(self.results[job])
@@ -94,10 +94,11 @@ class LogHandler(LogHandlerBase):
         return f"{compiling}running: {', '.join(jobs)}; {self.steps} done"
 
     def _print(self, job: int, *words: str) -> None:
+        """Print a line about a job; parts of a dataset are many, and are counted instead."""
         spec = plan().freshness.build_specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        if spec and is_part(spec) and len(words) > 1:  # they are many: they are counted
+        if spec and is_part(spec) and len(words) > 1:
             self.parts = self.parts or Parts(plan().freshness.build_specs, plan().outdated)
             line = self.parts.done(self.results[job])
         if line:
@@ -112,7 +113,7 @@ class LogHandler(LogHandlerBase):
 
 
 def _compiling() -> str:
-    """Say that jobs compile the kernel if no machine code is kept yet."""
+    """Return words about the compilation of the kernel if no machine code is stored yet."""
     folder = os.environ.get("NUMBA_CACHE_DIR") or ROOT / "src/pseudorigid/kernel/__pycache__"
     return "" if any(Path(folder).glob("pseudorigid.*/*.nbc")) else "compiling, once; "
 

@@ -1,4 +1,4 @@
-"""Progress of datasets that are computed in parts, each by a job of its own."""
+"""Progress of datasets whose parts, called blocks, are each computed by a job of its own."""
 
 import time
 
@@ -8,9 +8,9 @@ PAUSE = 1.0  # least number of seconds between two lines
 
 
 class Parts:
-    """Count the parts, called blocks, of the datasets of which a run makes some.
+    """Counts the finished parts of the datasets that a run makes, and estimates the time left.
 
-    `specs` maps results to build specifications, and `outdated` holds the results of the run.
+    `specs` maps results to build specifications, and `outdated` has the results of the run.
     """
 
     def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
@@ -22,7 +22,7 @@ class Parts:
         self.printed = -PAUSE
 
     def done(self, path: str) -> str | None:
-        """Take a part as done, and return the line to print, if it is time for one.
+        """Count a finished part, and return a line if it is time for one.
 
         Speed is measured from the first part on: before it, jobs may compile the map.
         """
@@ -45,7 +45,7 @@ def is_part(spec: BuildSpec) -> bool:
 
 
 def _duration(seconds: int) -> str:
-    """Return a time in words."""
+    """Return a time in minutes and seconds, or in hours and minutes."""
     minutes, rest = divmod(seconds, 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s"

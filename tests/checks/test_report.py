@@ -205,7 +205,7 @@ def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(scenes
         assert quantities.reported(other, data) == values
 
 
-def test_other_data_other_numbers(scenes):
+def test_other_data_give_other_numbers(scenes):
     def measured(scene, **changes):
         block, data = scenes[scene]
         other = data | {stage: change(data[stage]) for stage, change in changes.items()}
@@ -222,7 +222,7 @@ def test_other_data_other_numbers(scenes):
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
 @pytest.mark.parametrize("width", [1280, 390])
-def test_in_a_browser(reported, text, tmp_path, width):
+def test_a_browser_shows_the_whole_page_and_requests_nothing(reported, text, tmp_path, width):
     """The page is shown in a frame, as chromium's windows are no narrower than 500 pixels."""
     outer = tmp_path / "outer.html"
     (tmp_path / "page.html").write_text(with_script(text, LOOK))

@@ -2,14 +2,13 @@
 
 import re
 import shutil
-import subprocess
 import time
 from importlib import metadata
 
 import netCDF4
 import numpy as np
 import pytest
-from verdicts import verified
+from verdicts import commit, verified
 
 from pipeline.checks.published_sets import edited_lists
 from pipeline.records import pictures
@@ -50,7 +49,7 @@ def test_manifest_and_records_have_no_folder_and_no_date(accepted):
 # ---- one fault for each layer ----
 
 
-def test_config(moved):
+def test_another_config_differs_in_the_layer_config(moved):
     moved.edit("fig7", impacts=61)
     found = verified(moved)
     words = ["config: impacts: 60 in the manifest, 61 in config.yaml"]
@@ -67,7 +66,7 @@ def test_without_results_the_list_asks_the_manifest_for_the_config(moved):
     assert f"fig3  {FIG3}  identical to the committed one\n" in listed
 
 
-def test_source(moved, edited):
+def test_another_source_is_a_note_once_its_results_are_recomputed(moved, edited):
     """Results are stale until they are recomputed; then the changed source is a note."""
     moved.append("pseudorigid/dynamics/orbits.py")
     found = verified(moved)
@@ -85,7 +84,7 @@ def test_source(moved, edited):
     assert verified(moved, strict=True).status == 1
 
 
-def test_environment(moved, monkeypatch):
+def test_another_version_of_a_package_differs_in_the_layer_environment(moved, monkeypatch):
     installed = metadata.version
     other = {"matplotlib": "3.0.1"}
     monkeypatch.setattr(metadata, "version", lambda name: other.get(name) or installed(name))
@@ -96,37 +95,27 @@ def test_environment(moved, monkeypatch):
     assert re.search(note, found.notes[0])
 
 
-def change_a_value(path, variable, index, by_ulps):
-    with netCDF4.Dataset(path, "a") as file:
-        file.set_auto_mask(False)
-        values = file[variable][...]
-        values.view("i8")[index] += by_ulps
-        file[variable][...] = values
-
-
 @pytest.mark.parametrize(
-    ("path", "variable", "index", "figures", "block"),
+    ("path", "variable", "index", "figure", "block"),
     [
-        (
-            "results/paper/orbits_fig5.nc",
-            "x",
-            17,
-            {"fig5.png", "fig5.svg"},
-            "block 0 on (value 0 of ",
-        ),
-        (MOTION, "strain", 1500, {"fig4.png", "fig4.svg"}, "block 1 on (value 1,024 of "),
+        ("results/paper/orbits_fig5.nc", "x", 17, "fig5", "block 0 on (value 0 of "),
+        (MOTION, "strain", 1500, "fig4", "block 1 on (value 1,024 of "),
     ],
 )
-def test_data(moved, path, variable, index, figures, block):
-    change_a_value(moved.path / path, variable, index, 3)
+def test_a_value_that_differs_is_located(moved, path, variable, index, figure, block):
+    with netCDF4.Dataset(moved.path / path, "a") as file:
+        file.set_auto_mask(False)
+        values = file[variable][...]
+        values.view("i8")[index] += 3
+        file[variable][...] = values
     found = verified(moved)
-    assert found.wrong.keys() == figures
+    assert found.wrong.keys() == {f"{figure}.png", f"{figure}.svg"}
     for (words,) in found.wrong.values():
         assert words.startswith(f"data: {path}: variable {variable} differs from {block}")
     assert found.findings[0] == f"{path}: {CHANGED}"
 
 
-def test_an_edited_attribute(moved):
+def test_an_edited_attribute_is_named(moved):
     with netCDF4.Dataset(moved.path / PERIODIC, "a") as file:
         file.setncattr("energy", 0.02)
     found = verified(moved)
@@ -136,7 +125,7 @@ def test_an_edited_attribute(moved):
 
 
 @pytest.mark.parametrize("keep", [0, 1, 4000, -1])
-def test_a_truncated_artifact(moved, keep):
+def test_a_truncated_dataset_differs_in_the_layer_data(moved, keep):
     path = moved.path / ORBITS
     path.write_bytes(path.read_bytes()[:keep])
     found = verified(moved)
@@ -150,11 +139,9 @@ def spoil(path, row, column):
     path.write_bytes(png(image, 300))
 
 
-def test_one_pixel(moved):
+def test_a_pixel_that_differs_from_the_results_or_the_commit_is_shown(moved):
     """It is compared with the picture in results or, without results, with the commit."""
-    for command in (["init", "-q"], ["add", "paper_figures"], ["commit", "-q", "-m", "x"]):
-        identity = ["-c", "user.name=x", "-c", "user.email=x@example.org"]
-        subprocess.run(["git", *identity, *command], cwd=moved.path, check=True)
+    commit(moved.path, "paper_figures")
     spoil(moved.path / FIG3, 100, 200)
     found = verified(moved)
     (words,) = found.wrong.pop("fig3.png")
@@ -170,7 +157,7 @@ def test_one_pixel(moved):
     assert note in verified(moved).notes
 
 
-def test_one_pixel_of_a_drawing_that_was_not_published(moved):
+def test_a_pixel_that_differs_in_an_unpublished_drawing_is_counted(moved):
     drawing = "results/paper/figures/fig3.png"
     spoil(moved.path / drawing, 5, 6)
     found = verified(moved)
@@ -179,7 +166,7 @@ def test_one_pixel_of_a_drawing_that_was_not_published(moved):
     assert (found.wrong, found.findings) == ({}, [f"{drawing}: {CHANGED}"])
 
 
-def test_another_svg(moved):
+def test_an_element_of_an_svg_that_differs_is_counted(moved):
     path = moved.path / "paper_figures" / "fig7.svg"
     path.write_text(path.read_text().replace("stroke-width: 0.8", "stroke-width: 0.9", 1))
     found = verified(moved)
@@ -187,7 +174,7 @@ def test_another_svg(moved):
     assert re.search(r"drawing: .*: 1 of [\d,]+ elements differ", found.wrong["fig7.svg"][0])
 
 
-def test_file_encoding(moved):
+def test_the_same_picture_in_other_bytes_differs_in_the_layer_file(moved):
     from PIL import Image
 
     path = moved.path / FIG3

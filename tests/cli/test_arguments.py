@@ -76,7 +76,7 @@ def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line):
 
 
 def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
-    args = arguments.read(["variant", "-c2", "low", "fig3", "--", "-j", "5", "x"])
+    args = arguments.read(["variant", "low", "-c2", "fig3", "--", "-j", "5", "x"])
     assert (args.variant, args.figure, args.cores) == ("low", ["fig3"], "2")
     assert (args.options, args.makes_nothing) == (["-j", "5", "x"], False)
     args = arguments.read(["study", "--cores", "2", "-n"])

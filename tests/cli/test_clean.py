@@ -2,12 +2,12 @@
 
 import io
 import json
-import subprocess
 from contextlib import nullcontext
 
 import pytest
 import yaml
 from project import fresh_tree, of_scenes
+from verdicts import commit
 
 from pipeline import config
 from pipeline.cli.arguments import Arguments
@@ -42,17 +42,20 @@ FILES = {
 KEPT = {name for name, goes in FILES.items() if not goes}
 
 
+def write(file, text="made"):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+
+
+def write_record(root, result, output):
+    write(root / record_path(result), json.dumps({"output": {"file": output}}))
+
+
 def write_files(root):
     for name in FILES:
-        (root / name).parent.mkdir(parents=True, exist_ok=True)
-        (root / name).write_text("made")
+        write(root / name)
     for name in RECORDED:
-        write_record(root / record_path(name), name)
-
-
-def write_record(record, output):
-    record.parent.mkdir(exist_ok=True)
-    record.write_text(json.dumps({"output": {"file": output}}))
+        write_record(root, name, name)
 
 
 def left(root):
@@ -98,7 +101,7 @@ def test_only_named_folders_are_cleaned(root):
 
 
 @pytest.mark.parametrize("answer", ["", "n\n", "y\n"])
-def test_it_asks(root, monkeypatch, capsys, answer):
+def test_nothing_is_deleted_without_a_yes(root, monkeypatch, capsys, answer):
     monkeypatch.setattr("sys.stdin", io.StringIO(answer))
     goes = set()
     if answer == "y\n":
@@ -112,9 +115,7 @@ def test_it_asks(root, monkeypatch, capsys, answer):
 
 
 def test_a_result_that_is_committed_stays(root):
-    git = ["git", "-C", str(root), "-c", "user.name=x", "-c", "user.email=x@x"]
-    subprocess.run([*git, "init", "-q"], check=True)
-    subprocess.run([*git, "add", "-f", "results/paper/motion_fig3.nc"], check=True)
+    commit(root, "results/paper/motion_fig3.nc")
     assert run(root) == 0
     assert left(root) == KEPT | {"results/paper/motion_fig3.nc"}
 
@@ -130,7 +131,7 @@ def test_no_path_in_a_record_is_followed(root):
     for output in outputs:
         write_files(root)
         for name in ("victim.nc", "notes.txt"):
-            write_record(root / record_path(f"results/paper/{name}"), output)
+            write_record(root, f"results/paper/{name}", output)
         assert run(root) == 0
         assert victim.read_text() == "mine", output
         assert left(root) == KEPT, output

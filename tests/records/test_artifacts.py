@@ -42,7 +42,7 @@ def dataset():
     )
 
 
-def test_round_trip_keeps_values_types_and_attributes(tmp_path):
+def test_a_file_keeps_values_types_and_attributes(tmp_path):
     path = saved(dataset(), tmp_path / "deep" / "a.nc", resolution=1e-3)
     back = load(path)
     path.unlink()  # the dataset is in memory
@@ -63,7 +63,7 @@ def test_no_orbits_is_a_dataset_too(tmp_path):
     assert load(saved(empty, tmp_path / "a.nc"))["x"].shape == (0, 6)
 
 
-def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
+def test_the_bytes_depend_on_no_process_and_no_order_of_variables(tmp_path):
     first = saved(dataset(), tmp_path / "a.nc").read_bytes()
     backwards = dataset()[sorted(dataset().variables, reverse=True)]
     backwards.attrs = dict(reversed(backwards.attrs.items()))
@@ -88,7 +88,7 @@ def test_same_bytes_whatever_the_process_and_the_order_of_variables(tmp_path):
         (lambda d: d.update({"x": variable("point", np.ones(5, bool))}), "x has dtype bool"),
     ],
 )
-def test_refuses_what_is_incomplete(tmp_path, change, words):
+def test_an_incomplete_dataset_is_refused(tmp_path, change, words):
     bad = dataset()
     change(bad)
     with pytest.raises(ArtifactError, match=words) as error:

@@ -21,15 +21,15 @@ def test_only_regular_files_are_opened(tmp_path, monkeypatch):
         other.bind("a socket")
     for what in ("a FIFO", "a folder", "a device", "a socket"):
         words = f"{what} stands in its place, move it away"
-        assert files.obstacle(tmp_path / what) == words
+        assert files.why_not_a_file(tmp_path / what) == words
         assert files.file_hash(tmp_path / what) is None
         with pytest.raises(files.FileError, match=f"/{what}: {words}$"):
             files.read_bytes(tmp_path / what)
     (tmp_path / "loop").symlink_to("loop")
-    assert files.obstacle(tmp_path / "loop").startswith("cannot be read: Too many levels")
+    assert files.why_not_a_file(tmp_path / "loop").startswith("cannot be read: Too many levels")
     for missing in ("none", "a file/below"):
         (tmp_path / "a file").touch()
-        assert files.obstacle(tmp_path / missing) is files.file_hash(tmp_path / missing) is None
+        assert (files.why_not_a_file(missing), files.file_hash(missing)) == (None, None)
     (tmp_path / "link").symlink_to("a file")
     assert files.read_text(tmp_path / "link") == ""
 

@@ -8,9 +8,7 @@ from project import ROOT, SHIPPED
 
 from pipeline.config import load
 from pipeline.config.build_specs import build_specs
-from pipeline.records import sources
-from pipeline.records import syntax_hash as meanings
-from pipeline.records.syntax_hash import facts
+from pipeline.records import sources, syntax_hash
 
 TEXT = '''"""A module."""
 
@@ -37,8 +35,8 @@ def far(point, *, more=None):
 '''
 
 
-def meaning(text, name="x.py"):
-    return facts(name, text.encode())[0]
+def hash_of(text, name="x.py"):
+    return syntax_hash.parsed(name, text.encode()).syntax_hash
 
 
 WITHOUT_EFFECT = [
@@ -65,18 +63,18 @@ WITH_EFFECT = [
 @pytest.mark.parametrize(("old", "new"), WITHOUT_EFFECT + WITH_EFFECT)
 def test_an_edit_changes_the_hash_if_it_has_an_effect(old, new):
     assert TEXT.count(old) == 1
-    assert (meaning(TEXT.replace(old, new)) != meaning(TEXT)) == ((old, new) in WITH_EFFECT)
+    assert (hash_of(TEXT.replace(old, new)) != hash_of(TEXT)) == ((old, new) in WITH_EFFECT)
 
 
 def test_hashes_do_not_depend_on_pythons_version():
     """These were computed under Python 3.11, 3.12 and 3.13."""
-    assert meaning(TEXT)[:16] == "5fdb88b11fb526e4"
-    assert meaning("a: 1\n", "x.toml")[:16] == "9b7acdf56d4776c2"
+    assert hash_of(TEXT)[:16] == "5fdb88b11fb526e4"
+    assert hash_of("a: 1\n", "x.toml")[:16] == "9b7acdf56d4776c2"
 
 
 def test_other_files_are_hashed_by_their_text():
-    assert meaning("def f(:\n") != meaning("def f(:\n\n")
-    assert meaning("a = 1", "x.toml") != meaning("a  = 1", "x.toml")
+    assert hash_of("def f(:\n") != hash_of("def f(:\n\n")
+    assert hash_of("a = 1", "x.toml") != hash_of("a  = 1", "x.toml")
 
 
 def of_all():
@@ -112,27 +110,26 @@ def test_bookkeeping_is_no_source_of_any_result():
 
 def test_a_fifo_has_no_hash(tmp_path):
     os.mkfifo(tmp_path / "module.py")
-    assert meanings.syntax_hash(tmp_path / "module.py") is None
+    assert syntax_hash.syntax_hash(tmp_path / "module.py") is None
 
 
 @pytest.mark.parametrize("damage", ["value", "import", "cut", "folder", "FIFO"])
-def test_a_damaged_cache_of_hashes_is_not_used(tmp_path, monkeypatch, damage):
-    cache = tmp_path / "meanings.json"
-    monkeypatch.setattr(meanings, "_KEPT", cache)
-    fresh, data = meanings._known.__wrapped__, b"import os\n\nVALUE = 1\n"
-    known = fresh()
-    monkeypatch.setattr(meanings, "_known", lambda: known)
-    found = facts("module.py", data)
-    meanings.keep()
-    assert list(fresh().values()) == [found]
-    text = cache.read_text()
+def test_a_damaged_store_of_hashes_is_not_used(tmp_path, monkeypatch, damage):
+    store = tmp_path / "hashes.json"
+    monkeypatch.setattr(syntax_hash, "_STORE", store)
+    stored, results = syntax_hash._results.__wrapped__, {}
+    monkeypatch.setattr(syntax_hash, "_results", lambda: results)
+    found = syntax_hash.parsed("module.py", b"import os\n\nVALUE = 1\n")
+    syntax_hash.store_results()
+    assert [*stored().values()] == [[found.syntax_hash, [[0, "os", []]]]]
+    text = store.read_text()
     if damage in ("folder", "FIFO"):
-        cache.unlink()
-        (os.mkdir if damage == "folder" else os.mkfifo)(cache)
+        store.unlink()
+        (os.mkdir if damage == "folder" else os.mkfifo)(store)
     elif damage == "cut":
-        cache.write_text(text[:-1])
+        store.write_text(text[:-1])
     else:
-        edits = {"value": (found[0], "0" * 64), "import": ('"os"', '"re"')}
-        cache.write_text(text.replace(*edits[damage]))
-        assert cache.read_text() != text
-    assert fresh() == {}
+        edits = {"value": (found.syntax_hash, "0" * 64), "import": ('"os"', '"re"')}
+        store.write_text(text.replace(*edits[damage]))
+        assert store.read_text() != text
+    assert stored() == {}

@@ -12,7 +12,7 @@ from pipeline.records.sources import ROOT
 
 def run(args: Arguments) -> int:
     """Make the datasets of all sweeps or of the named ones; `atlas` makes pictures too."""
-    variants = args.checked.variants
+    variants = args.config.variants
     sweeps = variants["atlas"]
     figures.require_known("sweep", args.sweep, list(sweeps))
     if not sweeps:
@@ -22,12 +22,12 @@ def run(args: Arguments) -> int:
             raise UsageError("--slurm: there is no sbatch on this machine")
         args.options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *args.options]
         add_packages("slurm")
-    files: figures.Wanted = {}
+    files: figures.Drawings = {}
     names = [n for n in sweeps if not args.sweep or {n, sweeps[n].get("over")} & {*args.sweep}]
     if args.word == "atlas":
-        files = figures.of_scenes(args.checked, "atlas", names)
+        files = figures.drawings_of(args.config, "atlas", names)
     artifact_paths = paths.artifact_paths(variants)
     stages = (("atlas", name, "sweep") for name in names)  # which a scene may be without
     data = dict.fromkeys(artifact_paths[key] for key in stages if key in artifact_paths)
     with locked():
-        return figures.make(args.checked, "atlas", files | {path: path for path in data}, args)
+        return figures.make(args.config, "atlas", files | {path: path for path in data}, args)

@@ -18,9 +18,9 @@ from .ledger.schema import Verdict
 
 def run(args: Arguments) -> int:
     """Compute missing data, draw the pictures and write the verdicts."""
-    checked = args.checked
+    checked = args.config
     with locked():
-        files = figures.of_scenes(checked, "claims")
+        files = figures.drawings_of(checked, "claims")
         data = [*dataset_paths(checked, claims.required_datasets()).values()]
         data += theorem_paths(checked, claims.required_theorems()).values()
         status = figures.make(checked, "claims", files, args, data)

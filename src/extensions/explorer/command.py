@@ -15,7 +15,7 @@ EXPLORER = "results/explorer.html"
 def run(args: Arguments) -> int:
     """Write the page; unless told otherwise, open it where there is a display."""
     with locked():
-        write(args.checked)
+        write(args.config)
     # Without a display, Python would start a browser for terminals, which waits for keys.
     display = any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))
     opened = display and not args.no_open and webbrowser.open((ROOT / EXPLORER).as_uri())

@@ -31,15 +31,15 @@ def run(args: Arguments) -> int:
             raise CommandLineError(f"no theorem {name}{meant}")
     with locked():
         if args.pictures:
-            wanted = figures.of_scenes(args.checked, "proofs")
-            return figures.make(args.checked, "proofs", wanted, args)
+            wanted = figures.drawings_of(args.config, "proofs")
+            return figures.make(args.config, "proofs", wanted, args)
         if args.impacts:
             from .proved_impacts import impacts
 
             doing = ["reading the impacts"]
             Heartbeat(lambda: f"reproduce: {doing[0]}").print(f"reproduce: {doing[0]}")
             with interruptible(), one_line():
-                return int(impacts(args.checked, partial(doing.__setitem__, 0)))
+                return int(impacts(args.config, partial(doing.__setitem__, 0)))
         return _check(args, args.theorem or [*THEOREMS])
 
 
@@ -49,7 +49,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
 
     if args.search:
         search(names)
-    artifact_paths = paths.artifact_paths(args.checked.variants)
+    artifact_paths = paths.artifact_paths(args.config.variants)
     known = {
         scene: path for (_, scene, stage), path in artifact_paths.items() if stage == "theorem"
     }
@@ -60,7 +60,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
     results = [known[name] for name in names]
     for path in results if args.again else ():
         (ROOT / path).unlink(missing_ok=True)
-    status = figures.make(args.checked, "theorems", {}, args, results)
+    status = figures.make(args.config, "theorems", {}, args, results)
     if status or args.makes_nothing:
         return status
     for path in results:

@@ -20,14 +20,14 @@ import numpy as np
 import xarray as xr
 
 from pipeline.checks import manifest, published_sets, verify
-from pipeline.checks.difference import Comparison, dataset_difference
+from pipeline.checks.layers import Comparison, dataset_difference
 from pipeline.checks.published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_sums
 from pipeline.config.paths import PAPER, PUBLISHED, Config
 from pipeline.declaration import extensions
 from pipeline.records import files
 from pipeline.records.artifacts import ArtifactError, load
 from pipeline.records.files import FileError, file_hash, read_bytes
-from pipeline.records.pictures import PictureError, difference
+from pipeline.records.pictures import PictureError, picture_difference
 from pipeline.records.record import SHAPE, git, read_record, record_path
 
 TOP = "pseudorigid"  # the folder in the tar
@@ -119,7 +119,7 @@ def contents(root: Path, checked: Config, packages: Collection[Path] = ()) -> Co
     for pattern in _INPUTS:
         paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
     for published_set in published_sets.committed_sets(checked):
-        paths += published_set.texts
+        paths += published_set.text_files
         if not manifest.is_present(root, published_set):
             continue
         names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]
@@ -296,7 +296,7 @@ def _layers(root: Path, sets: list[PublishedSet], path: str, other: Path) -> dic
                     layers = Comparison(root, published_set, committed).layers(name) or {}
                 image = root / published_set.results / "differences" / name
                 if "file" not in layers:
-                    words = difference(root / path, other / path, image)[0]
+                    words = picture_difference(root / path, other / path, image)[0]
                     layers["drawing"] = f"{path}: {words}"
     except (ArtifactError, PictureError, FileError) as error:
         layers[layer] = str(error)

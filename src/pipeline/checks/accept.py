@@ -5,18 +5,18 @@ from pathlib import Path
 from ..config import Config
 from ..records.files import read_bytes, write_whole
 from . import manifest
-from .difference import UPSTREAM
+from .layers import UPSTREAM
 from .published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
 from .verify import Findings, inspect
 
 
-def accept(root: Path, checked: Config) -> int:
-    """Renew the manifests of the paper and of the other published sets that were made.
+def accept(root: Path, config: Config) -> int:
+    """Renew the manifests of the paper and of other published sets that have results here.
 
-    Measured charts are published too, without a checksum. Returns the exit status, 1 if a result
-    of the paper is missing or not current.
+    Measured charts are published too, without a checksum. Returns the exit status, which is 1 if a
+    result of the paper is missing or not current.
     """
-    for published_set in committed_sets(checked):
+    for published_set in committed_sets(config):
         results, command = published_set.build_specs, published_set.command
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue
@@ -59,6 +59,7 @@ def _renew(root: Path, findings: Findings) -> None:
 
 
 def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> list[str]:
+    """Return a line for each difference of a set from its manifest."""
     changes = []
     for name, layers in findings.layers.items():
         if layers is None:

@@ -1,4 +1,4 @@
-"""Whether results are what this tree would make, by their records and never by their times."""
+"""Which results differ from what this tree would make. Records decide that, never times."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -8,29 +8,32 @@ from typing import Any
 from ..config.build_specs import with_dependencies
 from ..records.build_spec import BuildSpec
 from ..records.differences import differing_files, differing_origin
-from ..records.files import file_hash, obstacle
+from ..records.files import file_hash, why_not_a_file
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import syntax_hash
 
 CURRENT = "current"
 MISSING = "missing"
 DAMAGED = "changed after it was made"
+REFUSED = "cannot exist: "  # how the reason begins then
 _FROM_CONFIG = "made from another config:"
-# Differing layer -> how the reason to make a result again begins.
+# Differing layer -> the beginning of the reason to recompute a result.
 _MADE = {
     "config": _FROM_CONFIG,
     "source": "made by other code than this tree's:",
     "environment": "made with",
 }
-_MOST_CAUSES = 4  # in a line: many results may differ each in another way
+_MOST_CAUSES = 4  # in one line
 
 
 class Freshness:
-    """Which results of a tree have to be recomputed.
+    """Tells which results of a tree have to be recomputed, and why.
 
-    Three cached methods take a result: `reason(path)` says why it has to be recomputed (MISSING if
-    it is not there), `own_reason(path)` why even if its inputs keep their bytes, and
-    `refusal(path)` why it cannot exist. Each returns None if there is no such reason.
+    Three cached methods take a result, and return None if there is no such reason:
+
+    - `reason(path)`: why it has to be recomputed (MISSING if it is not there)
+    - `direct_reason(path)`: why it has to be recomputed even if its inputs keep their bytes
+    - `refusal(path)`: why it cannot exist
     """
 
     def __init__(self, root: Path, build_specs: dict[str, BuildSpec]) -> None:
@@ -38,18 +41,18 @@ class Freshness:
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.packages = versions()
-        self.own_reason = cache(self._own_reason)
+        self.direct_reason = cache(self._direct_reason)
         self.reason = cache(self._reason)
         self.refusal = cache(self._refusal)
 
     def is_current_now(self, path: str) -> bool:
-        """Return whether a result whose inputs are current is current, by files read afresh."""
-        return Freshness(self.root, self.build_specs).own_reason(path) is None
+        """Read files afresh, and return whether a result with current inputs is current."""
+        return Freshness(self.root, self.build_specs).direct_reason(path) is None
 
     def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
-        """Return result -> why, for those of `paths` (default: all) that have to be recomputed."""
-        chosen = self.build_specs if paths is None else paths
-        return {path: why for path in chosen if (why := self.reason(path))}
+        """Map each result in `paths` (default: all) that has to be recomputed to the reason."""
+        results = self.build_specs if paths is None else paths
+        return {path: why for path in results if (why := self.reason(path))}
 
     def state(self, path: str) -> str:
         """Say whether a result is current, missing, stale and why, or cannot exist and why."""
@@ -70,16 +73,16 @@ class Freshness:
         lines = []
         for scene, stages in scenes.items():
             reasons = self._why([path for results in stages.values() for path in results])
-            certain = [name for name, made in stages.items() if any(map(self.own_reason, made))]
+            certain = [name for name, made in stages.items() if any(map(self.direct_reason, made))]
             perhaps = [name for name in stages if name not in certain]
             parts = [", ".join(certain), f"perhaps {', '.join(perhaps)}" if perhaps else ""]
             lines.append(f"{scene}: {reasons}: {'; '.join(filter(None, parts))}")
         return lines or ["nothing to make"]
 
     def _why(self, paths: Iterable[str]) -> str:
-        """Say why outdated results must be made: the first causes alone."""
+        """Join the reasons of outdated results, without those that follow from others."""
         paths = list(paths)
-        causes = dict.fromkeys(filter(None, map(self.own_reason, paths)))
+        causes = dict.fromkeys(filter(None, map(self.direct_reason, paths)))
         if len(causes) > 1:
             causes.pop(MISSING, None)
         shown = ["not made yet" if cause == MISSING else cause for cause in causes][:_MOST_CAUSES]
@@ -100,17 +103,17 @@ class Freshness:
 
     def _reason(self, path: str) -> str | None:
         if why := self.refusal(path):
-            return f"cannot exist: {why}"
-        if why := self.own_reason(path):
+            return REFUSED + why
+        if why := self.direct_reason(path):
             return why
         for used in self.build_specs[path].inputs:
             if used in self.build_specs and (why := self.reason(used)):
                 return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
         return None
 
-    def _own_reason(self, path: str) -> str | None:
+    def _direct_reason(self, path: str) -> str | None:
         if self.digest(path) is None:
-            return obstacle(self.root / path) or MISSING
+            return why_not_a_file(self.root / path) or MISSING
         try:
             record = read_record(self.root, record_path(path))
         except RecordError as error:
@@ -120,7 +123,7 @@ class Freshness:
         return self._difference(record, self.build_specs[path])
 
     def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
-        """Return how what made a result, by its record, differs from what would make it now."""
+        """Return how a record of a result differs from the one that this tree would write."""
         sources = {file: self.syntax_hash(file) for file in spec.sources}
         here = {"config": spec.config, "sources": sources, "environment": self.packages}
         if layers := differing_origin(record, here):

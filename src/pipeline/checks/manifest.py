@@ -17,14 +17,8 @@ from ..records.files import file_hash, write_whole
 from ..records.pictures import describe
 from ..records.record import versions
 from ..records.sources import syntax_hash
-from .published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    format_sums,
-    read_published_text,
-)
+from . import published_sets
+from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
 
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT = 16  # hex digits of the hash of a block or an attribute
@@ -68,12 +62,15 @@ class _Manifest(pydantic.BaseModel):
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the manifest's entry for a dataset: hashes of its attributes and its variables."""
+    """Return the entry for a dataset in a manifest: hashes of its attributes and variables."""
     variables = {}
     for name, variable in dataset.variables.items():
         kind, values = canonical_values(variable)
-        starts = range(0, len(values), BLOCK)
-        blocks = [_block_bytes(values[start : start + BLOCK]) for start in starts]
+        slices = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
+        blocks = [
+            json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
+            for block in slices
+        ]
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
@@ -87,14 +84,14 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:
-    """Return the manifest of a tree; raises ValueError or OSError if a file cannot be read."""
+    """Return a manifest of the files of a tree; ValueError or OSError if one cannot be read."""
     artifacts = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
     files = sorted(set().union(*sources.values()))
     folder = root / published_set.folder
     return {
         "environment": versions(),
-        "texts": {path: file_hash(root / path) for path in published_set.texts},
+        "texts": {path: file_hash(root / path) for path in published_set.text_files},
         "sources": {path: syntax_hash(root / path) for path in files},
         "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(artifacts)},
         "scenes": {
@@ -122,7 +119,7 @@ def read(root: Path, folder: str) -> Manifest:
     """Read a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(read_published_text(root, name))
+        manifest = json.loads(published_sets.read_published_text(root, name))
         # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
@@ -137,14 +134,16 @@ def read(root: Path, folder: str) -> Manifest:
 
 
 def sums(manifest: Manifest) -> dict[str, str]:
-    """Return file name -> sha256, sorted by name."""
+    """Return file name -> SHA-256 of the pictures in a manifest, sorted by name."""
     figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
     return {name: entry["sha256"] for name, entry in sorted(figures)}
 
 
 def is_listed(root: Path, folder: str, manifest: Manifest) -> bool:
     """Return whether a folder's checksum list is that of a manifest; raises ChecksumError."""
-    return read_published_text(root, f"{folder}/{SUMS}") == format_sums(sums(manifest))
+    return published_sets.read_published_text(root, f"{folder}/{SUMS}") == format_sums(
+        sums(manifest)
+    )
 
 
 def write(root: Path, folder: str, manifest: Manifest) -> None:
@@ -155,18 +154,16 @@ def write(root: Path, folder: str, manifest: Manifest) -> None:
 
 
 def _checksum(manifest: Manifest) -> str:
+    """Return the hash of all entries of a manifest."""
     return hashlib.sha256(canonical_json(manifest).encode()).hexdigest()
 
 
 def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
+    """Return attribute -> hash of its value."""
     return {
         str(name): _short_hash(json.dumps(value).encode())
         for name, value in plain_attributes(source).items()
     }
-
-
-def _block_bytes(block: Any) -> bytes:
-    return json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
 
 
 def _short_hash(data: bytes) -> str:

@@ -14,7 +14,7 @@ from ..config import PAPER, Config, paths
 from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
-from ..records.files import file_hash, read_text
+from ..records.files import ABSENT, file_hash, read_text
 from ..records.record import git
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
@@ -22,8 +22,6 @@ MANIFEST = "MANIFEST.json"
 IDENTICAL = "identical to the committed one"
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
-_Blocks = dict[str, dict[str, Any]]  # scene -> the config block that decides it
-_Data = dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
 
 
 class ChecksumError(Exception):
@@ -37,36 +35,16 @@ class PublishedSet(NamedTuple):
     """
 
     group: str  # its name: "paper", "study" or the like
+    folder: str  # of the published files
+    results: str  # the folder of the drawings and their data
+    command: str  # that makes the files
+    text_files: tuple[str, ...]  # other files that the command writes
+    on_request: bool  # whether only a command of its own makes it, and not every run
     drawn: dict[str, str]  # name of a published file -> its drawing in results
-    config: _Blocks
-    data: _Data
+    config: dict[str, dict[str, Any]]  # scene -> the config block that decides it
+    data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
-
-    @property
-    def folder(self) -> str:
-        """The folder of the published files."""
-        return PUBLISHED[self.group]
-
-    @property
-    def results(self) -> str:
-        """The folder of the drawings and their data."""
-        return f"results/{self.group}"
-
-    @property
-    def command(self) -> str:
-        """The command that makes the files."""
-        return SETS[self.group].command
-
-    @property
-    def on_request(self) -> bool:
-        """Whether only a command of its own makes the set, and not every run."""
-        return self.group != PAPER
-
-    @property
-    def texts(self) -> tuple[str, ...]:
-        """Other files that the command writes."""
-        return SETS[self.group].texts
 
     def sources(self, scene: str) -> list[str]:
         """Return the project's files that decide a scene's figures."""
@@ -94,23 +72,28 @@ def committed_sets(config: Config) -> list[PublishedSet]:
 
 
 def _published(config: Config, group: str) -> PublishedSet:
-    """Return the published pictures of a set; those of measurements are listed apart."""
+    """Return the published set of a group of scenes."""
     drawn = {n: block for n, block in config.variants[group].items() if block["formats"]}
     measured = tuple(f"{name}.png" for name, block in drawn.items() if paths.is_measured(block))
     scenes = {name: block for name, block in drawn.items() if not paths.is_measured(block)}
     drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block["formats"]]
     specs = build_specs(config, [group])
-    data: _Data = {scene: {} for scene in scenes}
+    data: dict[str, dict[str, str]] = {scene: {} for scene in scenes}
     for (name, scene, stage), path in paths.artifact_paths(config.variants).items():
         if name == group and scene in data:
             data[scene][stage] = path
     return PublishedSet(
-        group,
-        {Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
-        {scene: paths.drawing(block) for scene, block in scenes.items()},
-        data,
-        {path: specs[path] for path in with_dependencies(specs, drawings)},
-        measured,
+        group=group,
+        folder=PUBLISHED[group],
+        results=f"results/{group}",
+        command=SETS[group].command,
+        text_files=SETS[group].texts,
+        on_request=group != PAPER,
+        drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
+        config={scene: paths.drawing(block) for scene, block in scenes.items()},
+        data=data,
+        build_specs={path: specs[path] for path in with_dependencies(specs, drawings)},
+        measured=measured,
     )
 
 
@@ -118,12 +101,12 @@ def _published(config: Config, group: str) -> PublishedSet:
 
 
 def format_sums(sums: Mapping[str, str]) -> str:
-    """Return the text of a checksum list (file name -> sha256), as sha256sum writes it."""
+    """Return the text of a checksum list (file name -> SHA-256), as sha256sum writes it."""
     return "".join(f"{digest}  {name}\n" for name, digest in sums.items())
 
 
 def read_sums(root: Path, folder: str) -> dict[str, str]:
-    """Return file name -> sha256 from a folder's list; empty if it cannot be read."""
+    """Return file name -> SHA-256 from a folder's checksum list; empty if it cannot be read."""
     try:
         lines = read_published_text(root, f"{folder}/{SUMS}").splitlines()
     except ChecksumError:
@@ -167,8 +150,8 @@ def read_published_text(root: Path, name: str) -> str:
     """Read a checksum list or manifest; raises ChecksumError."""
     try:
         return str(read_text(root / name))
-    except (FileNotFoundError, NotADirectoryError):
+    except ABSENT:
         raise ChecksumError(f"{name}: missing") from None
-    except ValueError as error:  # of another kind of file, or no text
+    except ValueError as error:  # another kind of file, or no text
         reason = str(error).removeprefix(f"{root / name}: ")
         raise ChecksumError(f"{name}: {reason}") from None

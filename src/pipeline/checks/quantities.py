@@ -1,4 +1,4 @@
-"""The reported quantities of scenes: measured in their datasets, and as the paper prints them."""
+"""The reported quantities of scenes, as measured in their datasets and as printed in the paper."""
 
 import tomllib
 from pathlib import Path
@@ -21,7 +21,7 @@ PAPER_NUMBERS: dict[str, dict[str, str]] = {
 
 
 def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> dict[str, str]:
-    """Return the quantities of a scene, measured in its datasets; ValueError names wrong files."""
+    """Measure the quantities of a scene in its datasets; ValueError names wrong files."""
     block, files = variants[variant][scene], paths.artifact_paths(variants)
     own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
     data = {stage: load(root / file) for stage, file in own.items()}
@@ -33,12 +33,12 @@ def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> 
 
 
 def reported(block: dict[str, Any], data: dict[str, Any]) -> dict[str, str]:
-    """Return what a picture reports, from the datasets by their stages."""
+    """Measure the quantities that a picture reports; `data` maps stages to datasets."""
     kind = KINDS[block["picture"]]
     quantities: dict[str, str] = imported(kind.reported_by)(block, **data) if kind.headline else {}
     return quantities
 
 
 def printed(scene: str, quantity: str) -> str:
-    """Return the paper's value of a quantity of a scene."""
+    """Return the value that the paper prints for a quantity of a scene."""
     return PAPER_NUMBERS.get(scene, {}).get(quantity, "not printed")

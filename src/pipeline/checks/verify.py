@@ -1,8 +1,10 @@
-"""Whether a tree has the committed bytes, and if not, what differs; nothing is recomputed.
+"""Comparison of a tree with its committed state; nothing is recomputed.
 
-A tree fails if the bytes of a published file or its data differ from the committed ones, if this
-tree's config and sources did not make a result, or if a manifest is broken. Whatever else differs
-is a note.
+A tree fails in these cases, and other differences are notes:
+
+- The bytes of a published file or its data differ from the committed ones.
+- A result was not made from this tree's config and sources.
+- A manifest is broken.
 """
 
 from collections.abc import Iterable, Iterator
@@ -10,19 +12,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..config import Config
-from ..records.files import file_hash, obstacle
+from ..records.files import file_hash, why_not_a_file
 from ..records.record import failure
-from . import manifest
-from .difference import UPSTREAM, Comparison
+from . import manifest, published_sets
 from .freshness import MISSING, Freshness
-from .published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    committed_sets,
-    edited_lists,
-)
+from .layers import UPSTREAM, Comparison
+from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists
 
 _UNCOMPUTED = "not computed here: run ./reproduce, or verify --committed for committed files alone"
 NEW = "new: ./reproduce accept adds it to the manifest"
@@ -34,26 +29,31 @@ class Findings:
 
     published_set: PublishedSet
     committed: manifest.Manifest | None = None  # None if it cannot be read
-    # Name of each published file -> differing layer -> words; None for a new file. Empty without a
+    # Name of each published file -> layer -> how it differs; None for a new file. Empty without a
     # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
     edited: list[str] = field(default_factory=list)  # manifest or sums that are not committed
-    problems: list[str] = field(default_factory=list)  # of manifest, sums, texts, surplus files
+    problems: list[str] = field(default_factory=list)  # of manifest, sums, text files, surplus
     left_out: list[str] = field(default_factory=list)  # lines about scenes that cannot be made
-    # A line about drawings of the paper that were not computed here, unless they are not asked for.
+    # A line about drawings of the paper that were not computed here, if they have to be.
     uncomputed: list[str] = field(default_factory=list)
 
     @property
     def differences(self) -> dict[str, dict[str, str]]:
-        """Differing layers of each published file that is not the committed one."""
+        """The differing layers of each published file that is not the committed one."""
         return {n: layers for n, layers in self.layers.items() if layers and not self._harmless(n)}
 
     @property
     def outdated(self) -> list[str]:
-        """A line about results that are there but not what this tree makes."""
+        """Lines about results that are here and that this tree would make otherwise."""
         words = f": run {self.published_set.command}"
         return _grouped((path, why + words) for path, why in self.stale.items() if why != MISSING)
+
+    @property
+    def failures(self) -> list[str]:
+        """Lines about what fails besides the published files that differ."""
+        return [*self.problems, *self.outdated, *self.uncomputed]
 
     @property
     def notes(self) -> list[str]:
@@ -68,8 +68,7 @@ class Findings:
 
     def fails(self, strict: bool = False) -> bool:
         """Return whether the tree is not as committed; notes count if `strict`."""
-        failures = self.differences or self.problems or self.outdated or self.uncomputed
-        return bool(failures or (strict and self.notes))
+        return bool(self.differences or self.failures or (strict and self.notes))
 
     def _harmless(self, name: str) -> bool:
         """Return whether the layers of a listed file leave its committed bytes."""
@@ -79,7 +78,10 @@ class Findings:
         return set(self.layers[name] or ()) <= (UPSTREAM if current else UPSTREAM - {"config"})
 
     def not_published(self, root: Path, partial: bool = False) -> str | None:
-        """Return which result is not current or published, or None; if `partial`, some may lack."""
+        """Name the first result that is not current or not published; None if there is none.
+
+        With `partial`, results may be missing.
+        """
         for path, why in self.stale.items():
             if why != MISSING:
                 return f"{path}: {why}"
@@ -87,49 +89,57 @@ class Findings:
                 return ": ".join(filter(None, [f"{path} is missing", failure(path)]))
         for name, drawing in self.published_set.drawn.items():
             published, drawn = f"{self.published_set.folder}/{name}", file_hash(root / drawing)
-            if words := obstacle(root / published):
+            if words := why_not_a_file(root / published):
                 return f"{published}: {words}"
             if drawn != file_hash(root / published) and not (partial and drawn is None):
                 return f"{published} is not {drawing}"
         return None
 
-    def report(self) -> Iterator[str]:
-        """Yield the lines for the user: one or more a published file, then all other findings."""
-        published_set, differences = self.published_set, self.differences
-        width = max(map(len, published_set.drawn), default=0)
+    def report(self) -> list[str]:
+        """Return the lines for the user: those of each published file, then all other findings."""
+        failures, notes = self.failures, self.notes
+        counts = {"other finding": len(failures), "note": len(notes)}
+        others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
+        total, new = len(self.layers), list(self.layers.values()).count(None)
+        identical = total - len(self.differences) - new
+        return [
+            *self._lines_of_files(),
+            "",
+            *failures,
+            *(f"note: {line}" for line in notes),
+            *self._unchecked(),
+            f"{identical} of {total} figures identical{''.join(others)}",
+        ]
+
+    def _lines_of_files(self) -> Iterator[str]:
+        """Yield a line for each published file, and one for each further layer that differs."""
+        width, differences = max(map(len, self.published_set.drawn), default=0), self.differences
         for name, layers in self.layers.items():
             words = [f"{layer}: {text}" for layer, text in differences.get(name, {}).items()]
             first, *others = words or ["new" if layers is None else "identical"]
             yield f"{name:{width}}  {first}"
             yield from (f"{'':{width}}  {line}" for line in others)
-        yield ""
-        findings = [*self.problems, *self.outdated, *self.uncomputed]
-        yield from findings
-        yield from (f"note: {line}" for line in self.notes)
+
+    def _unchecked(self) -> Iterator[str]:
+        """Yield a line about results that are not here, unless they are findings."""
         missing = [path for path, why in self.stale.items() if why == MISSING]
-        if self.uncomputed:
-            pass
-        elif missing and len(missing) == len(published_set.build_specs):
-            rest = f"{published_set.command} makes the rest"
-            yield f"no results here: only the committed files were checked ({rest})"
-        elif missing:
-            yield f"not checked, since not there: {_listed(missing)}"
-        total, new = len(self.layers), list(self.layers.values()).count(None)
-        identical = total - len(differences) - new
-        counts = {"other finding": len(findings), "note": len(self.notes)}
-        others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
-        yield f"{identical} of {total} figures identical{''.join(others)}"
+        if missing and not self.uncomputed:
+            if len(missing) == len(self.published_set.build_specs):
+                rest = f"{self.published_set.command} makes the rest"
+                yield f"no results here: only the committed files were checked ({rest})"
+            else:
+                yield f"not checked, since not there: {_listed(missing)}"
 
 
-def verify(root: Path, checked: Config, committed: bool = False) -> list[Findings]:
-    """Compare each published set of a tree with its committed state; sets without one are left.
+def verify(root: Path, config: Config, committed: bool = False) -> list[Findings]:
+    """Compare each published set of a tree with its committed state, if it has one.
 
-    With `committed`, a figure of the paper may be there without having been computed here.
+    With `committed`, figures of the paper need not have been computed here.
     """
-    sets = committed_sets(checked)
+    sets = published_sets.committed_sets(config)
     found = [inspect(root, s) for s in sets if not s.on_request or manifest.is_present(root, s)]
-    for findings in found if not committed else ():
-        if not findings.published_set.on_request:
+    for findings in found:
+        if not (committed or findings.published_set.on_request):
             drawn, stale = findings.published_set.drawn, findings.stale
             missing = [(name, _UNCOMPUTED) for name, p in drawn.items() if stale.get(p) == MISSING]
             findings.uncomputed = _grouped(missing)
@@ -157,7 +167,7 @@ def inspect(root: Path, published_set: PublishedSet) -> Findings:
         findings.problems += _other_files(root, published_set, committed)
         if not manifest.is_listed(root, folder, committed):
             findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
-    except ChecksumError as error:
+    except published_sets.ChecksumError as error:
         findings.problems.append(str(error))
     findings.stale = freshness.outdated(published_set.build_specs)
     return findings
@@ -174,13 +184,13 @@ def _other_files(
                 "not publish: ./reproduce accept takes it out"
             )
     yield from published_set.unlisted(root)
-    for path in published_set.texts:
+    for path in published_set.text_files:
         if file_hash(root / path) != committed["texts"].get(path):
             yield f"{path}: not the committed one: {published_set.command} writes it"
 
 
 def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:
-    """Return one line for each text, after all subjects that have it."""
+    """Join pairs of a subject and words that have the same words to one line each."""
     subjects: dict[str, list[str]] = {}
     for subject, words in pairs:
         subjects.setdefault(words, []).append(subject)
@@ -188,5 +198,6 @@ def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:
 
 
 def _listed(names: list[str]) -> str:
+    """Join names, the first four of more than five."""
     more = f" and {len(names) - 4} more" if len(names) > 5 else ""
     return ", ".join(names[:4] if more else names) + more

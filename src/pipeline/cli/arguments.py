@@ -7,11 +7,12 @@ import argparse
 import re
 import sys
 from collections.abc import Iterable
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
-from ..declaration import Command, extensions, lacking
+from ..declaration import extensions, lacking
 from ..records.names import suggestion
 
 if TYPE_CHECKING:  # it needs packages
@@ -46,20 +47,12 @@ class Arguments(argparse.Namespace):
         """Whether -n was given, or an option with which snakemake prints something instead."""
         return self.dry_run or not _PRINTS.isdisjoint(self.options)
 
-    @property
-    def checked(self) -> "Config":
+    @cached_property
+    def config(self) -> "Config":
         """The checked config.yaml."""
-        if "config" not in self:
-            from ..config import load  # needs packages
+        from ..config import load  # needs packages
 
-            self.config = load(ROOT / "config.yaml")
-        return self.config
-
-
-def _removed(word: str | None, option: str) -> str | None:
-    """Return what to do instead of an option that an earlier version had."""
-    named = (word or "", option)
-    return next((e.removed[named] for e in extensions().values() if named in e.removed), None)
+        return load(ROOT / "config.yaml")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -79,11 +72,15 @@ def read(arguments: list[str]) -> Arguments:
     word = first if first in commands else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
+    removed = {k: v for extension in extensions().values() for k, v in extension.removed.items()}
     for option in (argument.partition("=")[0] for argument in rest):
-        if words := _removed(word, option):
-            _refuse(f"{word}: {option} was removed: {words}")
-    own, options = _split(commands.get(word or "", DEFAULT_COMMAND), rest if word else arguments)
-    args = _parser(word).parse_args(own, Arguments())
+        if instead := removed.get((word or "", option)):
+            _refuse(f"{word}: {option} was removed: {instead}")
+    own, options = rest if word else arguments, list[str]()
+    if "--" in own and commands.get(word or "", DEFAULT_COMMAND).runs_snakemake:
+        end = own.index("--")
+        own, options = own[:end], own[end + 1 :]
+    args = _parser(word).parse_intermixed_args(own, Arguments())
     if word == "help":
         if args.word not in (None, *commands):
             _refuse(f"no command {args.word}{hint(args.word, commands)}")
@@ -119,23 +116,9 @@ def hint(name: str, known: Iterable[str]) -> str:
 
 
 def _refuse(message: str, program: str = "./reproduce") -> NoReturn:
+    """Print a line about a mistake, and end the process."""
     print(f"{program.replace('./', '', 1)}: {message}", file=sys.stderr)
     sys.exit(USAGE_STATUS)
-
-
-def _split(command: Command, arguments: list[str]) -> tuple[list[str], list[str]]:
-    """Return a command's own flags and then its names, and the options for snakemake after --."""
-    if not command.runs_snakemake:
-        return arguments, []
-    end = arguments.index("--") if "--" in arguments else len(arguments)
-    valued = {name for name, how in command.arguments if name[0] == "-" and "action" not in how}
-    valued |= {"-c", "--cores"}
-    flags, names, rest = [], [], arguments[:end]  # type: list[str], list[str], list[str]
-    while rest:
-        size = 2 if rest[0] in valued else 1
-        (flags if rest[0].startswith("-") else names).extend(rest[:size])
-        del rest[:size]
-    return flags + names, arguments[end + 1 :]
 
 
 def _number_of_cores(text: str) -> str:
@@ -152,6 +135,7 @@ def _arguments(name: str | None) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _parser(name: str | None) -> _Parser:
+    """Return the parser of a command, or of the default command."""
     commands = all_commands()
     command = commands.get(name or "", DEFAULT_COMMAND)
     if name:
@@ -183,6 +167,8 @@ def _parser(name: str | None) -> _Parser:
 
 
 def _versions() -> str:
+    """Return the versions of this project and of snakemake."""
+
     def search(pattern: str, file: str) -> str:
         text = (ROOT / file).read_text(encoding="utf-8")
         return str(re.findall(pattern, text, re.MULTILINE)[0])

@@ -8,21 +8,22 @@ from functools import partial
 from pathlib import PurePath
 from typing import Any
 
-from ..checks.freshness import MISSING, Freshness
+from ..checks.freshness import MISSING, REFUSED, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, paths, unknown
 from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.kinds import KINDS
 from ..config.schema.sets import PUBLISHED
+from ..records.build_spec import BuildSpec
 from ..records.differences import columns
-from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
+from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
 from ..records.record import failure, record_path
 from ..records.sources import ROOT
 from . import running
 from .arguments import Arguments
 from .session import CommandLineError, print_error
 
-Wanted = dict[str, str]  # file, where users find it -> its drawing in results
+Drawings = dict[str, str]  # path where users find a file -> its drawing in results
 
 
 def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None:
@@ -32,48 +33,42 @@ def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None
             raise CommandLineError(unknown(kind, name, known))
 
 
-def of_scenes(checked: Config, variant: str, names: Sequence[str] = ()) -> Wanted:
+def drawings_of(config: Config, variant: str, names: Sequence[str] = ()) -> Drawings:
     """Return the files of the named scenes of a variant, of all without names.
 
     They include a file of each scene that the variant leaves out.
     """
-    files = {p: (s, made[-1]) for p, (s, made) in paths.figures(checked.variants, variant).items()}
-    for scene in checked.left_out.get(variant, ()):
+    files = {p: (s, made[-1]) for p, (s, made) in paths.figures(config.variants, variant).items()}
+    for scene in config.left_out.get(variant, ()):
         files[paths.drawn(scene, "png", variant)] = scene, paths.drawn(scene, "png", variant)
     require_known("figure", names, [*dict.fromkeys(scene for scene, _ in files.values())])
     return {path: drawn for path, (scene, drawn) in files.items() if not names or scene in names}
 
 
 def make(
-    checked: Config,
+    config: Config,
     group: str,
-    wanted: Wanted,
+    drawings: Drawings,
     args: Arguments,
     data: Iterable[str] = (),
     brief: bool = False,
 ) -> int:
     """Make and publish files, print a table of them, and return the exit status.
 
-    A figure whose periodic orbit does not exist is left out, and the others are made; the status is
-    1 only if it should have been published. `group` is a set of scenes or a variant. Further
-    results to make are `data`, which the table leaves out, as it does files that were current if it
-    is `brief`. `args` say what snakemake does.
+    `group` is a set of scenes or a variant, `data` are further results to make, which the table
+    leaves out, and `args` say what snakemake does. A `brief` table leaves out files that were
+    current. A figure whose periodic orbit does not exist is left out; the status is 1 then only if
+    it should have been published.
     """
-    variants, folder = checked.variants, PUBLISHED.get(group)
-    reasons = checked.left_out.get(group, {})
-    left_out = {path: PurePath(path).stem for path in wanted if PurePath(path).stem in reasons}
-    wanted = {path: drawing for path, drawing in wanted.items() if path not in left_out}
-    results = [*wanted.values(), *data]
-    specs = build_specs(checked, [group])
+    reasons = config.left_out.get(group, {})
+    left_out = {path: scene for path in drawings if (scene := PurePath(path).stem) in reasons}
+    drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
+    results = [*drawings.values(), *data]
+    specs = build_specs(config, [group])
     if set(results) - set(specs):
-        specs = build_specs(checked)
-    before = {drawing: identity(drawing) for drawing in wanted.values()}
-
-    def blocks(drawings: Iterable[str]) -> dict[str, Any]:
-        scenes = {PurePath(path).stem for path in drawings}
-        return {name: block for name, block in variants.get(group, {}).items() if name in scenes}
-
-    notes = [*_hidden(blocks(wanted.values()))]
+        specs = build_specs(config)
+    inodes = {drawing: inode(drawing) for drawing in drawings.values()}
+    notes = [*_hidden(_blocks(config, group, drawings.values()))]
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
         notes += [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
@@ -83,54 +78,72 @@ def make(
     outdated = freshness.outdated(results)
     refused = {path for path in outdated if freshness.refusal(path)}
     if refused and refused == outdated.keys():
-        status = int(bool(folder))
+        status = int(group in PUBLISHED)
     elif outdated:
         status = status or 1
-        print_error(_not_made([path for path in outdated if path not in refused], len(results)))
+        _print_not_made([path for path in outdated if path not in refused], len(results))
+    made = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
+    unpublished = _publish(made)
+    _delete([*(refused & {*drawings.values()}), *left_out])
     states = {}
-    for path, drawing in wanted.items():
-        state = "recomputed"
-        if drawing in refused:
-            state = outdated[drawing]
-        elif drawing in outdated:
-            state = _failed(with_dependencies(specs, [drawing]), outdated[drawing])
-        elif identity(drawing) == before[drawing]:
-            state = "current"
-        states[path] = state
-    good = {path: drawing for path, drawing in wanted.items() if drawing not in outdated}
-    for path, reason in _publish(good).items():
-        states[path], status = f"not published: {reason}", status or 1
-    notes += _missed_impacts(paths.artifact_paths(variants), group, blocks(good.values()))
-    if group in PUBLISHED:
-        figures = paths.figures(variants, group)
-        notes += unlisted_files(ROOT, str(folder), [PurePath(path).name for path in figures])
-    rows = [
-        (specs[wanted[path]].scene, path, state)
-        for path, state in states.items()
-        if not (brief and state == "current")
-    ]
-    rows += [(name, path, reasons[name]) for path, name in left_out.items()]
-    for drawing in (*(refused & {*wanted.values()}), *left_out):
-        for old in (drawing, record_path(drawing)):  # could be mistaken for this variant's
-            if not obstacle(ROOT / old):
-                (ROOT / old).unlink(missing_ok=True)
+    for path, drawing in drawings.items():
+        replaced = inode(drawing) != inodes[drawing]
+        states[path] = _state(specs, drawing, outdated.get(drawing), replaced)
+    states |= {path: f"not published: {reason}" for path, reason in unpublished.items()}
+    rows = [(specs[drawings[path]].scene, path, state) for path, state in states.items()]
+    rows = [row for row in rows if not (brief and row[-1] == "current")]
+    rows += [(scene, path, reasons[scene]) for path, scene in left_out.items()]
     if rows:
-        _print_table(folder, rows, notes)
-    return status
+        notes += _missed_impacts(config, group, _blocks(config, group, made.values()))
+        _print_table(PUBLISHED.get(group), rows, [*notes, *_unlisted(config, group)])
+    return status or int(bool(unpublished))
 
 
-def _not_made(paths: list[str], total: int) -> str:
-    """Say how many of the results that were asked for are missing or outdated after a run."""
-    more = f" and {len(paths) - 3} more" if len(paths) > 3 else ""
-    names = ", ".join(PurePath(path).name for path in paths[:3])
-    return f"{len(paths)} of {total} results not made, or not current: {names}{more}"
+def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Any]:
+    """Return the blocks of the scenes of some drawings."""
+    scenes = {PurePath(path).stem for path in drawings}
+    return {name: block for name, block in config.variants.get(group, {}).items() if name in scenes}
 
 
-def _failed(upstream: list[str], reason: str) -> str:
-    """State of a file whose drawing is outdated after the run, for instance by an edit."""
-    if failures := [*filter(None, map(failure, upstream))]:
+def _print_not_made(results: list[str], total: int) -> None:
+    """Print how many of the results that were asked for are missing or outdated after a run."""
+    more = f" and {len(results) - 3} more" if len(results) > 3 else ""
+    names = ", ".join(PurePath(path).name for path in results[:3])
+    print_error(f"{len(results)} of {total} results not made, or not current: {names}{more}")
+
+
+def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, replaced: bool) -> str:
+    """Return the state of a drawing after a run; `reason` says why it is outdated, if it is."""
+    if reason is None:
+        return "recomputed" if replaced else "current"
+    if reason.startswith(REFUSED):
+        return reason
+    if failures := [*filter(None, map(failure, with_dependencies(specs, [drawing])))]:
         return f"not made: {failures[0]}"
     return "not made" if reason == MISSING else f"not current: {reason}"
+
+
+def _publish(drawings: Drawings) -> dict[str, str]:
+    """Copy drawings to their published files where these differ; return why a file was not."""
+    problems = {}
+    for path, drawing in drawings.items():
+        published = ROOT / path
+        if words := why_not_a_file(published):
+            problems[path] = words
+        elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
+            try:
+                write_whole(published, read_bytes(ROOT / drawing))
+            except FileError as error:
+                problems[path] = str(error).removeprefix(f"{published}: ")
+    return problems
+
+
+def _delete(drawings: Iterable[str]) -> None:
+    """Delete drawings that cannot exist: an old one could be taken for this config's."""
+    for drawing in drawings:
+        for file in (ROOT / drawing, ROOT / record_path(drawing)):
+            if not why_not_a_file(file):
+                file.unlink(missing_ok=True)
 
 
 def _print_table(
@@ -149,24 +162,17 @@ def _print_table(
     head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
     width = shutil.get_terminal_size((10**6, 24)).columns  # without a terminal, lines stay whole
     wrap = partial(textwrap.wrap, width=width, subsequent_indent="  ", break_long_words=False)
-    found = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    lines = [line for note in (*found, *notes) for line in wrap(note)]
+    explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
+    lines = [line for note in (*explained, *notes) for line in wrap(note)]
     print("", *columns([head, *rows]), *lines, sep="\n")
 
 
-def _publish(drawings: dict[str, str]) -> dict[str, str]:
-    """Copy drawings to their published files where these differ; return the files that failed."""
-    problems = {}
-    for path, drawing in drawings.items():
-        published = ROOT / path
-        if words := obstacle(published):
-            problems[path] = words
-        elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
-            try:
-                write_whole(published, read_bytes(ROOT / drawing))
-            except FileError as error:
-                problems[path] = str(error).removeprefix(f"{published}: ")
-    return problems
+def _unlisted(config: Config, group: str) -> list[str]:
+    """Return a line for each picture in the folder of a set that no scene makes."""
+    if group not in PUBLISHED:
+        return []
+    files = [PurePath(path).name for path in paths.figures(config.variants, group)]
+    return unlisted_files(ROOT, PUBLISHED[group], files)
 
 
 def _hidden(scenes: dict[str, Any]) -> Iterator[str]:
@@ -175,10 +181,9 @@ def _hidden(scenes: dict[str, Any]) -> Iterator[str]:
         yield from (f"{scene}: {line}" for line in KINDS[block["picture"]].hidden(block))
 
 
-def _missed_impacts(
-    artifact_paths: Mapping[tuple[str, str, str], str], variant: str, scenes: dict[str, Any]
-) -> Iterator[str]:
+def _missed_impacts(config: Config, variant: str, scenes: dict[str, Any]) -> Iterator[str]:
     """Yield a line for each of these scenes with a `method`: what it computed or missed."""
+    artifact_paths = paths.artifact_paths(config.variants)
     for scene, block in scenes.items():
         method, stages = block.get("method", {}), paths.stages(block)
         if "exact" in method:

@@ -11,17 +11,17 @@ from typing import Any
 from ..checks.freshness import DAMAGED, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs.server import job_server
-from ..records.files import disk_is_full, obstacle
+from ..records.files import disk_is_full, why_not_a_file
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import Arguments
 from .session import UsageError, interruptible, print_error
 
 INTERRUPTED = 130
-# Reasons to make a result again that a user is told of, since nobody edited anything.
+# Reasons that are printed when a result is made again, because no edit explains them.
 _REPORTED = ("its record", "no record", DAMAGED)
-# Those of profiles/default: snakemake prints a line if it reads them there. ./reproduce has its own
-# lock; a killed snakemake would leave one that stops the next run.
+# The options of profiles/default; snakemake prints a line if it reads them there. --nolock: the
+# lock of a killed snakemake would stop the next run, and ./reproduce has a lock of its own.
 OPTIONS = (
     *("--workflow-profile", "none", "--nolock", "--rerun-incomplete", "--keep-going"),
     *("--keep-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy"),
@@ -30,18 +30,17 @@ OPTIONS = (
 _LOGGER = ("--logger", "reproduce")
 
 
-def make(freshness: Freshness, wanted: Iterable[str], args: Arguments) -> int:
-    """Make the results `wanted` that are outdated, and return snakemake's exit status.
+def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
+    """Make those of these results that are outdated, and return snakemake's exit status.
 
     Results that are known not to exist are left out. `-n` alone is answered without snakemake.
     """
-    paths = with_dependencies(
-        freshness.build_specs, [path for path in wanted if not freshness.refusal(path)]
-    )
+    possible = [path for path in results if not freshness.refusal(path)]
+    paths = with_dependencies(freshness.build_specs, possible)
     outdated = freshness.outdated(paths)
     for path, reason in outdated.items():
         for file in (path, record_path(path), log_path(path)):
-            if words := obstacle(ROOT / file):
+            if words := why_not_a_file(ROOT / file):
                 raise UsageError(f"{file}: {words}")
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
@@ -93,10 +92,10 @@ def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | No
 
 
 def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
-    """Run a command in a process group of its own, whose stdin closes when this process ends.
+    """Run a command in a process group of its own, and return its exit status.
 
-    The command inherits the lock. On Ctrl-C, one with jobs on other machines is asked to cancel
-    them.
+    The command inherits the lock, and its stdin closes when this process ends. If it is `remote`,
+    with jobs on other machines, it is asked to cancel them on Ctrl-C.
     """
     options: dict[str, Any] = {"env": environment, "process_group": 0, "close_fds": False}
     with subprocess.Popen(command, stdin=subprocess.PIPE, **options) as child:

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from .files import obstacle, replacing
+from .files import replacing, why_not_a_file
 
 
 class ArtifactError(ValueError):
@@ -35,7 +35,7 @@ ABOUT = {
 
 
 def title_of(function: Callable[..., xr.Dataset]) -> str:
-    """Return the title of a function's datasets: its name, since a docstring changes no byte."""
+    """Return the title of the datasets that a function computes: its name in words."""
     return function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
 
 
@@ -50,10 +50,7 @@ def save(
     """
     attributes |= {"config": canonical_json(config)} | ABOUT
     dataset = dataset.assign_attrs(attributes)
-    _check(dataset, path)
-    for name, variable in dataset.variables.items():  # older files without scales can be loaded
-        if not _is_text(variable) and not variable.attrs.get("scale"):
-            raise ArtifactError(f"{path}: variable {name} has no scale")
+    _check(dataset, path, with_scales=True)
     with replacing(path) as part:
         _write(dataset, part)
 
@@ -62,7 +59,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     """Load a dataset into memory; raises ArtifactError if `save` did not write the file."""
     path = Path(path)
     if not path.is_file():
-        raise ArtifactError(f"{path}: {obstacle(path) or 'no such artifact'}")
+        raise ArtifactError(f"{path}: {why_not_a_file(path) or 'no such artifact'}")
     try:
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
@@ -86,7 +83,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
         dataset = xr.Dataset(variables, attrs=attrs)
     except ValueError as error:
         raise ArtifactError(f"{path}: not an artifact: {error}") from error
-    _check(dataset, path)
+    _check(dataset, path, with_scales=False)  # files of older versions have none
     return dataset
 
 
@@ -113,12 +110,12 @@ def plain_attributes(source: xr.Dataset | xr.Variable) -> dict[str, Any]:
 
 
 def canonical_json(value: Any) -> str:
-    """JSON with sorted keys and without spaces, so that equal values give equal text."""
+    """Return JSON with sorted keys and without spaces: equal values give equal texts."""
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
-def _check(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Raise ArtifactError for a variable that lacks a name or units, or has another dtype."""
+def _check(dataset: xr.Dataset, path: str | os.PathLike[str], with_scales: bool) -> None:
+    """Raise ArtifactError for a variable of a wrong dtype, or without a name, units or a scale."""
     for name, variable in dataset.variables.items():
         text, units = _is_text(variable), variable.attrs.get("units")
         if not text and variable.dtype.kind not in "iuf":
@@ -127,9 +124,12 @@ def _check(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
             raise ArtifactError(f"{path}: variable {name} has no long_name")
         if not text and units != "1":
             raise ArtifactError(f'{path}: variable {name} has units {units!r}, not "1"')
+        if with_scales and not text and not variable.attrs.get("scale"):
+            raise ArtifactError(f"{path}: variable {name} has no scale")
 
 
 def _write(dataset: xr.Dataset, path: Path) -> None:
+    """Write a dataset to a new file, in a fixed order."""
     with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
         file.setncatts({name: dataset.attrs[name] for name in sorted(dataset.attrs)})
         for dim in sorted(map(str, dataset.sizes)):

@@ -6,10 +6,10 @@ from typing import Any
 
 
 def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Yield each dotted key, such as `starts[2].x`, whose values differ, and the two values.
+    """Yield each key whose values differ, dotted as in `starts[2].x`, and the two values.
 
-    Of a list, only the first differing entry is reported, and both lengths if they differ. Values
-    differ if their JSON does: 1 differs from 1.0 and from true.
+    Of two lists, only the first entry that differs is reported, and the lengths if they differ.
+    Values are compared as JSON: 1 differs from 1.0 and from true.
     """
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
@@ -32,9 +32,9 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
 def differing_block(
     before: dict[str, Any], after: dict[str, Any], was: str = "", now: str = ""
 ) -> str | None:
-    """Describe every key that differs between two blocks of config, or return None.
+    """Describe every key that differs between two blocks of config; None if there is none.
 
-    The words are `key old -> new`, or `key: old was, new now` with words for `was` and `now`.
+    A description reads `key old -> new` or, with `was` and `now`, `key: old {was}, new {now}`.
     """
     form = f"{{}}: {{}} {was}, {{}} {now}" if was else "{} {} -> {}"
     different = differing_keys(before, after)
@@ -46,7 +46,7 @@ def differing_block(
 def differing_files(
     before: Mapping[str, str | None], after: Mapping[str, str | None]
 ) -> str | None:
-    """Name the first file whose hash differs, or return None; a file without a hash is gone."""
+    """Name the first file whose hash differs; None if there is none. A hash of None says: gone."""
     different = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if not different:
         return None
@@ -59,7 +59,7 @@ def differing_files(
 def differing_package(
     before: Mapping[str, str | None], after: Mapping[str, str | None], was: str = "then"
 ) -> str | None:
-    """Describe every package whose version differs, or return None."""
+    """Describe every package whose version differs; None if there is none."""
     words = []
     for name in (name for name in sorted({*before, *after}) if before.get(name) != after.get(name)):
         here = f"{after[name]} here" if after.get(name) else "not installed here"
@@ -70,9 +70,10 @@ def differing_package(
 def differing_origin(
     before: Mapping[str, Any], after: Mapping[str, Any], was: str = "", now: str = ""
 ) -> dict[str, str]:
-    """Describe what differs in what made a result: layer -> words.
+    """Compare what a result was made from with what it is made from now: layer -> difference.
 
-    Both mappings have the block of config, the hashes of the sources and the environment.
+    Both mappings have the block of config, the hashes of the sources and the environment. Layers
+    without a difference are left out.
     """
     packages = before["environment"], after["environment"]
     layers = {
@@ -84,7 +85,7 @@ def differing_origin(
 
 
 def brief(value: Any) -> str:
-    """Text of a value for a part of a line, cut to 40 characters."""
+    """Return a value as text of at most 40 characters."""
     text = value if isinstance(value, str) else json.dumps(value)
     return text if len(text) <= 40 else text[:37] + "..."
 

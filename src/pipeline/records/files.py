@@ -11,6 +11,7 @@ from io import BufferedReader
 from pathlib import Path
 
 _Path = str | os.PathLike[str]
+ABSENT = (FileNotFoundError, NotADirectoryError)  # errors of a path without a file
 _FULL_MB = 1.0  # a disk with less free space counts as full
 _KINDS = {
     stat.S_IFDIR: "a folder",
@@ -25,11 +26,11 @@ class FileError(ValueError):
     """A file that cannot be read or written: one line that names it."""
 
 
-def obstacle(path: _Path) -> str | None:
-    """Describe what stands in a file's place; None for a regular file or nothing."""
+def why_not_a_file(path: _Path) -> str | None:
+    """Say what stands in the place of a regular file; None for a regular file or nothing."""
     try:
         kind = stat.S_IFMT(os.stat(path).st_mode)
-    except (FileNotFoundError, NotADirectoryError):
+    except ABSENT:
         return None
     except OSError as error:
         return f"cannot be read: {error.strerror}"
@@ -44,11 +45,11 @@ def open_regular(path: _Path) -> BufferedReader:
     Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end. Raises
     FileNotFoundError or NotADirectoryError without a file, else FileError.
     """
-    if words := obstacle(path):
+    if words := why_not_a_file(path):
         raise FileError(f"{path}: {words}")
     try:
         return open(path, "rb")
-    except (FileNotFoundError, NotADirectoryError):
+    except ABSENT:
         raise
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
@@ -56,13 +57,13 @@ def open_regular(path: _Path) -> BufferedReader:
 
 
 def read_bytes(path: _Path) -> bytes:
-    """Content of a regular file; raises the errors of `open_regular`."""
+    """Return the content of a regular file; raises the errors of `open_regular`."""
     with open_regular(path) as file:
         return file.read()
 
 
 def read_text(path: _Path) -> str:
-    """Text of a regular UTF-8 file; raises the errors of `open_regular` and UnicodeDecodeError."""
+    """Return the text of a regular UTF-8 file; also raises UnicodeDecodeError."""
     return read_bytes(path).decode("utf-8")
 
 
@@ -108,21 +109,20 @@ def write_whole(path: _Path, data: str | bytes) -> None:
 
 
 def file_hash(path: _Path) -> str | None:
-    """SHA-256 of a file's bytes in hex, None if there is no regular file; raises FileError."""
-    if obstacle(path):
+    """Return the SHA-256 of a regular file in hex, or None without one; raises FileError."""
+    if why_not_a_file(path):
         return None
     try:
         with open_regular(path) as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
-    except (FileNotFoundError, NotADirectoryError):
+    except ABSENT:
         return None
     except OSError as error:
         raise FileError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def identity(path: _Path) -> int | None:
-    """Inode of a file, None if there is none. It changes when a file is replaced, not touched."""
-    try:
+def inode(path: _Path) -> int | None:
+    """Return the inode of a file, or None without one. It changes if the file is replaced."""
+    with suppress(OSError):
         return Path(path).stat().st_ino
-    except OSError:
-        return None
+    return None

@@ -12,10 +12,10 @@ from . import syntax_hash
 def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> list[Path]:
     """Return the sorted files, in the folder `src` of packages, that some modules depend on.
 
-    They are those of the modules (dotted names), of everything that they import directly or
-    indirectly, also inside functions, and of every package on the way, without `leave_out` and what
-    only these import. Raises ValueError if a module does not exist, or a name is imported from a
-    package with `__all__`, which does not show which module defines it.
+    These are the files of the modules (dotted names), of all that they import directly or
+    indirectly, also inside functions, and of the packages around them. Modules in `leave_out` are
+    not followed. Raises ValueError if a module does not exist, or if a name is imported from a
+    package that imports its names lazily, which hides the module that defines the name.
     """
     files, seen, pending = set(), set(leave_out), [*starts]
     while pending:
@@ -31,20 +31,20 @@ def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> li
         if file not in files:
             files.add(file)
             pending += _imported_modules(src, file, name if file.name == "__init__.py" else parent)
-    syntax_hash.keep()
+    syntax_hash.store_results()
     return sorted(files)
 
 
 def _imported_modules(src: Path, file: Path, package: str) -> list[str]:
     """Return the modules of the packages that `file`, a member of `package`, imports anywhere."""
     modules = []
-    for level, module, names in syntax_hash.facts(file.name, file.read_bytes())[1]:
+    for level, module, names in syntax_hash.parsed(file.name, file.read_bytes()).imports:
         if not (level or module.split(".")[0] in PACKAGES):
             continue
         base = resolve_name("." * level + module, package)
         modules += [] if names else [base]
         for name in (f"{base}.{name}" for name in names):
-            if not _file(src, name) and _has_names_of_others(src, base):
+            if not _file(src, name) and _imports_names_lazily(src, base):
                 raise ValueError(f"{file.name}: import {name.rpartition('.')[2]} from its module")
             modules.append(name if _file(src, name) else base)
     return modules
@@ -59,7 +59,7 @@ def _file(src: Path, name: str) -> Path | None:
 
 
 @cache
-def _has_names_of_others(src: Path, package: str) -> bool:
+def _imports_names_lazily(src: Path, package: str) -> bool:
     """Return whether a package imports its public names when they are first used."""
     file = src.joinpath(*package.split("."), "__init__.py")
     return file.is_file() and b"\ndef __getattr__" in file.read_bytes()

@@ -1,4 +1,4 @@
-"""The folder of a module's machine code, by the meaning of what the module imports.
+"""Names of the folders of compiled functions, which contain a hash of the functions' sources.
 
 A changed constant compiles again and a changed comment does not.
 """
@@ -10,28 +10,29 @@ from pathlib import Path
 
 from ..loading import LOADED
 from .import_closure import import_closure
-from .syntax_hash import facts
+from .syntax_hash import parsed
 
 SRC = Path(__file__).resolve().parents[2]
 
 
 @cache
 def named(src: Path, module: str) -> tuple[str, dict[Path, str]]:
-    """Return the name of the folder for a module's functions, and {file: sha256} behind it."""
-    texts = {file: file.read_bytes() for file in import_closure(src, module)}
-    meanings = [facts(file.name, data)[0] for file, data in texts.items()]
-    digest = hashlib.sha256(" ".join(meanings).encode()).hexdigest()[:16]
-    return f"{module}-{digest}", {f: hashlib.sha256(d).hexdigest() for f, d in texts.items()}
+    """Return the name of the folder for a module's functions, and the SHA-256 of its sources."""
+    contents = {file: file.read_bytes() for file in import_closure(src, module)}
+    hashes = [parsed(file.name, data).syntax_hash for file, data in contents.items()]
+    digest = hashlib.sha256(" ".join(hashes).encode()).hexdigest()[:16]
+    return f"{module}-{digest}", {f: hashlib.sha256(d).hexdigest() for f, d in contents.items()}
 
 
 def subfolder(module: str) -> str | None:
-    """Return the name of the folder, or None if this process loaded a file with another text.
+    """Return the name of the folder for a module's functions.
 
-    None also if the module is none of this project.
+    Returns None for a module of another project, or if this process loaded another text of a source
+    than the file has now.
     """
     try:
         name, digests = named(SRC, module)
     except ValueError:
         return None
-    loaded = [(LOADED.get(os.path.realpath(f), {d}), {d}) for f, d in digests.items()]
-    return None if any(at_import != now for at_import, now in loaded) else name
+    unchanged = all(LOADED.get(os.path.realpath(f), {d}) == {d} for f, d in digests.items())
+    return name if unchanged else None

@@ -19,7 +19,7 @@ class PictureError(ValueError):
 
 
 def pixels(path: _Path) -> npt.NDArray[np.uint8]:
-    """Pixels of a PNG, shape (height, width, 3); raises PictureError for any other file."""
+    """Return the pixels of a PNG, shape (height, width, 3); raises PictureError for other files."""
     from PIL import Image
 
     try:
@@ -30,7 +30,7 @@ def pixels(path: _Path) -> npt.NDArray[np.uint8]:
 
 
 def _elements(path: _Path) -> list[str]:
-    """Tags and texts of an SVG in order, with sorted attributes."""
+    """Return the tags and texts of an SVG in order; attributes are sorted."""
     try:
         with open_regular(path) as file:
             text = ElementTree.canonicalize(from_file=file, strip_text=True)
@@ -40,7 +40,7 @@ def _elements(path: _Path) -> list[str]:
 
 
 def describe(path: _Path) -> dict[str, Any]:
-    """Size and hash of a drawing's pixels or elements, for the manifest; raises PictureError."""
+    """Return size and hash of a drawing's pixels or elements; raises PictureError."""
     if Path(path).suffix == ".png":
         image = pixels(path)
         size = {"height": image.shape[0], "width": image.shape[1]}
@@ -50,7 +50,7 @@ def describe(path: _Path) -> dict[str, Any]:
     return {"elements": len(text), "text": digest}
 
 
-def difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, bool]:
+def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, bool]:
     """Describe how a drawing differs from its reference, and whether an image was saved.
 
     For two PNGs of one size, `image_path` gets the reference in pale grey, with the differing
@@ -74,6 +74,7 @@ def difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, b
 
 
 def _differing_elements(ours: list[str], theirs: list[str]) -> str:
+    """Say how many elements of two SVGs differ, and which is the first."""
     shared = min(len(ours), len(theirs))
     different = [i for i in range(shared) if ours[i] != theirs[i]]
     count = len(different) + abs(len(ours) - len(theirs))

@@ -39,19 +39,19 @@ class ChangedError(ValueError):
 
 
 def beside(folder: str, suffix: str, result: str | os.PathLike[str]) -> str:
-    """Return the path of a result's file in another folder of its variant."""
+    """Return the path of a file about a result, in a folder of the result's variant."""
     _, variant, *_, name = Path(result).parts
     return f"results/{variant}/{folder}/{name}.{suffix}"
 
 
-# Functions of a result that return a path; both are relative to the root.
+# Each takes a result and returns a path; both are relative to the root.
 record_path = partial(beside, "provenance", "json")
-refusal_path = partial(beside, "logs", "json")  # of the record that says why it cannot exist
-log_path = partial(beside, "logs", "log")  # of the job that failed to make it
+refusal_path = partial(beside, "logs", "json")  # a record of why the result cannot exist
+log_path = partial(beside, "logs", "log")  # written by a job that failed to make the result
 
 
 def failure(result: str | os.PathLike[str]) -> str | None:
-    """Why the last job that should have made a result failed, None if that is not known."""
+    """Return why the last job for a result failed, or None if that is not known."""
     try:
         return read_text(log_path(result)).splitlines()[-1].split(": ", 2)[2]
     except (OSError, ValueError, IndexError):
@@ -77,10 +77,10 @@ def read_record(root: Path, path: str) -> dict[str, Any]:
 def recorded(spec: BuildSpec) -> Iterator[None]:
     """Write the record of a result once the body has made it; the current folder is the root.
 
-    A ValueError of a scene's stage or drawing says that the result cannot exist; one of a subclass,
-    such as FileError, only if it has the attribute `lasting`. It is recorded instead, so that the
-    job is not repeated before its config, sources or inputs change. If a source or an input changed
-    since it was loaded, ChangedError is raised and no record written.
+    A ValueError in the body says that the result cannot exist (one of a subclass, such as
+    FileError, only if it has the attribute `lasting`). The refusal is recorded then, so that the
+    job is not repeated before its config, sources or inputs change. Raises ChangedError, and writes
+    no record, if a source or an input has changed since it was loaded.
     """
     source_hashes = {path: file_hash(path) for path in sorted(spec.sources)}
     commit, dirty = _commit()
@@ -109,11 +109,12 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
 
 
 def _write(path: str, record: dict[str, Any], output: dict[str, str | None]) -> None:
+    """Write a record with a description of its output."""
     write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 
 
 def require_unchanged(hashes: Mapping[str, str | None]) -> None:
-    """Raise ChangedError if a file has, or had when it was loaded, another hash than the given one.
+    """Raise ChangedError if a file does not have its hash, or did not when it was loaded.
 
     `hashes` maps a path, relative to the current folder, to its SHA-256, or None for no file.
     """
@@ -131,31 +132,26 @@ def require_loaded_unchanged() -> None:
 
 
 def versions() -> dict[str, str | None]:
-    """Installed version of each package that decides bits, None if it is not installed."""
-    found: dict[str, str | None] = dict.fromkeys(PACKAGES)
+    """Return the installed version of each package that decides bits, None for a missing one."""
+    installed: dict[str, str | None] = dict.fromkeys(PACKAGES)
     for package in PACKAGES:
         with suppress(metadata.PackageNotFoundError):
-            found[package] = metadata.version(package)
-    return found
+            installed[package] = metadata.version(package)
+    return installed
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
-    """Output of a git command, None if it fails or git is not installed."""
-    try:
-        result = subprocess.run(
-            ["git", "-C", str(root), *arguments],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            check=False,
-            env=os.environ | {"GIT_OPTIONAL_LOCKS": "0"},
-        )
-    except OSError:
-        return None
-    return result.stdout if result.returncode == 0 else None
+    """Return the output of a git command, or None if it fails or git is not installed."""
+    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
+    with suppress(OSError, subprocess.CalledProcessError):
+        return subprocess.run(
+            command, stdin=subprocess.DEVNULL, capture_output=True, check=True
+        ).stdout
+    return None
 
 
 def _commit() -> tuple[str | None, bool | None]:
-    """Return the commit and whether tracked files other than figures differ; None if unknown."""
+    """Return the commit, and whether tracked files other than figures differ from it."""
     commit = git("rev-parse", "HEAD")
     # Another repository may contain this folder.
     if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:

@@ -8,8 +8,10 @@ import os
 from pathlib import Path
 
 from ..declaration import extensions
-from . import import_closure as imports
-from . import syntax_hash as meanings
+from .import_closure import import_closure
+from .syntax_hash import syntax_hash
+
+__all__ = ["ROOT", "SRC", "source_files", "syntax_hash"]
 
 SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
@@ -35,19 +37,14 @@ BOOKKEEPING = (
 
 
 def source_files(*modules: str) -> list[str]:
-    """Paths, from the root, of the project's files that some modules import, directly or not.
+    """Return the paths, from the root, of the files that some modules depend on.
 
-    Modules are dotted names. BOOKKEEPING is left out; data files that modules read are included.
+    `modules` are dotted names. BOOKKEEPING is left out, and data files that modules read are added.
     """
-    closure = imports.import_closure(SRC, *modules, leave_out=BOOKKEEPING)
+    closure = import_closure(SRC, *modules, leave_out=BOOKKEEPING)
     files = [os.path.relpath(file, ROOT) for file in closure]
     for extension in extensions().values():
         for module in extension.reads.keys() & {*files}:
             found = ROOT.glob(extension.reads[module])
             files += sorted(os.path.relpath(file, ROOT) for file in found)
     return files
-
-
-def syntax_hash(path: str | os.PathLike[str]) -> str | None:
-    """Hash of a source file's syntax, without comments and docstrings; None if there is no file."""
-    return meanings.syntax_hash(path)

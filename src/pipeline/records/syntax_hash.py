@@ -7,131 +7,138 @@ hashed by its bytes.
 """
 
 import ast
-import functools
 import hashlib
 import json
 import os
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
+from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-Facts = list[Any]  # the hash of a text and its imports
+from .files import read_text, write_whole
+
 SCHEME = 1  # increase it when the hash of an unchanged text changes
 # The file of stored results is named after the text of this module.
 _OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
-_KEPT = Path(__file__).parent / "__pycache__" / f"meanings-{_OWN}.json"
+_STORE = Path(__file__).parent / "__pycache__" / f"meanings-{_OWN}.json"
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 # Fields that follow from a node's position or have no effect.
 _LEFT_OUT = ("ctx", "kind", "type_comment", "type_ignores")
 
 
+class ParsedSource(NamedTuple):
+    """The hash of a source file, and its imports: number of dots, module and names of each."""
+
+    syntax_hash: str
+    imports: list[tuple[int, str, list[str]]]
+
+
 def syntax_hash(path: str | os.PathLike[str]) -> str | None:
     """Return the hash of a file in hex, or None if there is no regular file."""
     path = Path(path)
     # Reading a FIFO would block.
-    return facts(path.name, path.read_bytes())[0] if path.is_file() else None
+    return parsed(path.name, path.read_bytes()).syntax_hash if path.is_file() else None
 
 
-def facts(name: str, data: bytes) -> Facts:
-    """Return the hash of a file's text and its imports, [number of dots, module, names] each."""
+def parsed(name: str, data: bytes) -> ParsedSource:
+    """Return the hash and the imports of a file with this name and content."""
     suffix = Path(name).suffix
-    key = f"{suffix} {hashlib.sha256(data).hexdigest()}"
-    known = _known()
-    if key not in known:
-        known[key] = _facts(suffix, data)
-        known["new"] = True
-    return list(known[key])
+    key = f"{suffix} {_sha256(data)}"
+    results = _results()
+    if key not in results:
+        results[key] = _parse(suffix, data)
+        results["new"] = True
+    return ParsedSource(*results[key])
 
 
-def keep() -> None:
-    """Store the results of `facts` for other processes, if possible."""
-    known = _known()
-    if known.pop("new", False):
-        part = _KEPT.with_name(f".{_KEPT.name}.{os.getpid()}.part")
-        with suppress(OSError):
-            _KEPT.parent.mkdir(exist_ok=True)
-            text = json.dumps(known)
-            part.write_text(f"{_hash(text)}\n{text}", encoding="utf-8")
-            os.replace(part, _KEPT)
+def store_results() -> None:
+    """Store the results of `parsed` for other processes, if possible."""
+    results = _results()
+    if results.pop("new", False):
+        text = json.dumps(results)
+        with suppress(OSError, ValueError):
+            write_whole(_STORE, f"{_sha256(text.encode())}\n{text}")
 
 
-@functools.cache
-def _known() -> dict[str, Any]:
-    """Return the stored results of `facts`."""
+@cache
+def _results() -> dict[str, Any]:
+    """Return the stored results of `parsed`, none if their file is missing or damaged."""
     with suppress(OSError, ValueError):
-        if _KEPT.is_file():  # reading a FIFO would block
-            digest, text = _KEPT.read_text(encoding="utf-8").split("\n", 1)
-            if digest == _hash(text):  # otherwise the file is damaged
-                return dict(json.loads(text))
+        digest, text = read_text(_STORE).split("\n", 1)
+        if digest == _sha256(text.encode()):
+            return dict(json.loads(text))
     return {}
 
 
-def _hash(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
 
 
-def _facts(suffix: str, data: bytes) -> list[Any]:
+def _parse(suffix: str, data: bytes) -> ParsedSource:
+    """Parse a Python file; a file of another suffix, or with mistakes, is hashed by its bytes."""
     words, imports = [f"{SCHEME}"], []
     try:
         if suffix == ".py":
             tree = ast.parse(data)
-            _describe(tree, words, local=False)
+            _describe(tree, words, in_function=False)
             imports = list(_imports(tree))
         else:
             words.append(data.hex())
-    except (SyntaxError, ValueError, RecursionError):  # hash the bytes of an unreadable file
+    except (SyntaxError, ValueError, RecursionError):
         words = [f"{SCHEME}", "unreadable", data.hex()]
-    return [_hash("\n".join(words)), imports]
+    return ParsedSource(_sha256("\n".join(words).encode()), imports)
 
 
-def _imports(tree: ast.AST) -> Iterator[list[Any]]:
+def _imports(tree: ast.AST) -> Iterator[tuple[int, str, list[str]]]:
+    """Yield the number of dots, the module and the names of each import statement."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield [0, alias.name, []]
+            yield from ((0, alias.name, []) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            yield [node.level, node.module or "", [alias.name for alias in node.names]]
+            yield node.level, node.module or "", [alias.name for alias in node.names]
 
 
-def _describe(node: Any, words: list[str], local: object) -> None:
-    """Append words that identify a node; `local` is whether it is inside a function."""
-    if isinstance(node, ast.Constant):
-        words.append(_constant(node.value))
-        return
-    if isinstance(node, ast.JoinedStr):
-        _describe_list("JoinedStr", _joined(node.values), words, local)
-        return
-    annotated = isinstance(node, ast.AnnAssign) and node.value and isinstance(node.target, ast.Name)
-    if local and annotated:
-        node = ast.Assign(targets=[node.target], value=node.value)
+def _describe(value: Any, words: list[str], in_function: bool) -> None:
+    """Append words that identify a node of a syntax tree, or a constant in one."""
+    if isinstance(value, ast.JoinedStr):
+        _describe_list("JoinedStr", _merged(value.values), words, in_function)
+    elif isinstance(value, ast.AST) and not isinstance(value, ast.Constant):
+        _describe_node(value, words, in_function)
+    else:
+        words.append(_constant(value.value if isinstance(value, ast.Constant) else value))
+
+
+def _describe_node(node: ast.AST, words: list[str], in_function: bool) -> None:
+    """Append the type of a node, and the words of each of its fields that has an effect."""
+    if in_function and isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+        node = ast.Assign(targets=[node.target], value=node.value) if node.value else node
     words.append(f"({type(node).__name__}")
-    inner = isinstance(node, _SCOPES) or (local and not isinstance(node, ast.ClassDef))
+    inside = isinstance(node, _SCOPES) or (in_function and not isinstance(node, ast.ClassDef))
     for name, value in sorted(ast.iter_fields(node)):
-        if name in _LEFT_OUT or value is None or value == []:
+        empty_format = name == "format_spec" and value and not _merged(value.values)
+        if name in _LEFT_OUT or value is None or value == [] or empty_format:
             continue
-        if name == "body" and isinstance(node, _WITH_DOCSTRING) and _is_text(value[0]):
-            _describe_list(name, value[1:], words, inner)
-        elif name == "format_spec" and not _joined(value.values):
-            continue
+        if name == "body" and isinstance(node, _WITH_DOCSTRING):
+            with_docstring = ast.get_docstring(node, clean=False) is not None
+            _describe_list(name, value[with_docstring:], words, inside)
         elif isinstance(value, list):
-            _describe_list(name, value, words, inner)
+            _describe_list(name, value, words, inside)
         elif isinstance(value, ast.AST):
             words.append(name)
-            _describe(value, words, inner)
+            _describe(value, words, inside)
         else:
             words.append(f"{name} {_constant(value)}")
     words.append(")")
 
 
-def _describe_list(name: str, values: list[Any], words: list[str], local: object) -> None:
+def _describe_list(name: str, values: list[Any], words: list[str], in_function: bool) -> None:
+    """Append the words of a field that has a list."""
     words.append(f"[{name}")
     for value in values:
-        if isinstance(value, ast.AST):
-            _describe(value, words, local)
-        else:
-            words.append(_constant(value))
+        _describe(value, words, in_function)
     words.append("]")
 
 
@@ -141,29 +148,17 @@ def _constant(value: object) -> str:
         text = value.encode("utf-8", "surrogatepass").hex()
     elif isinstance(value, bytes):
         text = value.hex()
-    elif isinstance(value, int):
-        text = hex(value)
     else:
-        text = repr(value)
+        text = hex(value) if isinstance(value, int) else repr(value)
     return f"{type(value).__name__} {text}"
 
 
-def _joined(values: list[Any]) -> list[Any]:
+def _merged(values: list[Any]) -> list[Any]:
     """Merge adjacent texts of an f-string, which Python versions split differently."""
-    parts = []
-    for value in values:
-        if not _is_string(value):
-            parts.append(value)
-        elif parts and _is_string(parts[-1]):
-            parts[-1] = ast.Constant(parts[-1].value + value.value)
-        elif value.value:
-            parts.append(value)
+    parts: list[Any] = []
+    for is_text, group in groupby(values, lambda value: isinstance(value, ast.Constant)):
+        if not is_text:
+            parts += group
+        elif text := "".join(constant.value for constant in group):
+            parts.append(text)
     return parts
-
-
-def _is_string(node: object) -> bool:
-    return isinstance(node, ast.Constant) and isinstance(node.value, str)
-
-
-def _is_text(statement: object) -> bool:
-    return isinstance(statement, ast.Expr) and _is_string(statement.value)

@@ -16,4 +16,4 @@ def run(args: Arguments) -> int:
     if not args.against or not os.path.exists(other):
         raise CommandLineError(f"verify: no archive or folder {args.against or repr('')}")
     with one_line("verify: ", archive.ArchiveError):
-        return archive.compare(ROOT, args.checked, other)
+        return archive.compare(ROOT, args.config, other)

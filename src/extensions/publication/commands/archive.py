@@ -23,9 +23,9 @@ def run(args: Arguments) -> int:
     with locked(), interruptible(), one_line("archive: ", archive.ArchiveError):
         packages = []
         if args.with_packages:
-            archive.refuse_unpublished(ROOT, args.checked)  # before the download
+            archive.refuse_unpublished(ROOT, args.config)  # before the download
             folder = ROOT / FOLDER / f"packages{name}"
             packages = downloads.download(folder, python)
-        digest = archive.write(ROOT, args.checked, path, packages)
+        digest = archive.write(ROOT, args.config, path, packages)
     print(f"{digest}  {file}  {path.stat().st_size / 1e6:.1f} MB")
     return 0

@@ -15,12 +15,12 @@ NUMBERS = "results/article/numbers.json"
 def run(args: Arguments) -> int:
     """Set the article; results must be current, and figures the committed ones."""
     with locked(), interruptible(), one_line("article: "):
-        archive.refuse_unpublished(ROOT, args.checked)  # before the download
+        archive.refuse_unpublished(ROOT, args.config)  # before the download
     add_packages("article")
     from ..article import numbers, typesetting
 
     with locked(), interruptible(), one_line("article: "):
-        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.checked))
+        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.config))
         pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
         write_whole(ROOT / ARTICLE, pdf)
     print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")

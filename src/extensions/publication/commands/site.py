@@ -43,12 +43,12 @@ _LINKS = (
 def run(args: Arguments) -> int:
     """Make missing results, then the folder, whole or not at all."""
     with locked():
-        files = figures.of_scenes(args.checked, PAPER)
-        status = figures.make(args.checked, PAPER, files, args)
+        files = figures.drawings_of(args.config, PAPER)
+        status = figures.make(args.config, PAPER, files, args)
         if status or args.makes_nothing:
             return status
         with one_line("site: "):
-            archive.refuse_unpublished(ROOT, args.checked)  # before the download
+            archive.refuse_unpublished(ROOT, args.config)  # before the download
             _refuse_others(ROOT / SITE)
     add_packages("article")
     part = ROOT / SITE.replace("site", f".site.{os.getpid()}.part")
@@ -85,11 +85,11 @@ def _write(folder: Path, args: Arguments) -> None:
     for file in data:
         shutil.copyfile(file, folder / PAPER / file.name)
     numbers_file = folder / "numbers.json"
-    numbers_file.write_text(numbers.numbers_of(ROOT, args.checked), encoding="utf-8")
+    numbers_file.write_text(numbers.numbers_of(ROOT, args.config), encoding="utf-8")
     files = {
         "index.html": _INDEX.encode(),
-        "report.html": page.render(ROOT, args.checked, _BESIDE).encode(),
-        "explorer.html": explorer.render(args.checked).replace("</header>", _LINKS, 1).encode(),
+        "report.html": page.render(ROOT, args.config, _BESIDE).encode(),
+        "explorer.html": explorer.render(args.config).replace("</header>", _LINKS, 1).encode(),
         "article.pdf": typesetting.typeset(ROOT, numbers_file),
         "article.html": typesetting.web_page(ROOT, numbers_file),
     }

@@ -20,44 +20,71 @@ from ..freshness import CURRENT, Freshness
 from . import cycles, picture, summaries
 
 
-def compare(root: Path, checked: Config, names: Sequence[str], scenes: Sequence[str]) -> None:
+def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[str]) -> None:
     """Print what differs between two variants and save their figures side by side."""
-    variants, left_out = checked.variants, checked.left_out
-    files = paths.artifact_paths(variants)
-    freshness = Freshness(root, build_specs(checked, names))
+    comparison = _Comparison(root, config, names)
     print(" | ".join(names))
     print(f"(a periodic orbit further than {cycles.REACH:g} section radii away counts as another)")
     for scene in scenes:
-        blocks = [variants[name][scene] for name in names if scene in variants[name]]
-        both = len(blocks) == len(names)
-        drawings = {name: paths.drawn(scene, "png", name) for name in names}
+        print(f"\n{scene}", *(f"  {line}" for line in comparison.lines(scene)), sep="\n")
+
+
+class _Comparison:
+    """Compares the scenes of two variants that have these names."""
+
+    def __init__(self, root: Path, config: Config, names: Sequence[str]) -> None:
+        self.root, self.config, self.names = root, config, names
+        self.files = paths.artifact_paths(config.variants)
+        self.freshness = Freshness(root, build_specs(config, names))
+
+    def lines(self, scene: str) -> list[str]:
+        """Return what differs in a scene, and save its figures side by side."""
+        variants = self.config.variants
+        blocks = [variants[name][scene] for name in self.names if scene in variants[name]]
         states = {
-            name: freshness.state(path) if scene in variants[name] else left_out[name][scene]
-            for name, path in drawings.items()
+            name: self.freshness.state(paths.drawn(scene, "png", name))
+            if scene in variants[name]
+            else self.config.left_out[name][scene]
+            for name in self.names
         }
+        both = len(blocks) == len(self.names)
+        current = [name for name in self.names if states[name] == CURRENT]
         lines = [*_config_differences(*blocks)] if both else []
         lines += [f"{name}: {state}" for name, state in states.items() if state != CURRENT]
-        for stage in paths.stages(blocks[0]) if both else ():
-            results = [files[name, scene, stage] for name in names]
-            if all(freshness.state(result) == CURRENT for result in results):
-                first, second = (load(root / result) for result in results)
-                texts = _stage_differences(stage, first, second, names)
-                lines += [f"{'' if i else stage:10}  {text}" for i, text in enumerate(texts)]
-        image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
-        if CURRENT in states.values():
-            present = {n: pixels(root / p) for n, p in drawings.items() if states[n] == CURRENT}
-            axes = ""
-            if len(present) == 2:
-                stages = KINDS[blocks[0]["picture"]].stages
-                data = [[load(root / files[n, scene, stage]) for stage in stages] for n in names]
-                images, axes = picture.on_same_axes(blocks, data)
-                present = dict(zip(names, images, strict=True))
-            picture.side_by_side({name: present.get(name) for name in names}, image)
-            lines.append(f"side by side{axes}: {image.relative_to(root)}")
-        else:
+        lines += self._data(scene, blocks) if both else ()
+        return [*lines, *self._side_by_side(scene, blocks, current)]
+
+    def _data(self, scene: str, blocks: Sequence[YamlMapping]) -> Iterator[str]:
+        """Yield how the datasets of each stage differ, if those of both variants are current."""
+        for stage in paths.stages(blocks[0]):
+            results = [self.files[name, scene, stage] for name in self.names]
+            if all(self.freshness.state(result) == CURRENT for result in results):
+                first, second = (load(self.root / result) for result in results)
+                for i, text in enumerate(_stage_differences(stage, first, second, self.names)):
+                    yield f"{'' if i else stage:10}  {text}"
+
+    def _side_by_side(
+        self, scene: str, blocks: Sequence[YamlMapping], current: Sequence[str]
+    ) -> Iterator[str]:
+        """Save the figures of variants that are current side by side, and yield a line on them."""
+        image = self.root / f"results/compare/{'..'.join(self.names)}/{scene}.png"
+        if not current:
             with suppress(OSError):
                 image.unlink()  # left by an earlier comparison
-        print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
+            return
+        if len(current) == 2:
+            stages = KINDS[blocks[0]["picture"]].stages
+            data = [
+                [load(self.root / self.files[name, scene, stage]) for stage in stages]
+                for name in self.names
+            ]
+            drawings, axes = picture.on_same_axes(blocks, data)
+        else:
+            (name,), axes = current, ""
+            drawings = [pixels(self.root / paths.drawn(scene, "png", name))]
+        present = dict(zip(current, drawings, strict=True))
+        picture.side_by_side({name: present.get(name) for name in self.names}, image)
+        yield f"side by side{axes}: {image.relative_to(self.root)}"
 
 
 def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:

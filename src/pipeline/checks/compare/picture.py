@@ -28,10 +28,10 @@ _Pixels = npt.NDArray[np.uint8]
 def on_same_axes(
     blocks: Sequence[YamlMapping], data: Sequence[Sequence[xr.Dataset]]
 ) -> tuple[list[_Pixels], str]:
-    """Draw a scene of two variants on axes that hold both, and return what is to be said of them.
+    """Draw a scene of two variants on axes that hold both; return the pixels and words on the axes.
 
-    They keep their own axes if the kind of picture has none in the config, or if one of the
-    pictures would shrink to a spot.
+    Each keeps its own axes if the kind of picture has none in the config, or if one of the pictures
+    would shrink to a spot.
     """
     draw = imported(KINDS[blocks[0]["picture"]].drawn_by)
     found: list[dict[str, Any]] = [{}, {}]
@@ -67,7 +67,7 @@ def _width(axis: YamlMapping) -> float:
 
 
 def side_by_side(drawings: Mapping[str, _Pixels | None], path: Path) -> None:
-    """Save two pictures side by side, each below its name. None is one that is not there."""
+    """Save two pictures side by side, each below its name. None stands for a missing picture."""
     images = [None if part is None else Image.fromarray(part) for part in drawings.values()]
     blank = Image.new("RGB", next(filter(None, images)).size, "white")
     columns = [ImageOps.expand(image or blank, (0, _HEAD, 0, 0), "white") for image in images]

@@ -28,11 +28,12 @@ class Caption(NamedTuple):
 def caption_of(name: str, block: dict[str, Any]) -> Caption:
     """Return the caption of a complete scene."""
     kind = block["picture"]
-    texts = CAPTIONS["scenes"].get(name) or CAPTIONS["kinds"].get(kind, {})
-    texts = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""} | texts
+    own = CAPTIONS["scenes"].get(name) or CAPTIONS["kinds"].get(kind, {})
+    templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""} | own
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
-    return Caption(shown_name, *(_filled(texts[part], block) for part in Caption._fields[1:]))
+    parts = (_filled(templates[part], block) for part in Caption._fields[1:])
+    return Caption(shown_name, *parts)
 
 
 def _filled(template: str, block: dict[str, Any]) -> str:
@@ -42,6 +43,7 @@ def _filled(template: str, block: dict[str, Any]) -> str:
 
 
 def _with_commas(value: object) -> object:
+    """Return a whole number as text with commas, and any other value as it is."""
     return f"{value:,}" if type(value) is int else value
 
 

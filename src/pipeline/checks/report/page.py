@@ -50,10 +50,10 @@ def render(root: Path, config: Config, beside: Mapping[str, str] | None = None) 
     modules = [e.report for e in extensions().values() if e.report]
     parts = [import_module(name).part(config, root, links) for name in modules]
     page = _Page(root, config, parts)
-    figures = page.variant(PAPER)
-    variants = {name: page.variant(name) for name in config.own_variants}
+    figures = page.pictures_of(PAPER)
+    variants = {name: page.pictures_of(name) for name in config.own_variants}
     made = {name: shown for name, shown in variants.items() if any(p["image"] for p in shown)}
-    on_request = page.on_request()
+    on_request = page.sets_on_request()
     shown = [figures, *variants.values(), *(pictures for _, pictures in on_request)]
     links.pictures |= {p["published"]: p["id"] for group in shown for p in group}
     return _TEMPLATES.get_template("page.html").render(
@@ -64,33 +64,29 @@ def render(root: Path, config: Config, beside: Mapping[str, str] | None = None) 
         more=on_request,
         parts=parts,
         results=list(page.provenance()),
-        policy=" ".join(_source_of(part.script) for part in parts if part.script) or "'none'",
+        policy=" ".join(_policy_source(part.script) for part in parts if part.script) or "'none'",
         beside=beside or {},
     )
 
 
-def _source_of(script: str) -> str:
-    """Return what a content security policy calls a script."""
+def _policy_source(script: str) -> str:
+    """Return the hash by which a content security policy allows a script."""
     digest = hashlib.sha256(script.encode()).digest()
     return f"'sha256-{base64.b64encode(digest).decode()}'"
 
 
 def _image(file: Path) -> Picture:
-    """Return a PNG as text, with its size in pixels."""
-    high, wide, _ = pixels(file).shape
-    data = base64.b64encode(read_bytes(file)).decode()
-    return {"image": {"data": data, "wide": wide, "high": high, "small": _thumbnail(file)}}
-
-
-def _thumbnail(file: Path) -> str:
-    """Return a small copy of a PNG as text."""
-    small = io.BytesIO()
-    with Image.open(file) as image:
-        image.convert("RGB").reduce(_THUMBNAIL_STEP).save(small, "png")
-    return base64.b64encode(small.getvalue()).decode()
+    """Return a PNG and a small copy of it as text, and its size in pixels."""
+    image, small = pixels(file), io.BytesIO()
+    Image.fromarray(image).reduce(_THUMBNAIL_STEP).save(small, "png")
+    data, thumbnail = (base64.b64encode(x).decode() for x in (read_bytes(file), small.getvalue()))
+    high, wide, _ = image.shape
+    return {"image": {"data": data, "wide": wide, "high": high, "small": thumbnail}}
 
 
 class _Page:
+    """Collects what the page shows of a tree."""
+
     def __init__(self, root: Path, config: Config, parts: Iterable[Part]) -> None:
         self.root, self.variants, self.left_out = root, config.variants, config.left_out
         self.parts = [*parts]
@@ -102,41 +98,45 @@ class _Page:
     def _described(
         self, identifier: str, variant: str, name: str, block: dict[str, Any], published: str = ""
     ) -> Picture:
-        """Return a picture's caption and the notes of extensions, without an image."""
+        """Return the caption of a picture and the notes of extensions, without an image."""
         picture: Picture = caption_of(name, block)._asdict()
         picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
         notes = [part.note(variant, name, block, published) for part in self.parts]
         return picture | {"published": published, "notes": [*filter(None, notes)]}
 
-    def variant(self, name: str) -> list[Picture]:
+    def pictures_of(self, variant: str) -> list[Picture]:
         """Return the pictures of a variant; those that are not current have no image."""
         pictures = []
-        for scene, block in self.variants[name].items():
-            drawing = paths.drawn(scene, "png", name)
-            published = _published(name, drawing)
-            picture = self._described(f"{name}-{scene}", name, scene, block, published)
-            if (state := self.freshness.state(drawing)) != CURRENT:
-                pictures.append(picture | {"missing": state})
+        for scene, block in self.variants[variant].items():
+            drawing = paths.drawn(scene, "png", variant)
+            published = f"{PUBLISHED[PAPER]}/{scene}.png" if variant == PAPER else drawing
+            picture = self._described(f"{variant}-{scene}", variant, scene, block, published)
+            if (state := self.freshness.state(drawing)) == CURRENT:
+                data = [self.artifact_paths[variant, scene, name] for name in paths.stages(block)]
+                picture |= self._shown(drawing, data) | self._numbers(variant, scene)
+                compared = f": {committed_state(self.root, published)}" if variant == PAPER else ""
+                pictures.append(picture | {"file": f"{published}{compared}"})
             else:
-                data = [self.artifact_paths[name, scene, stage] for stage in paths.stages(block)]
-                numbers = self._measured(name, scene) | {"file": _file(self.root, name, drawing)}
-                pictures.append(picture | self._made(drawing, data) | numbers)
-        for scene, reason in self.left_out.get(name, {}).items():
-            picture = self._described(f"{name}-{scene}", name, scene, self.variants[PAPER][scene])
+                pictures.append(picture | {"missing": state})
+        for scene, reason in self.left_out.get(variant, {}).items():
+            block = self.variants[PAPER][scene]
+            picture = self._described(f"{variant}-{scene}", variant, scene, block)
             pictures.append(picture | {"missing": reason})
         return pictures
 
-    def on_request(self) -> list[tuple[str, list[Picture]]]:
+    def sets_on_request(self) -> list[tuple[str, list[Picture]]]:
         """Return the command and the pictures of each set that is drawn on request."""
         sets = []
         for findings in self.sets[1:]:
             published_set = findings.published_set
             names = [name for name in published_set.drawn if name.endswith(".png")]
-            pictures = [self._on_request(findings, n) for n in (*names, *published_set.measured)]
+            pictures = [
+                self._picture_on_request(findings, n) for n in (*names, *published_set.measured)
+            ]
             sets.append((published_set.command, [each for each in pictures if each]))
         return sets
 
-    def _on_request(self, findings: Findings, name: str) -> Picture | None:
+    def _picture_on_request(self, findings: Findings, name: str) -> Picture | None:
         """Return the picture of this tree if it is current, else the committed one, or None."""
         published_set, committed = findings.published_set, findings.committed
         published, drawing = f"{published_set.folder}/{name}", published_set.drawn.get(name)
@@ -145,8 +145,8 @@ class _Page:
         identifier = published.replace("/", "-")
         picture = self._described(identifier, variant, scene, block, published)
         if drawing and drawing not in findings.stale:
-            numbers = self._measured(variant, scene) if KINDS[block["picture"]].headline else {}
-            made = self._made(drawing, published_set.data[scene].values())
+            numbers = self._numbers(variant, scene) if KINDS[block["picture"]].headline else {}
+            made = self._shown(drawing, published_set.data[scene].values())
             return picture | made | numbers | {"rows": [], "file": published}
         if not (self.root / published).is_file():
             return None
@@ -161,8 +161,8 @@ class _Page:
         file = f"{published}: the committed one ({origin}), not made by this tree"
         return picture | _image(self.root / published) | {"file": file}
 
-    def _made(self, drawing: str, data: Iterable[str]) -> Picture:
-        """Return the image of a current drawing, and list it with its data as shown."""
+    def _shown(self, drawing: str, data: Iterable[str]) -> Picture:
+        """Return the image of a current drawing; it and its data are listed as shown."""
         self.shown |= dict.fromkeys([*data, drawing])
         return _image(self.root / drawing)
 
@@ -173,21 +173,9 @@ class _Page:
             packages = ", ".join(f"{n} {v}" for n, v in record["environment"].items())
             yield {"path": path, "packages": packages, "record": record}
 
-    def _measured(self, variant: str, scene: str) -> Picture:
+    def _numbers(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
         values = measured(self.root, self.variants, variant, scene)
         rows = [(name, printed(scene, name), value) for name, value in values.items()]
         headline = KINDS[self.variants[variant][scene]["picture"]].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}
-
-
-def _file(root: Path, variant: str, drawing: str) -> str:
-    """Return where a picture is published, and how it compares with the commit."""
-    if variant != PAPER:
-        return drawing
-    path = _published(variant, drawing)
-    return f"{path}: {committed_state(root, path)}"
-
-
-def _published(variant: str, drawing: str) -> str:
-    return f"{PUBLISHED[PAPER]}/{Path(drawing).name}" if variant == PAPER else drawing

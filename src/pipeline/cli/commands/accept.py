@@ -9,4 +9,4 @@ from ..session import interruptible, locked
 def run(args: Arguments) -> int:
     """Renew the manifests, and print what changed."""
     with locked(), interruptible():
-        return accept(ROOT, args.checked)
+        return accept(ROOT, args.config)

@@ -51,25 +51,35 @@ def run(args: Arguments) -> int:
         where = [f"results/{name}" for name in names] + single + [f.name for f in folders]
         summary = f"{len(files)} files, {size:.1f} MB, in {', '.join(where)}"
         if not args.yes:
-            print(f"delete {summary}? [y/N] ", end="", file=sys.stderr, flush=True)
-            answer = sys.stdin.readline()
-            if not answer:  # without a terminal
-                print(file=sys.stderr)
-            if answer.strip().lower() not in ("y", "yes"):
-                raise UsageError("nothing was deleted")
+            _ask(f"delete {summary}? [y/N] ")
         try:
             for file in files:
                 file.unlink()
             for folder in folders:
                 shutil.rmtree(folder)
-            below = [folder for name in names for folder in RESULTS.glob(f"{name}/**/")]
-            for folder in sorted(below, reverse=True):
-                if _is_inside(folder / "file") and not any(folder.iterdir()):
-                    folder.rmdir()
+            _delete_empty_folders(names)
         except OSError as error:
             raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
         print(f"deleted {summary}")
     return 0
+
+
+def _ask(question: str) -> None:
+    """Ask the user, and raise UsageError if the answer is not yes."""
+    print(question, end="", file=sys.stderr, flush=True)
+    answer = sys.stdin.readline()
+    if not answer:  # without a terminal
+        print(file=sys.stderr)
+    if answer.strip().lower() not in ("y", "yes"):
+        raise UsageError("nothing was deleted")
+
+
+def _delete_empty_folders(names: list[str]) -> None:
+    """Delete the folders of results/ with these names, and those below, that are empty."""
+    below = [folder for name in names for folder in RESULTS.glob(f"{name}/**/")]
+    for folder in sorted(below, reverse=True):
+        if _is_inside(folder / "file") and not any(folder.iterdir()):
+            folder.rmdir()
 
 
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
@@ -77,7 +87,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
     candidates = {file for pattern in _OTHER_FILES for file in RESULTS.glob(pattern)}
     with suppress(ConfigError):  # records alone then say which files are results
-        specs = build_specs(args.checked)
+        specs = build_specs(args.config)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
         # A record may be forged: its path is only compared with the two possible ones.

@@ -1,6 +1,6 @@
 """./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
 
-from ... import config
+from ...config import PAPER
 from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments
@@ -9,16 +9,17 @@ from ..session import CommandLineError, interruptible, locked, one_line
 
 def run(args: Arguments) -> int:
     """Make the missing results of two variants and print what differs."""
-    known = [config.PAPER, *args.checked.own_variants]
+    config, status = args.config, 0
+    known = [PAPER, *config.own_variants]
     names = [name for name in (args.a, args.b) if name is not None]
     figures.require_known("variant", names, known)
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(known)}")
-    scenes, status = args.figure or list(args.checked.scenes), 0
+    scenes = args.figure or list(config.scenes)
     with locked():
         for name in names:
-            files = figures.of_scenes(args.checked, name, scenes)
-            made = figures.make(args.checked, name, files, args, brief=True)
+            drawings = figures.drawings_of(config, name, scenes)
+            made = figures.make(config, name, drawings, args, brief=True)
             status = made or status
             if status == running.INTERRUPTED:
                 return status
@@ -27,5 +28,5 @@ def run(args: Arguments) -> int:
 
             print()
             with interruptible(), one_line():
-                compare(ROOT, args.checked, names, scenes)
+                compare(ROOT, config, names, scenes)
     return status

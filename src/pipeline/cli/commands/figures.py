@@ -2,10 +2,10 @@
 
 import os
 from pathlib import PurePath
+from typing import NamedTuple
 
-from ... import config
 from ...commands import DEFAULT_COMMAND, all_commands
-from ...config import paths
+from ...config import PAPER, PUBLISHED, paths
 from ...config.build_specs import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
@@ -13,83 +13,82 @@ from ..arguments import Arguments, hint
 from ..packages import add_packages
 from ..session import CommandLineError, locked
 
-# Set of scenes -> its files, and further results.
-Selected = dict[str, tuple[figures.Wanted, list[str]]]
+
+class Target(NamedTuple):
+    """What is made of a set of scenes or a variant."""
+
+    drawings: figures.Drawings
+    data: list[str]  # further results
 
 
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
     command, status = all_commands().get(args.word or "", DEFAULT_COMMAND), 0
-    select = _of_set if command.scenes else _variant if args.word else _named
-    selected = select(args)
+    select = _scene_set if command.scenes else _variant if args.word else _named
+    targets = select(args)
     with locked():
-        for group, (files, data) in selected.items():
-            status = figures.make(args.checked, group, files, args, data) or status
+        for group, target in targets.items():
+            status = figures.make(args.config, group, target.drawings, args, target.data) or status
             if status == running.INTERRUPTED:
                 break
     return status
 
 
-def _named(args: Arguments) -> Selected:
-    """Select every figure of the paper, or the named figures and files."""
-    found = _find(args, args.figure or ["all"])
-    return {group: (files, []) for group, files in found.items()}
-
-
-def _find(args: Arguments, names: list[str]) -> dict[str, figures.Wanted]:
-    """Return the published files, by their sets of scenes, and other results with these names."""
-    variants = args.checked.variants
-    published = {group: figures.of_scenes(args.checked, group) for group in config.PUBLISHED}
-    selected: dict[str, figures.Wanted] = {}
-    others: figures.Wanted = {}
-    for name in names:
+def _named(args: Arguments) -> dict[str, Target]:
+    """Select every figure of the paper, or the named figures and files, by sets of scenes."""
+    published = {group: figures.drawings_of(args.config, group) for group in PUBLISHED}
+    targets: dict[str, Target] = {}
+    other_results: list[str] = []
+    for name in args.figure or ["all"]:
         # A path is relative to the root or to the user's folder.
         files = {os.path.normpath(name), os.path.relpath(args.start / name, ROOT)}
         found = [
             (group, path)
-            for group, known in published.items()
-            for path, drawing in known.items()
-            if name == PurePath(drawing).stem
-            or path in files
-            or (name, group) == ("all", config.PAPER)
+            for group, drawings in published.items()
+            for path, drawing in drawings.items()
+            if name == PurePath(drawing).stem or path in files or (name, group) == ("all", PAPER)
         ]
         for group, path in found:
-            selected.setdefault(group, {})[path] = published[group][path]
-        if found:
-            continue
-        results = build_specs(args.checked)
-        if not files & set(results):
-            if "/" in name:
-                known_files = [*results, *published[config.PAPER]]
-                raise CommandLineError(f"no such file is made: {name}{hint(name, known_files)}")
-            if name in all_commands():
-                raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
-            scenes = [scene for group in published for scene in variants[group]]
-            meant = hint(name, [*scenes, *all_commands()]) or ": the figures are " + ", ".join(
-                scenes
-            )
-            raise CommandLineError(f"no command or figure {name}{meant}")
-        others |= {path: path for path in sorted(files & set(results))}
-    if others:
-        selected.setdefault(next(iter(selected), config.PAPER), {}).update(others)
-    return selected
+            drawings = targets.setdefault(group, Target({}, [])).drawings
+            drawings[path] = published[group][path]
+        if not found:
+            other_results += _results_among(files, name, args)
+    if other_results:
+        target = targets.setdefault(next(iter(targets), PAPER), Target({}, []))
+        target.drawings.update({path: path for path in other_results})
+    return targets
 
 
-def _variant(args: Arguments) -> Selected:
+def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
+    """Return the results among the files that a name may stand for, or raise CommandLineError."""
+    results = build_specs(args.config)
+    if found := sorted(files & results.keys()):
+        return found
+    if "/" in name:
+        known = [*results, *paths.figures(args.config.variants, PAPER)]
+        raise CommandLineError(f"no such file is made: {name}{hint(name, known)}")
+    if name in all_commands():
+        raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
+    scenes = [scene for group in PUBLISHED for scene in args.config.variants[group]]
+    meant = hint(name, [*scenes, *all_commands()]) or f": the figures are {', '.join(scenes)}"
+    raise CommandLineError(f"no command or figure {name}{meant}")
+
+
+def _variant(args: Arguments) -> dict[str, Target]:
     """Select all figures of a variant, or the named ones."""
-    variants = args.checked.own_variants
+    variants = args.config.own_variants
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
     figures.require_known("variant", [args.variant], variants)
-    return {args.variant: (figures.of_scenes(args.checked, args.variant, args.figure), [])}
+    return {args.variant: Target(figures.drawings_of(args.config, args.variant, args.figure), [])}
 
 
-def _of_set(args: Arguments) -> Selected:
+def _scene_set(args: Arguments) -> dict[str, Target]:
     """Select all pictures of the command's set of scenes, and data without a picture."""
     command = all_commands()[str(args.word)]
     if command.packages and not args.makes_nothing:
         add_packages(command.packages)
-    files = figures.of_scenes(args.checked, command.scenes)
-    data = paths.data_only(args.checked.variants, command.scenes).values()
-    return {command.scenes: (files, [path for each in data for path in each])}
+    data = paths.data_only(args.config.variants, command.scenes).values()
+    drawings = figures.drawings_of(args.config, command.scenes)
+    return {command.scenes: Target(drawings, [path for each in data for path in each])}

@@ -5,7 +5,7 @@ from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
-from ...config import paths
+from ...config import Config, paths
 from ...config.build_specs import build_specs
 from ...config.schema.sets import SETS
 from ...records.differences import columns, differing_block
@@ -15,27 +15,35 @@ from ..arguments import Arguments
 
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
-    variants = args.checked.variants
-    freshness = Freshness(ROOT, build_specs(args.checked))
-    for published_set in committed_sets(args.checked):
+    config = args.config
+    freshness = Freshness(ROOT, build_specs(config))
+    for published_set in committed_sets(config):
         _print(published_set.command, [*_published(freshness, published_set)])
     for group, scenes in SETS.items():
-        apart = [s for s, block in variants[group].items() if paths.is_measured(block)]
-        measured = [paths.drawn(s, "png", group) for s in apart if variants[group][s]["formats"]]
-        data = [path for found in paths.data_only(variants, group).values() for path in found]
+        blocks = config.variants[group]
+        measured = [
+            paths.drawn(scene, "png", group)
+            for scene, block in blocks.items()
+            if paths.is_measured(block) and block["formats"]
+        ]
+        data = [path for each in paths.data_only(config.variants, group).values() for path in each]
         for kind, results in (("measured", measured), ("data", data)):
             rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]
             _print(f"{scenes.command}, {kind}", rows)
-    rows = []
-    for name in args.checked.own_variants:
-        files: dict[str, list[str]] = {}
-        for _, upstream in paths.figures(variants, name).values():
-            files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
-        for scene, reason in args.checked.left_out[name].items():
-            files.setdefault(reason, []).append(f"{scene}.png")
-        rows += [(name, state, " ".join(files[state])) for state in files]
-    _print("./reproduce variant NAME", rows)
+    states = [row for name in config.own_variants for row in _states_of(freshness, config, name)]
+    _print("./reproduce variant NAME", states)
     return 0
+
+
+def _states_of(freshness: Freshness, config: Config, variant: str) -> Iterator[tuple[str, ...]]:
+    """Yield variant, state and files for each state that files of a variant have."""
+    files: dict[str, list[str]] = {}
+    for _, upstream in paths.figures(config.variants, variant).values():
+        files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
+    for scene, reason in config.left_out[variant].items():
+        files.setdefault(reason, []).append(f"{scene}.png")
+    for state, names in files.items():
+        yield variant, state, " ".join(names)
 
 
 def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:

@@ -8,7 +8,7 @@ from ..arguments import Arguments
 def run(args: Arguments) -> int:
     """Compare the tree with its committed state; 0 if all is well."""
     status = 0
-    for findings in verify(ROOT, args.checked, args.committed):
+    for findings in verify(ROOT, args.config, args.committed):
         print(*findings.report(), sep="\n")
         status |= findings.fails(args.strict)
     return int(status)
