@@ -16,7 +16,7 @@ def test_a_scene_is_completed_with_defaults():
     assert list(scenes) == list(SCENES)
     given = document["scenes"]["a_portrait"]
     added = {"sea": [], "view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
-    assert scenes["a_portrait"] == given | {"ball": {"k": 0.2, "g": 0.04}} | added
+    assert scenes["a_portrait"].as_mapping() == given | {"ball": {"k": 0.2, "g": 0.04}} | added
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_a_scene_is_completed_with_defaults():
 def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
     document = changed("scenes.a_portrait.starts", [start, 0.5])
     if words is None:
-        assert config.check(document).scenes["a_portrait"]["starts"][0] == start
+        assert config.check(document).scenes["a_portrait"].as_mapping()["starts"][0] == start
     else:
         line = complaint(document)
         assert line.startswith("scenes.a_portrait.starts[0]")
@@ -76,9 +76,9 @@ def test_all_mistakes_of_a_file_are_reported_at_once():
 def test_values_outside_the_axes_are_reported(scene, fields, lines):
     document = shipped()
     block = {"ball": document["ball"]} | document["scenes"][scene]
-    kind = KINDS[block["picture"]]
-    assert not [*kind.hidden(block)]
-    for line, start in zip(kind.hidden(block | fields), lines, strict=True):
+    read = KINDS[block["picture"]].model_validate
+    assert not [*read(block).hidden()]
+    for line, start in zip(read(block | fields).hidden(), lines, strict=True):
         assert line.startswith(start)
 
 

@@ -35,12 +35,6 @@ HOSTILE = {
 }
 
 
-def replace_motion(tree, body):
-    """Replace the stage of motions by a function."""
-    module = tree.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
-    module.write_text(f"{module.read_text()}\n\ndef scene_motion(*_, **__):\n    {body}\n")
-
-
 def test_damaged_and_deleted_results_of_the_named_figures_are_made_again(done):
     before, paper = contents(done), done.path / "results" / "paper"
     deleted = ["figures/fig3.svg", "periodic_fig3.nc", "provenance/orbits_fig8.nc.json"]
@@ -168,8 +162,9 @@ def test_interrupting_the_start_is_no_traceback(tree, file):
 def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
     """Snakemake itself would let them finish."""
     begun = done.path / "begun"
-    text = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
-    replace_motion(done, f"import os, time\n    {text}")
+    body = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
+    motion = f"\n\ndef scene_motion(*_, **__):\n    import os, time\n    {body}\n"
+    done.append("pseudorigid/dynamics/motion.py", motion)
     run = done.start(
         "paper_figures/fig3.png",
         stderr=subprocess.PIPE,

@@ -100,7 +100,7 @@ def of_kind(kind):
         (variant, name)
         for variant, scenes in VARIANTS.items()
         for name, scene in scenes.items()
-        if scene["picture"] == kind
+        if scene.picture == kind
     ]
     variants, names = zip(*found) if found else ((), ())
     return {"variant": any_of(dict.fromkeys(variants)), "scene": any_of(dict.fromkeys(names))}

@@ -6,13 +6,12 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import PurePath
-from typing import Any
 
 from ..checks.freshness import MISSING, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, paths, unknown
 from ..config.build_specs import build_specs, with_dependencies
-from ..config.schema.kinds import KINDS
+from ..config.schema.scene import Picture
 from ..config.schema.sets import PUBLISHED
 from ..records.differences import columns
 from ..records.files import FileError, identity, obstacle, read_bytes, write_whole
@@ -69,7 +68,7 @@ def make(
         specs = build_specs(checked)
     before = {drawing: identity(drawing) for drawing in wanted.values()}
 
-    def blocks(drawings: Iterable[str]) -> dict[str, Any]:
+    def blocks(drawings: Iterable[str]) -> dict[str, Picture]:
         scenes = {PurePath(path).stem for path in drawings}
         return {name: block for name, block in variants.get(group, {}).items() if name in scenes}
 
@@ -169,18 +168,18 @@ def _publish(drawings: dict[str, str]) -> dict[str, str]:
     return problems
 
 
-def _hidden(scenes: dict[str, Any]) -> Iterator[str]:
+def _hidden(scenes: dict[str, Picture]) -> Iterator[str]:
     """Yield a line for each field of these scenes that asks for more than the axes show."""
     for scene, block in scenes.items():
-        yield from (f"{scene}: {line}" for line in KINDS[block["picture"]].hidden(block))
+        yield from (f"{scene}: {line}" for line in block.hidden())
 
 
 def _missed_impacts(
-    artifact_paths: Mapping[tuple[str, str, str], str], variant: str, scenes: dict[str, Any]
+    artifact_paths: Mapping[tuple[str, str, str], str], variant: str, scenes: dict[str, Picture]
 ) -> Iterator[str]:
     """Yield a line for each of these scenes with a `method`: what it computed or missed."""
     for scene, block in scenes.items():
-        method, stages = block.get("method", {}), paths.stages(block)
+        method, stages = block.as_mapping().get("method", {}), paths.stages(block)
         if "exact" in method:
             exact = "orbits of their exact starts"
             computed = exact if "orbits" in stages else "no stage with an exact method"

@@ -11,7 +11,7 @@ from ..records.build_spec import BuildSpec
 from . import paths
 from .paths import PAPER, Config, Variants
 from .schema.fields import YamlMapping
-from .schema.kinds import KINDS
+from .schema.scene import Picture
 from .schema.sets import SETS
 from .schema.stages import STAGES, function_of
 
@@ -37,7 +37,7 @@ def _of_scene(
     artifact_paths: Mapping[tuple[str, str, str], str],
     variant: str,
     scene: str,
-    block: YamlMapping,
+    block: Picture,
 ) -> Iterator[BuildSpec]:
     """Yield the specifications of a scene's datasets and drawings."""
 
@@ -56,22 +56,21 @@ def _of_scene(
             config = parameters | more | {"inputs": [*others]}
             inputs += others.values()
         if declared.parts:
-            blocks = imported(declared.parts)(block)
+            blocks = imported(declared.parts)(block.as_mapping())
             inputs = [paths.part_path(path, i) for i in range(len(blocks))]
             for i, part in enumerate(blocks):
                 files = _files("stage", declared.part)
                 step = f"block {i}"
                 yield BuildSpec(inputs[i], label, step, part, "stage", declared.part, files, [])
             step = "data"
-        function = function_of(stage, parameters)
+        function = function_of(stage, block)
         files = _without_other_data(_files("stage", function), declared.reads, parameters)
         yield BuildSpec(path, label, step, config, "stage", function, files, inputs)
-    kind = KINDS[block["picture"]]
-    inputs = [artifact_paths[variant, scene, stage] for stage in kind.stages]
-    for extension in block["formats"]:
+    inputs = [artifact_paths[variant, scene, stage] for stage in block.stages]
+    for extension in block.formats:
         path, step = paths.drawn(scene, extension, variant), f"drawing {extension}"
-        files, config = _files("draw", kind.drawn_by), paths.drawing(block)
-        yield BuildSpec(path, named(path), step, config, "draw", kind.drawn_by, files, inputs)
+        files, config = _files("draw", block.drawn_by), paths.drawing(block)
+        yield BuildSpec(path, named(path), step, config, "draw", block.drawn_by, files, inputs)
 
 
 def _files(program: str, function: str) -> list[str]:

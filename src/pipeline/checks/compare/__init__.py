@@ -11,8 +11,7 @@ import xarray as xr
 
 from ...config import Config, paths
 from ...config.build_specs import build_specs
-from ...config.schema.fields import YamlMapping
-from ...config.schema.kinds import KINDS
+from ...config.schema.scene import Picture
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
 from ...records.pictures import pixels
@@ -48,7 +47,7 @@ def compare(root: Path, checked: Config, names: Sequence[str], scenes: Sequence[
             present = {n: pixels(root / p) for n, p in drawings.items() if states[n] == CURRENT}
             axes = ""
             if len(present) == 2:
-                stages = KINDS[blocks[0]["picture"]].stages
+                stages = blocks[0].stages
                 data = [[load(root / files[n, scene, stage]) for stage in stages] for n in names]
                 images, axes = picture.on_same_axes(blocks, data)
                 present = dict(zip(names, images, strict=True))
@@ -60,7 +59,7 @@ def compare(root: Path, checked: Config, names: Sequence[str], scenes: Sequence[
         print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
 
 
-def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:
+def _config_differences(first: Picture, second: Picture) -> Iterator[str]:
     """Yield a line for each key of the config that differs, except derived axes."""
     before, after = (paths.drawing(block) | {"axes": None} for block in (first, second))
     keys = differing_keys(before, after)

@@ -21,7 +21,7 @@ def run(args: Arguments) -> int:
         _print(published_set.command, [*_published(freshness, published_set)])
     for group, scenes in SETS.items():
         apart = [s for s, block in variants[group].items() if paths.is_measured(block)]
-        measured = [paths.drawn(s, "png", group) for s in apart if variants[group][s]["formats"]]
+        measured = [paths.drawn(s, "png", group) for s in apart if variants[group][s].formats]
         data = [path for found in paths.data_only(variants, group).values() for path in found]
         for kind, results in (("measured", measured), ("data", data)):
             rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]

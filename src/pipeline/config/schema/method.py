@@ -38,7 +38,7 @@ METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
 
 def _tag(value: Any) -> str:
     """Return the tag of the method that a value is an attempt at."""
-    keys = value if isinstance(value, Mapping) else ()
+    keys = value if isinstance(value, Mapping) else getattr(value, "model_fields_set", ())
     return next((TAGS[i] for i, key in enumerate(_BY_KEY, 1) if key in keys), TAGS[0])
 
 
