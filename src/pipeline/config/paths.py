@@ -8,11 +8,12 @@ from .schema.scene import Picture
 from .schema.sets import PAPER, PUBLISHED, SETS
 from .schema.stages import STAGES, takes_method, upstream
 
-__all__ = ["PAPER", "PUBLISHED", "Config", "Picture", "Variants"]
+__all__ = ["PAPER", "PUBLISHED", "ArtifactPaths", "Config", "Picture", "Variants"]
 
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 
-Variants = dict[str, dict[str, Picture]]  # variant -> scene
+Variants = dict[str, dict[str, Picture]]  # variant -> scene's name -> scene
+ArtifactPaths = dict[tuple[str, str, str], str]  # variant, scene, stage -> path of the dataset
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def drawing(scene: Picture) -> YamlMapping:
     return {key: value for key, value in scene.as_mapping().items() if key not in scene.undrawn}
 
 
-def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
+def artifact_paths(variants: Variants) -> ArtifactPaths:
     """Map (variant, scene, stage) to the path of the stage's dataset.
 
     A variant shares a scene's dataset with the first variant that gives this scene the same
@@ -61,7 +62,7 @@ def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
     and those of the scene that they are drawn `over`. An added scene therefore changes no path.
     """
     first_paths: dict[tuple[str, str, str], str] = {}
-    dataset_paths: dict[tuple[str, str, str], str] = {}
+    dataset_paths: ArtifactPaths = {}
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
             over = getattr(block, "over", None)

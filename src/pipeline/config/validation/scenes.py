@@ -179,25 +179,22 @@ def _scaled(scene: Picture, scale: float) -> Picture:
     if scale == 1 or not isinstance(scene, Scene):
         return scene
     ball = scene.ball.model_copy(update={"g": _times(scene.ball.g, scale)})
-    changed: YamlMapping = {"ball": ball}
+    scaled: YamlMapping = {"ball": ball}
     energies = ["energy", "energies", "marks"] + ["span", "step"] * scene.along_energy()
     for name in energies:
-        if getattr(scene, name, None) is not None:
-            changed[name] = _times(getattr(scene, name), scale, scale)
+        if (value := getattr(scene, name, None)) is not None:
+            scaled[name] = _times(value, scale, scale)
     if isinstance(scene, OfOrbits):  # fractions of the section stay
-        changed["starts"] = [
-            start.model_copy(update=_times(start.as_mapping(), scale))
-            if isinstance(start, Point)
-            else start
-            for start in scene.starts
-        ]
-    return scene.model_copy(update=changed)
+        starts = scene.starts
+        scaled["starts"] = [_times(s, scale) if isinstance(s, Point) else s for s in starts]
+    return scene.model_copy(update=scaled)
 
 
 def _times(values: Any, *factors: float) -> Any:
     """Multiply decimals as written and round once, so that 3 times 0.01 gives 0.03."""
     if isinstance(values, list):
         return [_times(value, *factors) for value in values]
-    if isinstance(values, dict):
-        return {key: _times(value, *factors) for key, value in values.items()}
+    if isinstance(values, Point):
+        scaled = {key: _times(value, *factors) for key, value in values.as_mapping().items()}
+        return values.model_copy(update=scaled)
     return float(math.prod(map(exact, (values, *factors))))
