@@ -159,7 +159,7 @@ class Theorem(Picture):
 
     theorem: Name = allowed("the name of a theorem")
     """Name of the theorem."""
-    formats: NoFormats = []  # type: ignore[assignment]
+    formats: NoFormats = []
 
 
 class Derivations(Scene):
@@ -168,7 +168,7 @@ class Derivations(Scene):
     stages = ("derivations",)
     on_section = False
 
-    formats: NoFormats = []  # type: ignore[assignment]
+    formats: NoFormats = []
 
 
 def theorems() -> dict[str, YamlMapping]:

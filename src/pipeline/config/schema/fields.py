@@ -254,10 +254,11 @@ Saddle = Annotated[
     Literal["hyperbolic", "inverse hyperbolic"],
     allowed("one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
 ]
+_Format = Literal["png", "svg", "pdf"]
 Formats = Annotated[
-    list[Literal["png", "svg", "pdf"]],
+    list[_Format],
     allowed("a list of png, svg, pdf that has png in it, none of them twice", min_length=1),
     Predicate(distinct),
     Predicate(lambda given: "png" in given),
 ]
-NoFormats = Annotated[list[str], allowed("an empty list: there is no picture", max_length=0)]
+NoFormats = Annotated[list[_Format], allowed("an empty list: there is no picture", max_length=0)]
