@@ -19,7 +19,7 @@ BOOKKEEPING = (
     "pipeline",
     "pipeline.declaration",
     "pipeline.jobs",
-    "pipeline.jobs.dispatch",
+    "pipeline.jobs.job",
     "pipeline.jobs.server",
     "pipeline.loading",
     "pipeline.records",

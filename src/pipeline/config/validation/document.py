@@ -12,7 +12,7 @@ from ..schema.scene import Picture
 from ..schema.sets import PAPER, SETS
 from ..schema.variant import Variant
 from . import scenes
-from .mistakes import validated
+from .mistakes import validate
 from .words import ConfigError, refusal
 
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
@@ -46,10 +46,10 @@ def check(given: object) -> Config:
 
     Raises ConfigError with a line for each mistake.
     """
-    document, lines = validated(Document, given, ())
+    document, lines = validate(Document, given, ())
     blocks = given.items() if isinstance(given, dict) else ()
     parts = {key: block for key, block in blocks if isinstance(block, dict)}
-    ball, _ = validated(BallBlock, parts.get("ball"), ())
+    ball, _ = validate(BallBlock, parts.get("ball"), ())
     if ball and not ball.g < ball.k:
         lines.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
         ball = None
@@ -60,7 +60,7 @@ def check(given: object) -> Config:
         lines += more
     if document and own_ball and not lines:
         for name, variant in document.variants.items():
-            derived = scenes.derive(parts["scenes"], own_ball, name, variant)
+            derived = scenes.derive_variant(parts["scenes"], own_ball, name, variant)
             variants[name], left_out[name], more = derived
             lines += more
     if lines or document is None:
@@ -81,7 +81,7 @@ def _scenes_of_set(
             s: kind | block if isinstance(block, dict) else block for s, block in given.items()
         }
     for scene, block in given.items():
-        checked, mistakes = scenes.checked(block, ball, (key, scene), given)
+        checked, mistakes = scenes.check_scene(block, ball, (key, scene), given)
         lines += mistakes
         if scene in all_commands() or scene == "all":
             lines.append(refusal((key,), scene, "a name that is no command of ./reproduce"))

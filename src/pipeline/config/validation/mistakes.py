@@ -17,7 +17,7 @@ _UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the secon
 AnyBlock = TypeVar("AnyBlock", bound=Block)
 
 
-def validated(
+def validate(
     model: type[AnyBlock], given: object, place: Place
 ) -> tuple[AnyBlock | None, list[str]]:
     """Return a block and a line for each mistake in it, the topmost first.

@@ -19,7 +19,7 @@ from ..schema.kinds import KINDS
 from ..schema.scene import CompletionError, CrossFieldError, OfOrbits, Picture, Scene, exact
 from ..schema.sets import SETS
 from ..schema.variant import Variant
-from .mistakes import validated
+from .mistakes import validate
 from .words import Place, dotted, refusal, unknown
 
 
@@ -30,7 +30,7 @@ def reserved_names() -> list[str]:
     return [*dict.fromkeys([*SETS, "compare", "report", *folders])]
 
 
-def checked(
+def check_scene(
     given: object, ball: YamlMapping | None, place: Place, others: Mapping[str, Any]
 ) -> tuple[Picture | None, list[str]]:
     """Return a complete scene and a line for each mistake; None if its values have wrong types.
@@ -45,7 +45,7 @@ def checked(
         return None, [f"{dotted(picture)}: missing: expected {words}"]
     if not isinstance(given["picture"], str) or given["picture"] not in KINDS:
         return None, [refusal(picture, given["picture"], words)]
-    scene, lines = _completed(_with_ball(given, ball), place, others)
+    scene, lines = _read_scene(_with_ball(given, ball), place, others)
     errors = scene.cross_field_errors() if scene else ()
     return scene, lines + [refusal((*place, *at), value, allowed) for at, value, allowed in errors]
 
@@ -56,11 +56,11 @@ def _with_ball(given: YamlMapping, ball: YamlMapping | None) -> YamlMapping:
     return {"ball": ball} | given if of_ball else given
 
 
-def _completed(
+def _read_scene(
     given: YamlMapping, place: Place, others: Mapping[str, Any]
 ) -> tuple[Picture | None, list[str]]:
     """Return a scene with shorthands written out, or None, and a line for each wrong field."""
-    scene, lines = validated(KINDS[given["picture"]], given, place)
+    scene, lines = validate(KINDS[given["picture"]], given, place)
     if scene is None or (isinstance(scene, Scene) and scene.ball is None):
         return None, lines
     try:
@@ -77,7 +77,7 @@ def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
     given = others.get(name)
     if not isinstance(given, dict) or given.get("picture") != scene.drawn_over:
         raise CompletionError(("over",), name, f"a scene of kind {scene.drawn_over}")
-    below, lines = validated(over, given, ())
+    below, lines = validate(over, given, ())
     if below is None or lines:
         raise CompletionError(("over",), name, "a scene without mistakes")
     both: type[Picture] = create_model(kind.__name__, __base__=(kind, over))
@@ -85,7 +85,7 @@ def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
     return both.model_validate(fields, context=TYPES_ALONE)
 
 
-def derive(
+def derive_variant(
     scenes: YamlMapping, ball: YamlMapping, name: str, variant: Variant
 ) -> tuple[dict[str, Picture], dict[str, str], list[str]]:
     """Return the scenes of a variant, why others are left out, and a line for each mistake.
@@ -109,12 +109,12 @@ def derive(
     for scene, given in scenes.items():
         change, where = changes.get(scene, {}), (*place, "scenes", scene)
         block = _with_ball(given, ball)
-        picture, wrong = _completed(_derived(block, variant, change), where, scenes)
+        picture, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
         lines += wrong
         if picture is None:
             continue
         errors = [*picture.cross_field_errors()]
-        unchanged, _ = _completed(_derived(block, variant, {}), where, scenes)
+        unchanged, _ = _read_scene(_merge_variant(block, variant, {}), where, scenes)
         own = _errors_of_change(errors, unchanged, change)
         for at, value, allowed in own or errors:
             shared = at[0] in variant.model_fields_set and at[0] not in change
@@ -141,13 +141,13 @@ def _errors_of_change(
     return [error for error in errors if error[0][0] not in before - change.keys()]
 
 
-def _derived(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
+def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
     """Merge a variant's values into a scene's block, which includes its ball."""
     kind = KINDS[block["picture"]]
     replaced = variant.as_mapping(("ball", "energy", "method")) if issubclass(kind, Scene) else {}
     if "method" in replaced:  # methods are replaced as a whole
         block = {key: value for key, value in block.items() if key != "method"}
-    derived: YamlMapping = _merged(_merged(block, replaced), change)
+    derived: YamlMapping = _merge(_merge(block, replaced), change)
     framing = ("ball", "energy", *kind.axes_depend_on, *kind.along.values())
     if variant.scale in (None, 1) and all(block.get(f) == derived.get(f) for f in framing):
         return derived
@@ -167,11 +167,11 @@ def _change_mistakes(
     return []
 
 
-def _merged(old: Any, new: Any) -> Any:
+def _merge(old: Any, new: Any) -> Any:
     """Merge mappings key by key; replace anything else."""
     if not (isinstance(old, dict) and isinstance(new, dict)):
         return new
-    return old | {key: _merged(old.get(key), value) for key, value in new.items()}
+    return old | {key: _merge(old.get(key), value) for key, value in new.items()}
 
 
 def _scaled(scene: Picture, scale: float) -> Picture:
