@@ -1,5 +1,7 @@
 """Scenes of config.yaml: a mistake is one line with the key, the value and what is allowed."""
 
+import json
+
 import pytest
 from documents import AXES, SCENES, changed, complaint, complaints, good
 from project import shipped
@@ -17,6 +19,16 @@ def test_a_scene_is_completed_with_defaults():
     given = document["scenes"]["a_portrait"]
     added = {"sea": [], "view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
     assert scenes["a_portrait"].as_mapping() == given | {"ball": {"k": 0.2, "g": 0.04}} | added
+
+
+def test_numbers_are_recorded_as_they_were_written():
+    """As 1 and 1.0 differ in records, another form of a number would outdate results."""
+    written = {"impact": {"limits": [0, 1000.0], "ticks": [0, 1e3]}}
+    document = changed("scenes.exponents.axes", written)
+    document["scenes"]["exponents"]["starts"] = [0, {"x": 0, "y": 0.0}]
+    block = config.check(document).scenes["exponents"].as_mapping()
+    assert json.dumps(block["axes"]) == json.dumps(written)
+    assert json.dumps(block["starts"]) == '[0, {"x": 0, "y": 0.0}]'
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,8 @@ AXES = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
         # A scale is exact: as floats, 9.0 * 0.01 is more than 0.09.
         ({"scale": 3}, "fig2", {"energy": 0.09}),
         ({"scale": 2}, "fig8", {"energy": 0.004, "ball": {"k": 0.2, "g": 0.08}}),
+        ({"scale": 2, "scenes": {"fig5": {"starts": [{"x": 0.1, "y": 0.02}, 0.5], "impacts": 9}}},
+         "fig5", {"starts": [{"x": 0.2, "y": 0.04}, 0.5]}),
     ],
 )  # fmt: skip
 def test_what_a_variant_gives_replaces_the_papers_values(variant, scene, expected):

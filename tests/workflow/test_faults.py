@@ -196,23 +196,27 @@ def test_two_runs_do_not_meet(tree):
     assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing
 
 
-@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
-def test_a_file_in_the_place_of_a_folder_is_named(tmp_path, monkeypatch, place):
+@pytest.fixture
+def start(tmp_path, monkeypatch):
+    """Return a function that starts a run in an empty folder."""
     monkeypatch.setattr(running, "ROOT", tmp_path)
+    freshness = Freshness(tmp_path, build_specs(load(SHIPPED)))
+    return lambda: running.make(freshness, [DRAWING], Arguments(options=[]))
+
+
+@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
+def test_a_file_in_the_place_of_a_folder_is_named(start, tmp_path, place):
     (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / place).touch()
-    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
-        running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
+        start()
 
 
-def test_a_run_on_a_full_disk_says_so_before_it_starts(tmp_path, monkeypatch):
-    monkeypatch.setattr(running, "ROOT", tmp_path)
+def test_a_run_on_a_full_disk_says_so_before_it_starts(start, monkeypatch):
     free = types.SimpleNamespace(total=10**9, free=300_000)
     monkeypatch.setattr("shutil.disk_usage", lambda path: free)
-    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=r"^the disk is full, 0\.3 MB are left$"):
-        running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
+        start()
 
 
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):

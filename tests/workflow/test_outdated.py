@@ -13,8 +13,8 @@ from contextlib import suppress
 
 import psutil
 import pytest
-from project import ROOT, Tree, fresh_tree, of_scenes, shipped
-from runs import FIG3, VARIANTS, rows
+from project import ROOT, Tree, fresh_tree, shipped
+from runs import FIG3, rows
 from slowly import slowly
 
 from pipeline.cli import running
@@ -59,19 +59,6 @@ def test_a_missing_drawing_behind_an_incomplete_dataset_is_made(done, how):
     else:
         plain(done)
     assert {path: (done.path / path).read_bytes() for path in drawings} == before
-
-
-@pytest.mark.slow
-def test_missing_pictures_of_variants_behind_incomplete_data_are_made(tmp_path):
-    tree = fresh_tree(tmp_path / "tree", of_scenes("fig3", "fig8", variants=VARIANTS))
-    tree.succeed("variant", "doubled")
-    drawing = tree.path / "results/doubled/figures/fig8.png"
-    before = drawing.read_bytes()
-    drawing.unlink()
-    (tree.path / "results/doubled/provenance/fig8.png.json").unlink()
-    mark_incomplete(tree, "results/doubled/orbits_fig8.nc", f"{PAPER}/orbits_fig8.nc")
-    tree.succeed("variant", "doubled")
-    assert drawing.read_bytes() == before
 
 
 @pytest.mark.parametrize("times", ["reversed", *slowly("future")])
