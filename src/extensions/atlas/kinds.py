@@ -74,14 +74,7 @@ class Atlas(Picture):
 
     def completed(self) -> Self:
         """Write out the axes."""
-        axes = {}
-        for name, axis in {"k": self.k, "energy": self.energy}.items():
-            for place, value, words in _axis_errors(axis, name):
-                raise CompletionError(place, value, words)
-            axes[name] = _values(axis)
-            if not rising(axes[name]):
-                words = "increasing numbers that differ in six digits"
-                raise CompletionError((name,), self.as_mapping()[name], words)
+        axes = {"k": _axis(self.k, "k"), "energy": _axis(self.energy, "energy")}
         return self.model_copy(update=axes)
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
@@ -99,10 +92,8 @@ class Atlas(Picture):
             yield ("energy",), energy, f"axes with at most {MOST_CELLS} cells, here {sizes}"
             return
         if cells * self.starts * self.impacts > LARGEST_IMPACTS:
-            words = (
-                f"at most {LARGEST_IMPACTS} impacts in a sweep, counted over all cells and starts"
-            )
-            yield ("impacts",), self.impacts, words
+            most = f"at most {LARGEST_IMPACTS} impacts in a sweep"
+            yield ("impacts",), self.impacts, f"{most}, counted over all cells and starts"
         if cells > MOST_JOBS * self.block:
             words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
             yield ("block",), self.block, words
@@ -114,13 +105,18 @@ class Verdicts(Picture):
     stages = ("verdicts",)
 
 
-def _axis_errors(axis: Span | list[float], name: str) -> Iterator[CrossFieldError]:
-    """Yield an error if the ends of an axis are wrong."""
-    if isinstance(axis, Span):
-        if not axis.from_ < axis.to:
-            yield (name, "to"), axis.to, f"a number above from = {axis.from_}"
-        elif axis.spacing == "log" and not axis.from_ > 0:
-            yield (name, "from"), axis.from_, "a number > 0 where spacing is log"
+def _axis(given: Span | list[float], axis: str) -> list[float]:
+    """Return the numbers of an axis; CompletionError if they do not increase."""
+    if isinstance(given, Span):
+        if not given.from_ < given.to:
+            raise CompletionError((axis, "to"), given.to, f"a number above from = {given.from_}")
+        if given.spacing == "log" and not given.from_ > 0:
+            raise CompletionError((axis, "from"), given.from_, "a number > 0 where spacing is log")
+    values = _values(given)
+    if not rising(values):
+        shown = given.as_mapping() if isinstance(given, Span) else given
+        raise CompletionError((axis,), shown, "increasing numbers that differ in six digits")
+    return values
 
 
 def _energy_errors(
