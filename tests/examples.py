@@ -27,7 +27,7 @@ OTHER = {"k": 0.25, "g": 0.03}
 def checked(kind, **change):
     """Complete the example of a kind with some fields changed, as the one scene of a config."""
     block = yaml.safe_load(example(kind)) | change
-    return check({"ball": PAPER, "scenes": {"one": block}}).scenes["one"]
+    return check({"ball": PAPER, "scenes": {"one": block}}).scenes["one"].as_mapping()
 
 
 def function(name):

@@ -13,7 +13,7 @@ from pathlib import Path
 import yaml
 
 from pipeline.config import PAPER
-from pipeline.config.validation.document import KEYS
+from pipeline.config.schema.sets import SETS
 from pipeline.records import machine_code
 from pseudorigid.kernel import compiled
 
@@ -41,7 +41,7 @@ _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 MEANINGS = "src/pipeline/records/__pycache__"  # where hashes of sources are kept
 # Keys of config.yaml whose blocks are shipped.
-APART = [key for name, key in KEYS.items() if name != PAPER]
+APART = [each.key for name, each in SETS.items() if each.key and name != PAPER]
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 

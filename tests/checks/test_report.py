@@ -100,7 +100,7 @@ def test_in_the_site_the_links_are_to_its_own_files(reported):
 def test_each_figure_has_its_caption_and_numbers(reported, text):
     scenes = config.load(reported.config).scenes
     for scene, block in scenes.items():
-        assert captions.caption_of(scene, block).shows in text
+        assert captions.caption_of(scene, block.as_mapping()).shows in text
     assert "<td>approximately 0.235</td><td>0." in text
     assert "<td>between 0.0925 and 0.0932</td><td>0.09" in text
     assert "<td>0.21 to 0.2116</td><td>0.21 to 0.2116</td>" in text
@@ -178,7 +178,8 @@ def test_whole_numbers_have_commas(text):
 def test_every_picture_has_a_caption():
     for scenes in config.load(SHIPPED).variants.values():
         for name, block in scenes.items():
-            assert not block["formats"] or len(captions.caption_of(name, block).shows) > 100
+            shows = captions.caption_of(name, block.as_mapping()).shows
+            assert not block.formats or len(shows) > 100
     assert captions.caption_of("another", {"picture": "edges"}).title == KINDS["edges"].__doc__
 
 
@@ -188,7 +189,10 @@ def scenes(finished):
     blocks = config.load(finished.config).scenes
     files = paths.artifact_paths({config.PAPER: blocks})
     return {
-        scene: (block, {s: load(finished.path / files["paper", scene, s]) for s in stages})
+        scene: (
+            block.as_mapping(),
+            {s: load(finished.path / files["paper", scene, s]) for s in stages},
+        )
         for scene, block in blocks.items()
         for stages in [paths.stages(block)]
     }

@@ -23,7 +23,7 @@ ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.pn
 
 def test_a_result_has_the_name_of_its_scene_and_step():
     checked = load(SHIPPED)
-    checked.variants["thin"] = {"fig4": checked.scenes["fig4"] | {"energy": 0.011}}
+    checked.variants["thin"] = {"fig4": checked.scenes["fig4"].model_copy(update={"energy": 0.011})}
     names = {path: (each.scene, each.step) for path, each in build_specs(checked).items()}
     assert names[ORBITS] == ("fig2", "orbits")
     assert names[DRAWING] == ("fig2", "drawing png")

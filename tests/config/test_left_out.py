@@ -35,7 +35,7 @@ def test_a_scene_that_does_not_suit_a_variant_is_left_out_of_it_alone():
     )
     below = left_out["below"]["point"]
     assert below.startswith("left out: starts[0]: {'x': 0.5, 'y': 0.0} is not allowed: expected a")
-    assert variants["paper"]["small"]["energy"] == -0.0155
+    assert variants["paper"]["small"].energy == -0.0155
     for name, scenes in left_out.items():
         assert variants[name].keys() == shipped()["scenes"].keys() | {"small", "point"} - set(
             scenes

@@ -20,7 +20,7 @@ def with_variants(**variants):
 def test_the_paper_comes_first_and_variants_are_complete():
     variants = with_variants(thin={"ball": {"k": 0.3}})
     assert list(variants) == [*SETS, "thin"]
-    assert variants["thin"]["fig2"]["ball"] == {"k": 0.3, "g": 0.04}
+    assert variants["thin"]["fig2"].ball.as_mapping() == {"k": 0.3, "g": 0.04}
     assert variants["thin"].keys() == variants["paper"].keys() == BASE["scenes"].keys()
 
 
@@ -41,10 +41,12 @@ AXES = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
         # A scale is exact: as floats, 9.0 * 0.01 is more than 0.09.
         ({"scale": 3}, "fig2", {"energy": 0.09}),
         ({"scale": 2}, "fig8", {"energy": 0.004, "ball": {"k": 0.2, "g": 0.08}}),
+        ({"scale": 2, "scenes": {"fig5": {"starts": [{"x": 0.1, "y": 0.02}, 0.5], "impacts": 9}}},
+         "fig5", {"starts": [{"x": 0.2, "y": 0.04}, 0.5]}),
     ],
 )  # fmt: skip
 def test_what_a_variant_gives_replaces_the_papers_values(variant, scene, expected):
-    assert expected.items() <= with_variants(v=variant)["v"][scene].items()
+    assert expected.items() <= with_variants(v=variant)["v"][scene].as_mapping().items()
 
 
 @pytest.mark.parametrize(
@@ -62,7 +64,7 @@ def test_what_a_variant_gives_replaces_the_papers_values(variant, scene, expecte
     ],
 )
 def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kept):
-    assert ("axes" in with_variants(v=change)["v"][scene]) == kept
+    assert ("axes" in with_variants(v=change)["v"][scene].as_mapping()) == kept
 
 
 @pytest.mark.parametrize(

@@ -97,4 +97,4 @@ def test_the_variant_of_the_readme():
     (block,) = (text for text in blocks("README.md") if text.startswith("variants:"))
     document = yaml.safe_load(text_of("config.yaml")) | yaml.safe_load(block)
     variant = config.check(document).variants["lower-energy"]
-    assert variant["fig3"]["duration"] == 30 and variant["fig2"]["energy"] == 0.0098
+    assert variant["fig3"].duration == 30 and variant["fig2"].energy == 0.0098

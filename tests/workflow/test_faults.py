@@ -35,12 +35,6 @@ HOSTILE = {
 }
 
 
-def replace_motion(tree, body):
-    """Replace the stage of motions by a function."""
-    module = tree.path / "src" / "pseudorigid" / "dynamics" / "motion.py"
-    module.write_text(f"{module.read_text()}\n\ndef scene_motion(*_, **__):\n    {body}\n")
-
-
 def test_damaged_and_deleted_results_of_the_named_figures_are_made_again(done):
     before, paper = contents(done), done.path / "results" / "paper"
     deleted = ["figures/fig3.svg", "periodic_fig3.nc", "provenance/orbits_fig8.nc.json"]
@@ -168,8 +162,9 @@ def test_interrupting_the_start_is_no_traceback(tree, file):
 def test_a_signal_to_the_run_alone_ends_its_jobs(done, number):
     """Snakemake itself would let them finish."""
     begun = done.path / "begun"
-    text = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
-    replace_motion(done, f"import os, time\n    {text}")
+    body = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
+    motion = f"\n\ndef scene_motion(*_, **__):\n    import os, time\n    {body}\n"
+    done.append("pseudorigid/dynamics/motion.py", motion)
     run = done.start(
         "paper_figures/fig3.png",
         stderr=subprocess.PIPE,
@@ -201,23 +196,27 @@ def test_two_runs_do_not_meet(tree):
     assert tree.run("-n").returncode == 0  # the file is still there, and locks nothing
 
 
-@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
-def test_a_file_in_the_place_of_a_folder_is_named(tmp_path, monkeypatch, place):
+@pytest.fixture
+def start(tmp_path, monkeypatch):
+    """Return a function that starts a run in an empty folder."""
     monkeypatch.setattr(running, "ROOT", tmp_path)
+    freshness = Freshness(tmp_path, build_specs(load(SHIPPED)))
+    return lambda: running.make(freshness, [DRAWING], Arguments(options=[]))
+
+
+@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
+def test_a_file_in_the_place_of_a_folder_is_named(start, tmp_path, place):
     (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / place).touch()
-    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
-        running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
+        start()
 
 
-def test_a_run_on_a_full_disk_says_so_before_it_starts(tmp_path, monkeypatch):
-    monkeypatch.setattr(running, "ROOT", tmp_path)
+def test_a_run_on_a_full_disk_says_so_before_it_starts(start, monkeypatch):
     free = types.SimpleNamespace(total=10**9, free=300_000)
     monkeypatch.setattr("shutil.disk_usage", lambda path: free)
-    specs = build_specs(load(SHIPPED))
     with pytest.raises(UsageError, match=r"^the disk is full, 0\.3 MB are left$"):
-        running.make(Freshness(tmp_path, specs), [DRAWING], Arguments(options=[]))
+        start()
 
 
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):

@@ -13,8 +13,8 @@ from contextlib import suppress
 
 import psutil
 import pytest
-from project import ROOT, Tree, fresh_tree, of_scenes, shipped
-from runs import FIG3, VARIANTS, rows
+from project import ROOT, Tree, fresh_tree, shipped
+from runs import FIG3, rows
 from slowly import slowly
 
 from pipeline.cli import running
@@ -59,19 +59,6 @@ def test_a_missing_drawing_behind_an_incomplete_dataset_is_made(done, how):
     else:
         plain(done)
     assert {path: (done.path / path).read_bytes() for path in drawings} == before
-
-
-@pytest.mark.slow
-def test_missing_pictures_of_variants_behind_incomplete_data_are_made(tmp_path):
-    tree = fresh_tree(tmp_path / "tree", of_scenes("fig3", "fig8", variants=VARIANTS))
-    tree.succeed("variant", "doubled")
-    drawing = tree.path / "results/doubled/figures/fig8.png"
-    before = drawing.read_bytes()
-    drawing.unlink()
-    (tree.path / "results/doubled/provenance/fig8.png.json").unlink()
-    mark_incomplete(tree, "results/doubled/orbits_fig8.nc", f"{PAPER}/orbits_fig8.nc")
-    tree.succeed("variant", "doubled")
-    assert drawing.read_bytes() == before
 
 
 @pytest.mark.parametrize("times", ["reversed", *slowly("future")])
@@ -139,10 +126,6 @@ def test_the_options_of_a_run_are_those_of_the_profile():
     assert sorted(" ".join(given).split()) == sorted(words)
 
 
-# How often ./reproduce and snakemake are killed, and claims half as often, in clones with the
-# shipped scenes; without it there are few kills, of runs with little work. A series, which took 18
-# minutes: PSEUDORIGID_KILLS=30 ./reproduce test tests/workflow/test_outdated.py -m slow -k kill
-SERIES = int(os.environ.get("PSEUDORIGID_KILLS", "0"))
 # Claims whose data are the scenes' of `small`, and two theorems.
 FEW_CLAIMS = {"21", "24", "29"}
 
@@ -160,19 +143,11 @@ def few_claims(folder):
         tree.succeed(*command)
 
 
-def whole(folder):
-    """Clone the last commit, and make its figures and claims."""
-    subprocess.run(["git", "clone", "-q", ROOT, folder], check=True)
-    for command in ((), ("claims",)):
-        Tree(folder, cold=True).succeed(*command)
-
-
 @pytest.fixture(scope="session")
 def killable(shared):
     """A read-only tree with results for the figures and for claims."""
     pytest.importorskip("extensions.claims")
-    make = whole if SERIES else few_claims
-    return Tree(shared("kills", make))
+    return Tree(shared("kills", few_claims))
 
 
 def kill(run, chance):
@@ -188,23 +163,21 @@ def kill(run, chance):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("how", "number"),
-    [(how, i) for how in ("reproduce", "plain") for i in range(SERIES or 3)]
-    + [("claims", i) for i in range(SERIES // 2 or 2)],
-)
+@pytest.mark.parametrize("number", range(3))
+@pytest.mark.parametrize("how", ["reproduce", "plain", "claims"])
 def test_a_run_after_a_kill_makes_every_figure_or_fails(killable, tmp_path, how, number):
     """Kill a run of missing and outdated results at a random moment."""
     tree, chance = killable.copy(tmp_path / "tree"), random.Random(f"{how} {number}")
     before = {file: (tree.path / file).read_bytes() for file in verdicts_and_figures(tree)}
-    groups = ("paper", "claims", "sweep") if how == "claims" else ("paper",)
+    groups = ("paper", "claims") if how == "claims" else ("paper",)
     files = [f for group in groups for f in sorted((tree.path / "results" / group).rglob("*.*"))]
-    share = 0.1 if SERIES and how == "claims" else 0.5
-    for file in chance.sample(files, chance.randint(1, int(share * len(files)))):
+    for file in chance.sample(files, chance.randint(1, len(files) // 2)):
         file.unlink()
-    command = ["-P", "-m", "pipeline", *(["claims"] if how == "claims" else [])]
+    command = tree.command(*(["claims"] if how == "claims" else []))
+    if how == "plain":
+        command = [sys.executable, "-m", "snakemake", "--cores", "2"]
     run = subprocess.Popen(
-        [sys.executable, *(["-m", "snakemake", "--cores", "2"] if how == "plain" else command)],
+        command,
         env=tree.environment(),
         cwd=tree.path,
         stdin=subprocess.DEVNULL,
@@ -212,7 +185,7 @@ def test_a_run_after_a_kill_makes_every_figure_or_fails(killable, tmp_path, how,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    time.sleep(chance.uniform(0.5, 8 if not SERIES else 40 if how == "claims" else 16))
+    time.sleep(chance.uniform(0.5, 8))
     kill(run, chance)
     again = tree.run(*(["claims"] if how == "claims" else []))
     assert again.returncode == 0, again.stdout

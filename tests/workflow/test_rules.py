@@ -58,11 +58,6 @@ def test_each_kind_of_picture_has_a_rule_with_its_stages():
             assert f'**of_kind("{name}"),' in text
 
 
-def test_no_loop_makes_a_rule():
-    for file in FILES:
-        assert not re.search(r"^\s*(for|while) .*:$", file.read_text(), re.M), file
-
-
 def chain():
     """Return the edges between the rules of data.smk and figures.smk."""
     written = rules(CORE["data"], CORE["figures"]).items()

@@ -11,7 +11,7 @@ from project import ROOT, fresh_tree, of_scenes, shipped
 
 from pipeline.records.sources import BOOKKEEPING
 
-# Appended to jobs/dispatch.py: when a result is made, write the names of the loaded files.
+# Appended to jobs/job.py: when a result is made, write the names of the loaded files.
 NOTES = """
 
 class _Noting:
@@ -35,7 +35,7 @@ def make(spec, answer):
 
 def loaded(tree, folder, *targets):
     """Return {result: files of the tree that its job, in a Python of its own, had loaded}."""
-    with (tree.path / "src/pipeline/jobs/dispatch.py").open("a") as making:
+    with (tree.path / "src/pipeline/jobs/job.py").open("a") as making:
         making.write(NOTES)
     notes = folder / "notes"
     notes.mkdir()
@@ -116,7 +116,7 @@ PLANTED = {
     "pipeline": ("", ""),
     "pipeline.declaration": ("def lacking", "_P = 1\n\n\ndef lacking"),
     "pipeline.jobs": ("", ""),
-    "pipeline.jobs.dispatch": ("pseudorigid: {spec", "planted: {spec"),
+    "pipeline.jobs.job": ("pseudorigid: {spec", "planted: {spec"),
     "pipeline.jobs.server": ("the job was killed", "planted"),
     "pipeline.loading": ("        note_loaded(path, data)\n", ""),
     "pipeline.records": ("", ""),

@@ -35,7 +35,7 @@ SECONDS = {}
 
 
 def dataset(stage):
-    """Return an input function: the dataset of a scene's stage, which variants may share."""
+    """Return an input function for the dataset of a scene's stage, which variants may share."""
 
     def file(wildcards):
         key = wildcards.variant, wildcards.scene, stage
@@ -47,7 +47,7 @@ def dataset(stage):
 
 
 def inputs_of(result):
-    """Return an input function: all datasets that a result is made from."""
+    """Return an input function for all datasets that a result is made from."""
 
     def files(wildcards):
         return SPECS[result.format(**wildcards)].inputs
@@ -56,7 +56,7 @@ def inputs_of(result):
 
 
 def reason(result):
-    """Return an input function: why a result is outdated if it is. Records decide that, not times."""
+    """Return an input function for the file that says why a result is outdated, if it is."""
 
     def files(wildcards):
         path = result.format(**wildcards)
@@ -68,13 +68,13 @@ def reason(result):
 
 
 def made(result):
-    """Return what a job writes. It is not deleted first: the job may find that it is current."""
+    """Return a job's outputs. `update` keeps the old ones: the job may find them current."""
     return {"result": update(result), "record": update(record_path(result))}
 
 
 @cache
 def priorities():
-    """Map results to their seconds, or to those of the longest job that needs them."""
+    """Map each result to its seconds, or to those of the longest job that needs it."""
     return {
         dependency: seconds
         for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
@@ -90,17 +90,17 @@ def priority(wildcards, rulename):
 
 
 def any_of(names):
-    """Return a pattern for these names, which matches nothing if there are none."""
+    """Return a regular expression for these names, which matches nothing without names."""
     return "|".join(sorted(names)) or "(?!)"
 
 
 def of_kind(kind):
-    """Return patterns for the scenes of a kind of picture, and for the variants that have them."""
+    """Return wildcard constraints: the scenes of a kind of picture, and the variants with them."""
     found = [
         (variant, name)
         for variant, scenes in VARIANTS.items()
         for name, scene in scenes.items()
-        if scene["picture"] == kind
+        if scene.picture == kind
     ]
     variants, names = zip(*found) if found else ((), ())
     return {"variant": any_of(dict.fromkeys(variants)), "scene": any_of(dict.fromkeys(names))}

@@ -1,12 +1,17 @@
-# Datasets of the paper's figures: one rule for each stage. Its docstring names the function that makes
-# it (the method of a scene may name another one), and its inputs name the stages that feed it. A
-# stage serves these stages and pictures (figures.smk):
+# Datasets of the paper's figures: one rule for each stage. The docstring of a rule names the function
+# that computes the dataset; a scene with a `method` may have another one.
+#
+# The input dataset("STAGE") is the dataset of another stage of the same scene. The input `why` is a
+# file with the reason why the result is outdated; it is no input of a result that is current.
+# Records decide that, not times of files (src/pipeline/jobs/plan.py). common.smk has the functions.
+#
+# A stage serves these stages and pictures (figures.smk):
 #     orbits -> draw_portrait, draw_tangle
 #     periodic -> motion, manifolds, draw_tangle
 #     motion -> draw_motion
 #     manifolds -> draw_tangle, draw_closeup
 #     lyapunov -> draw_exponents
-# The rule orbits is written in full. The others inherit what they do not give.
+# The rule orbits is written in full. The other rules inherit what they do not give.
 
 
 rule orbits:

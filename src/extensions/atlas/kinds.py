@@ -2,8 +2,7 @@
 
 from collections.abc import Iterator
 from decimal import Context, Decimal
-from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Tag
 
@@ -13,9 +12,9 @@ from pipeline.config.schema.fields import (
     Block,
     Gravity,
     Number,
-    YamlMapping,
     allowed,
     first_if,
+    rising,
     whole,
 )
 from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, exact
@@ -73,41 +72,31 @@ class Atlas(Picture):
     """Number of cells that one job computes. Choose it so that a job takes about a minute: an
     interrupted sweep resumes with the blocks that are missing. The data do not depend on it."""
 
-    @classmethod
-    def completed(cls, block: YamlMapping) -> YamlMapping:
+    def completed(self) -> Self:
         """Write out the axes."""
-        axes = {}
-        for axis in ("k", "energy"):
-            for place, value, words in _axis_errors(block[axis], axis):
-                raise CompletionError(place, value, words)
-            axes[axis] = _values(block[axis])
-            if any(not a < b for a, b in pairwise(axes[axis])):
-                words = "increasing numbers that differ in six digits"
-                raise CompletionError((axis,), block[axis], words)
-        return block | axes
+        axes = {"k": _axis(self.k, "k"), "energy": _axis(self.energy, "energy")}
+        return self.model_copy(update=axes)
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the grid, of which each value is correct by itself."""
-        k, energy, size, impacts = (block[name] for name in ("k", "energy", "block", "impacts"))
+        assert isinstance(self.k, list) and isinstance(self.energy, list)  # they are written out
+        k, energy = self.k, self.energy
         for i, each in enumerate(k):
             if not 0 < each <= 1:
                 yield ("k",), each, f"numbers with 0 < k <= 1 (number {i + 1})"
                 return
-        yield from _energy_errors(energy[0], energy[-1], k, block.get("g"))
+        yield from _energy_errors(energy[0], energy[-1], k, self.g)
         cells = len(k) * len(energy)
         if cells > MOST_CELLS:
             sizes = f"{len(k)} times {len(energy)}"
             yield ("energy",), energy, f"axes with at most {MOST_CELLS} cells, here {sizes}"
             return
-        if cells * block["starts"] * impacts > LARGEST_IMPACTS:
-            words = (
-                f"at most {LARGEST_IMPACTS} impacts in a sweep, counted over all cells and starts"
-            )
-            yield ("impacts",), impacts, words
-        if cells > MOST_JOBS * size:
+        if cells * self.starts * self.impacts > LARGEST_IMPACTS:
+            most = f"at most {LARGEST_IMPACTS} impacts in a sweep"
+            yield ("impacts",), self.impacts, f"{most}, counted over all cells and starts"
+        if cells > MOST_JOBS * self.block:
             words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
-            yield ("block",), size, words
+            yield ("block",), self.block, words
 
 
 class Verdicts(Picture):
@@ -116,14 +105,18 @@ class Verdicts(Picture):
     stages = ("verdicts",)
 
 
-def _axis_errors(given: YamlMapping | list[float], axis: str) -> Iterator[CrossFieldError]:
-    """Yield an error if the ends of an axis are wrong."""
-    if isinstance(given, dict):
-        low, high = given["from"], given["to"]
-        if not low < high:
-            yield (axis, "to"), high, f"a number above from = {low}"
-        elif given.get("spacing") == "log" and not low > 0:
-            yield (axis, "from"), low, "a number > 0 where spacing is log"
+def _axis(given: Span | list[float], axis: str) -> list[float]:
+    """Return the numbers of an axis; CompletionError if they do not increase."""
+    if isinstance(given, Span):
+        if not given.from_ < given.to:
+            raise CompletionError((axis, "to"), given.to, f"a number above from = {given.from_}")
+        if given.spacing == "log" and not given.from_ > 0:
+            raise CompletionError((axis, "from"), given.from_, "a number > 0 where spacing is log")
+    values = _values(given)
+    if not rising(values):
+        shown = given.as_mapping() if isinstance(given, Span) else given
+        raise CompletionError((axis,), shown, "increasing numbers that differ in six digits")
+    return values
 
 
 def _energy_errors(
@@ -145,16 +138,16 @@ def _energy_errors(
             yield ("energy",), last, words
 
 
-def _values(given: YamlMapping | list[float]) -> list[float]:
+def _values(axis: Span | list[float]) -> list[float]:
     """Return the numbers of an axis.
 
     Evenly spaced ones are exact to twelve digits where the ends are decimals. Those in equal ratios
     have six digits; they are computed in decimals, which have the same bits everywhere.
     """
-    if isinstance(given, list):
-        return [float(value) for value in given]
-    low, high, count = given["from"], given["to"], given["count"]
-    if given.get("spacing") != "log":
+    if isinstance(axis, list):
+        return [float(value) for value in axis]
+    low, high, count = axis.from_, axis.to, axis.count
+    if axis.spacing != "log":
         first, last = exact(low), exact(high)
         values = [first + (last - first) * i / (count - 1) for i in range(count)]
         twelve = Context(prec=12)

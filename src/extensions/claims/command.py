@@ -71,7 +71,7 @@ def write(checked: Config) -> list[Verdict]:
     datasets = {}
     for name, path in dataset_paths(checked, claims.required_datasets()).items():
         folder, _, sweep = name.partition("/")
-        block = checked.variants["atlas"][sweep] if folder == "atlas" else {}
+        block = checked.variants["atlas"][sweep].as_mapping() if folder == "atlas" else {}
         more = {"g": block["g"]} if "g" in block else {}
         datasets[name] = artifacts.load(ROOT / path).assign_attrs(more)
     proofs = {

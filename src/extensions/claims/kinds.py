@@ -11,7 +11,6 @@ from pipeline.config.schema.fields import (
     Between,
     Energies,
     Fraction,
-    YamlMapping,
     allowed,
     rising,
     whole,
@@ -54,12 +53,11 @@ class Spread(OfRecords):
     visits: int = whole(2, 100_000_000)
     """Number of impacts of each chaotic orbit whose cells are counted."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the length is a multiple of the blocks."""
-        yield from super().cross_field_errors(block)
-        if block["length"] % block["blocks"]:
-            yield ("blocks",), block["blocks"], f"a divisor of length = {block['length']}"
+        yield from super().cross_field_errors()
+        if self.length % self.blocks:
+            yield ("blocks",), self.blocks, f"a divisor of length = {self.length}"
 
 
 class Clusters(OfSea):
@@ -82,18 +80,17 @@ class Clusters(OfSea):
     """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
     shifts their ends a little, and nothing else. Any number will do."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that samples fit into memory, and that cuts are below the longest flight."""
-        yield from super().cross_field_errors(block)
-        yield from bounded(block, "orbits", "resamples", "orbits drawn")
-        if block["lags"] > block["impacts"] - 2:
-            yield ("lags",), block["lags"], f"at most impacts - 2 = {block['impacts'] - 2}"
-        if not is_sound(block):
+        yield from super().cross_field_errors()
+        yield from bounded(self, "orbits", "resamples", "orbits drawn")
+        if self.lags > self.impacts - 2:
+            yield ("lags",), self.lags, f"at most impacts - 2 = {self.impacts - 2}"
+        if not is_sound(self):
             return
-        (k, g), energy = (block["ball"][n] for n in "kg"), block["energy"]
+        (k, g), energy = (self.ball.k, self.ball.g), self.energy
         longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
-        for i, cut in enumerate(block["cuts"]):
+        for i, cut in enumerate(self.cuts):
             if not cut < longest:
                 words = f"a time below {longest:.4g}, which no flight at this energy exceeds"
                 yield ("cuts", i), cut, words
@@ -118,12 +115,11 @@ class Rotation(Scene):
     detail_impacts: int = whole(100, 10_000_000)
     """Number of impacts of each orbit of the detail."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point, around which orbits rotate, is elliptic at each energy."""
-        yield from super().cross_field_errors(block)
-        yield from not_elliptic(block, "energy")
-        yield from not_elliptic(block, "energies")
+        yield from super().cross_field_errors()
+        yield from not_elliptic(self, "energy")
+        yield from not_elliptic(self, "energies")
 
 
 class Jumps(OfChaoticOrbits):
@@ -183,25 +179,24 @@ class LastCurve(Scene):
     drawn: int = whole(100, LARGEST)
     """Number of these impacts that are drawn."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the orbits can be computed and drawn."""
-        yield from super().cross_field_errors(block)
-        yield from not_elliptic(block, "energy")
-        start, end = block["between"]
+        yield from super().cross_field_errors()
+        yield from not_elliptic(self, "energy")
+        start, end = self.between
         if start == end:
-            yield ("between",), block["between"], "two fractions that differ"
-        nobles = block.get("nobles", [[1], [1]])
+            yield ("between",), self.between, "two fractions that differ"
+        nobles = self.nobles or [[1], [1]]
         for i, noble in enumerate(nobles):
             before, period = 0, 1
-            for quotient in noble[1:] + [1] * (block["convergents"] - 1):
+            for quotient in noble[1:] + [1] * (self.convergents - 1):
                 before, period = period, before + quotient * period
             if not 0 < period <= LARGEST:
                 words = f"one whose last convergent has a period from 1 to {LARGEST}, not {period}"
                 yield ("nobles", i), noble, words
-        if block["drawn"] * len(nobles) > LARGEST:
+        if self.drawn * len(nobles) > LARGEST:
             words = f"at most {LARGEST} points drawn, counted over all nobles"
-            yield ("drawn",), block["drawn"], words
+            yield ("drawn",), self.drawn, words
 
 
 class Control(Scene):
@@ -239,17 +234,16 @@ class Control(Scene):
     """Random seed of the bootstrap. It decides the ends of the confidence intervals of means, and
     nothing else."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the strength shown is computed, and that all impacts fit into memory."""
-        yield from super().cross_field_errors(block)
-        if block["shown"] not in block["strengths"]:
-            words = f"one of strengths: {', '.join(map(str, block['strengths']))}"
-            yield ("shown",), block["shown"], words
-        if block["drawn"] > block["impacts"]:
-            yield ("drawn",), block["drawn"], f"at most impacts = {block['impacts']}"
-        yield from bounded(block, "orbits", "resamples", "orbits drawn")
-        points = block["impacts"] * len(block["starts"])
+        yield from super().cross_field_errors()
+        if self.shown not in self.strengths:
+            words = f"one of strengths: {', '.join(map(str, self.strengths))}"
+            yield ("shown",), self.shown, words
+        if self.drawn > self.impacts:
+            yield ("drawn",), self.drawn, f"at most impacts = {self.impacts}"
+        yield from bounded(self, "orbits", "resamples", "orbits drawn")
+        points = self.impacts * len(self.starts)
         if points > LARGEST:
             words = f"at most {LARGEST} impacts, counted over all starts"
-            yield ("impacts",), block["impacts"], words
+            yield ("impacts",), self.impacts, words

@@ -28,10 +28,12 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
         "version": f"{project['name']} {project['version']}",
         "citation": citation(),
         "scenes": {
-            name: {field: value for field, value in block.items() if field != "formats"}
+            name: {
+                field: value for field, value in block.as_mapping().items() if field != "formats"
+            }
             for variant, scenes in checked.variants.items()
             for scene, block in scenes.items()
-            if (name := address(variant, scene, block))
+            if (name := address(variant, scene, block.as_mapping()))
         },
         "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),

@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 
 from annotated_types import Predicate
 
-from pipeline.config.schema.fields import Name, Range, YamlMapping, allowed, distinct, whole
+from extensions.atlas.kinds import Atlas
+from pipeline.config.schema.fields import Name, Range, allowed, distinct, whole
 from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, exact
 
 MOST_CELLS = 2_000  # of the regular share
@@ -41,23 +42,22 @@ class Families(Scene):
     impacts: int = whole(100, 10_000_000)
     """Largest number of impacts of these orbits."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the section exists over the whole span of k, and the number of values."""
-        yield from super().cross_field_errors(block)
-        g, energy = exact(block["ball"]["g"]), exact(block["energy"])
-        low, high = (exact(value) for value in block["span"])
+        yield from super().cross_field_errors()
+        g, energy = exact(self.ball.g), exact(self.energy)
+        low, high = (exact(value) for value in self.span)
         sound = low > 0 and high <= 1 and g * g + 2 * high * energy > 0
-        if block["parameter"] == "k" and not sound:
-            yield ("span",), block["span"], "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
-        step = exact(block["step"])
+        if self.parameter == "k" and not sound:
+            yield ("span",), self.span, "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
+        step = exact(self.step)
         if high // step <= -(-low // step):
-            yield ("step",), block["step"], "one with two multiples or more in the span"
+            yield ("step",), self.step, "one with two multiples or more in the span"
         if (high - low) / step > MOST_CELLS:
             least = float((high - low) / MOST_CELLS)
-            yield ("step",), block["step"], f"at least {least:g}, {MOST_CELLS} values in the span"
-        if block["drawn"] > block["period"]:
-            yield ("drawn",), block["drawn"], f"at most period = {block['period']}"
+            yield ("step",), self.step, f"at least {least:g}, {MOST_CELLS} values in the span"
+        if self.drawn > self.period:
+            yield ("drawn",), self.drawn, f"at most period = {self.period}"
 
 
 _Orders = Annotated[
@@ -80,10 +80,10 @@ class Chains(Picture):
     """Orders q, from 3 to 12, of the chains 1/q whose births and losses of stability are
     followed."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the sweep is a plane with energies at which chains exist."""
-        if len(block["k"]) == 1:
-            yield ("over",), block["over"], "a sweep of several k"
-        elif not block["energy"][0] > 0:
-            yield ("over",), block["over"], "a sweep whose energies are above 0"
+        assert isinstance(self, Atlas)  # it is drawn over a sweep, whose fields it has
+        if len(self.k) == 1:
+            yield ("over",), self.over, "a sweep of several k"
+        elif not self.energy[0] > 0:
+            yield ("over",), self.over, "a sweep whose energies are above 0"

@@ -77,14 +77,13 @@ class Twist(Scene):
     """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient). An axis
     that is left out has limits that hold its data."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that marks are among the energies, at which the fixed point must be elliptic."""
-        yield from super().cross_field_errors(block)
-        for mark in block["marks"]:
-            if mark not in block["energies"]:
+        yield from super().cross_field_errors()
+        for mark in self.marks:
+            if mark not in self.energies:
                 yield ("marks",), mark, "one of energies"
-        yield from not_elliptic(block, "energies")
+        yield from not_elliptic(self, "energies")
 
 
 class Escape(Scene):
@@ -105,11 +104,10 @@ class Escape(Scene):
     impacts: int = whole(100, 100_000)
     """Number of impacts of each orbit."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all impacts fit into memory."""
-        yield from super().cross_field_errors(block)
-        yield from bounded(block, "orbits", "impacts", "impacts in all")
+        yield from super().cross_field_errors()
+        yield from bounded(self, "orbits", "impacts", "impacts in all")
 
 
 class Curves(OfChaoticOrbits):
@@ -127,12 +125,11 @@ class Curves(OfChaoticOrbits):
     integers. A run says if it finds or proves no such curve, and the numbers near the fixed point.
     Proved curves around longer orbits at the scene's energy are added."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point is elliptic, and that its curves can be sought."""
-        yield from super().cross_field_errors(block)
-        yield from not_elliptic(block, "energy")
-        for i, number in enumerate(block["rotation_numbers"]):
+        yield from super().cross_field_errors()
+        yield from not_elliptic(self, "energy")
+        for i, number in enumerate(self.rotation_numbers):
             try:
                 quotients_near(number)
             except ValueError as error:
@@ -145,15 +142,14 @@ class Graph(OfOrbits):
     stages = ("graph", "orbits")
     headline = "entropy"
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that there is a theorem about a graph."""
-        yield from super().cross_field_errors(block)
-        (k, g), energy = (exact(block["ball"][n]) for n in "kg"), exact(block["energy"])
+        yield from super().cross_field_errors()
+        (k, g), energy = (exact(self.ball.k), exact(self.ball.g)), exact(self.energy)
         if (k, energy / g**2) not in GRAPHS:
             here = ", ".join(str(float(ratio * g**2)) for _, ratio in GRAPHS)
             words = f"a theorem's energy: with k = 0.2 and this g, one of {here}"
-            yield ("energy",), block["energy"], words
+            yield ("energy",), self.energy, words
 
 
 class Theorem(Picture):
@@ -163,7 +159,7 @@ class Theorem(Picture):
 
     theorem: Name = allowed("the name of a theorem")
     """Name of the theorem."""
-    formats: NoFormats = []  # type: ignore[assignment]
+    formats: NoFormats = []
 
 
 class Derivations(Scene):
@@ -172,7 +168,7 @@ class Derivations(Scene):
     stages = ("derivations",)
     on_section = False
 
-    formats: NoFormats = []  # type: ignore[assignment]
+    formats: NoFormats = []
 
 
 def theorems() -> dict[str, YamlMapping]:

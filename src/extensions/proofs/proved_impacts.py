@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,6 +9,7 @@ import xarray as xr
 from pipeline.checks.freshness import Freshness
 from pipeline.config import PAPER, Config, paths
 from pipeline.config.build_specs import build_specs
+from pipeline.config.schema.scene import Picture
 from pipeline.records.artifacts import load
 from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.ball import Ball
@@ -31,12 +31,12 @@ def impacts(checked: Config, progress: Callable[[str], None]) -> int:
     """
     artifact_paths = paths.artifact_paths(checked.variants)
     freshness = Freshness(ROOT, build_specs(checked, [PAPER]))
-    status, worst, sample = 0, 0.0, checked.blocks["prove"]["impacts"]
+    status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]
     for scene, block in checked.scenes.items():
         if why := freshness.refusal(paths.drawn(scene, "png")):
             print(f"{scene} is left out, cannot exist: {why}")
             continue
-        k, g = (Fraction(str(block["ball"][name])) for name in "kg")
+        k, g = (Fraction(str(block.as_mapping()["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:
             return load(ROOT / artifact_paths[PAPER, scene, stage])
@@ -56,10 +56,11 @@ def impacts(checked: Config, progress: Callable[[str], None]) -> int:
 
 
 def _impacts_behind(
-    block: dict[str, Any], data: Callable[[str], xr.Dataset], sample: int
+    scene: Picture, data: Callable[[str], xr.Dataset], sample: int
 ) -> Iterator[tuple[str, Impacts]]:
     """Yield the name and the impacts of each stage of a scene."""
-    ball, energy, stages = Ball(**block["ball"]), block["energy"], paths.stages(block)
+    block, stages = scene.as_mapping(), paths.stages(scene)
+    ball, energy = Ball(**block["ball"]), block["energy"]
     if {"orbits", "manifolds"} <= stages.keys():
         sample //= 2
     if "orbits" in stages:

@@ -73,10 +73,10 @@ def committed_sets(config: Config) -> list[PublishedSet]:
 
 def _published(config: Config, group: str) -> PublishedSet:
     """Return the published set of a group of scenes."""
-    drawn = {n: block for n, block in config.variants[group].items() if block["formats"]}
+    drawn = {n: block for n, block in config.variants[group].items() if block.formats}
     measured = tuple(f"{name}.png" for name, block in drawn.items() if paths.is_measured(block))
     scenes = {name: block for name, block in drawn.items() if not paths.is_measured(block)}
-    drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block["formats"]]
+    drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block.formats]
     specs = build_specs(config, [group])
     data: dict[str, dict[str, str]] = {scene: {} for scene in scenes}
     for (name, scene, stage), path in paths.artifact_paths(config.variants).items():

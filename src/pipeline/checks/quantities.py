@@ -26,7 +26,7 @@ def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> 
     own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
     data = {stage: load(root / file) for stage, file in own.items()}
     try:
-        return reported(block, data)
+        return reported(block.as_mapping(), data)
     except (LookupError, TypeError, AttributeError, ArithmeticError):
         wrong = ", ".join(own.values())
         raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None

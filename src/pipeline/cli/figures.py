@@ -6,13 +6,12 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import PurePath
-from typing import Any
 
 from ..checks.freshness import MISSING, REFUSED, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, paths, unknown
 from ..config.build_specs import build_specs, with_dependencies
-from ..config.schema.kinds import KINDS
+from ..config.schema.scene import Picture
 from ..config.schema.sets import PUBLISHED
 from ..records.build_spec import BuildSpec
 from ..records.differences import columns
@@ -99,7 +98,7 @@ def make(
     return status or int(bool(unpublished))
 
 
-def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Any]:
+def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Picture]:
     """Return the blocks of the scenes of some drawings."""
     scenes = {PurePath(path).stem for path in drawings}
     return {name: block for name, block in config.variants.get(group, {}).items() if name in scenes}
@@ -175,17 +174,17 @@ def _unlisted(config: Config, group: str) -> list[str]:
     return unlisted_files(ROOT, PUBLISHED[group], files)
 
 
-def _hidden(scenes: dict[str, Any]) -> Iterator[str]:
+def _hidden(scenes: dict[str, Picture]) -> Iterator[str]:
     """Yield a line for each field of these scenes that asks for more than the axes show."""
     for scene, block in scenes.items():
-        yield from (f"{scene}: {line}" for line in KINDS[block["picture"]].hidden(block))
+        yield from (f"{scene}: {line}" for line in block.hidden())
 
 
-def _missed_impacts(config: Config, variant: str, scenes: dict[str, Any]) -> Iterator[str]:
+def _missed_impacts(config: Config, variant: str, scenes: dict[str, Picture]) -> Iterator[str]:
     """Yield a line for each of these scenes with a `method`: what it computed or missed."""
     artifact_paths = paths.artifact_paths(config.variants)
     for scene, block in scenes.items():
-        method, stages = block.get("method", {}), paths.stages(block)
+        method, stages = block.as_mapping().get("method", {}), paths.stages(block)
         if "exact" in method:
             exact = "orbits of their exact starts"
             computed = exact if "orbits" in stages else "no stage with an exact method"

@@ -5,13 +5,13 @@ from fnmatch import fnmatch
 from functools import cache
 from pathlib import PurePath
 
-from ..declaration import extensions, imported
+from ..declaration import Stage, extensions, imported
 from ..records import sources
 from ..records.build_spec import BuildSpec
 from . import paths
-from .paths import PAPER, Config, Variants
+from .paths import PAPER, ArtifactPaths, Config
 from .schema.fields import YamlMapping
-from .schema.kinds import KINDS
+from .schema.scene import Picture
 from .schema.sets import SETS
 from .schema.stages import STAGES, function_of
 
@@ -23,55 +23,56 @@ def build_specs(config: Config, names: Iterable[str] | None = None) -> dict[str,
 
     Variants share stages of equal parameters.
     """
-    variants, specs = config.variants, dict[str, BuildSpec]()
-    artifact_paths = paths.artifact_paths(variants)
-    for variant in variants if names is None else names:
-        for scene, block in variants[variant].items():
-            for spec in _of_scene(variants, artifact_paths, variant, scene, block):
+    specs: dict[str, BuildSpec] = {}
+    artifact_paths = paths.artifact_paths(config.variants)
+    for variant in config.variants if names is None else names:
+        for scene in config.variants[variant]:
+            for spec in _of_scene(config, artifact_paths, variant, scene):
                 specs.setdefault(spec.result, spec)
     return specs
 
 
 def _of_scene(
-    variants: Variants,
-    artifact_paths: Mapping[tuple[str, str, str], str],
-    variant: str,
-    scene: str,
-    block: YamlMapping,
+    config: Config, artifact_paths: ArtifactPaths, variant: str, name: str
 ) -> Iterator[BuildSpec]:
     """Yield the specifications of a scene's datasets and drawings."""
-
-    def named(path: str) -> str:
-        folder = PurePath(path).parts[1]  # of the first variant with this result
-        return scene if folder in SETS else f"{folder}/{scene}"
-
-    for stage, parameters in paths.stages(block).items():
-        path, declared = artifact_paths[variant, scene, stage], STAGES[stage]
-        inputs = [artifact_paths[variant, scene, name] for name in declared.inputs]
-        label = named(path)
-        config, step = parameters, stage
+    scene = config.variants[variant][name]
+    for stage, parameters in paths.stages(scene).items():
+        path, declared = artifact_paths[variant, name, stage], STAGES[stage]
+        label, step, block = _label(path, name), stage, parameters
+        inputs = [artifact_paths[variant, name, used] for used in declared.inputs]
         if declared.paper:
-            own = {(s, st): p for (v, s, st), p in artifact_paths.items() if v == PAPER}
-            more, others = imported(declared.paper)(variants[PAPER], own)
-            config = parameters | more | {"inputs": [*others]}
+            of_paper = {(s, st): p for (v, s, st), p in artifact_paths.items() if v == PAPER}
+            more, others = imported(declared.paper)(config.scenes, of_paper)
+            block = parameters | more | {"inputs": [*others]}
             inputs += others.values()
         if declared.parts:
-            blocks = imported(declared.parts)(block)
-            inputs = [paths.part_path(path, i) for i in range(len(blocks))]
-            for i, part in enumerate(blocks):
-                files = _files("stage", declared.part)
-                step = f"block {i}"
-                yield BuildSpec(inputs[i], label, step, part, "stage", declared.part, files, [])
-            step = "data"
-        function = function_of(stage, parameters)
+            parts = [*_of_parts(scene, declared, path, label)]
+            yield from parts
+            inputs, step = [part.result for part in parts], "data"
+        function = function_of(stage, scene)
         files = _without_other_data(_files("stage", function), declared.reads, parameters)
-        yield BuildSpec(path, label, step, config, "stage", function, files, inputs)
-    kind = KINDS[block["picture"]]
-    inputs = [artifact_paths[variant, scene, stage] for stage in kind.stages]
-    for extension in block["formats"]:
-        path, step = paths.drawn(scene, extension, variant), f"drawing {extension}"
-        files, config = _files("draw", kind.drawn_by), paths.drawing(block)
-        yield BuildSpec(path, named(path), step, config, "draw", kind.drawn_by, files, inputs)
+        yield BuildSpec(path, label, step, block, "stage", function, files, inputs)
+    inputs = [artifact_paths[variant, name, stage] for stage in scene.stages]
+    for extension in scene.formats:
+        path, step = paths.drawn(name, extension, variant), f"drawing {extension}"
+        label, block = _label(path, name), paths.drawing(scene)
+        files = _files("draw", scene.drawn_by)
+        yield BuildSpec(path, label, step, block, "draw", scene.drawn_by, files, inputs)
+
+
+def _of_parts(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[BuildSpec]:
+    """Yield the specifications of the parts of a stage's dataset."""
+    files = _files("stage", stage.part)
+    for i, block in enumerate(imported(stage.parts)(scene.as_mapping())):
+        part = paths.part_path(path, i)
+        yield BuildSpec(part, label, f"block {i}", block, "stage", stage.part, files, [])
+
+
+def _label(path: str, scene: str) -> str:
+    """Return a scene's name in messages, with the first variant that has a result of it."""
+    folder = PurePath(path).parts[1]
+    return scene if folder in SETS else f"{folder}/{scene}"
 
 
 def _files(program: str, function: str) -> list[str]:

@@ -2,36 +2,35 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
 
-from .schema.fields import YamlMapping
-from .schema.kinds import KINDS
+from .schema.fields import Block, YamlMapping
+from .schema.scene import Picture
 from .schema.sets import PAPER, PUBLISHED, SETS
 from .schema.stages import STAGES, takes_method, upstream
 
-__all__ = ["PAPER", "PUBLISHED", "Config", "Variants"]
+__all__ = ["PAPER", "PUBLISHED", "ArtifactPaths", "Config", "Picture", "Variants"]
 
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 
-Variants = dict[str, dict[str, YamlMapping]]  # variant -> scene -> complete block
+Variants = dict[str, dict[str, Picture]]  # variant -> scene's name -> scene
+ArtifactPaths = dict[tuple[str, str, str], str]  # variant, scene, stage -> path of the dataset
 
 
 @dataclass(frozen=True)
 class Config:
-    """A checked config: blocks are complete, with the values that YAML gave.
+    """A checked config, whose scenes are complete.
 
     `variants` has the sets of scenes (the paper, the study and those of extensions) and then the
     variants of the paper. `left_out` maps variants to the scenes that they cannot have, with the
-    reasons. `blocks` are those of extensions that are no scenes.
+    reasons. `blocks` are those of extensions that are no scenes, by their keys.
     """
 
-    ball: YamlMapping
     variants: Variants
     left_out: dict[str, dict[str, str]]
-    blocks: dict[str, Any]
+    blocks: dict[str, Block]
 
     @property
-    def scenes(self) -> dict[str, YamlMapping]:
+    def scenes(self) -> dict[str, Picture]:
         """The paper's scenes."""
         return self.variants[PAPER]
 
@@ -41,23 +40,21 @@ class Config:
         return [name for name in self.variants if name not in SETS]
 
 
-def stages(block: YamlMapping) -> dict[str, YamlMapping]:
-    """Map each stage of a scene to the part of the scene's complete block that decides its data."""
+def stages(scene: Picture) -> dict[str, YamlMapping]:
+    """Map each stage of a scene to the fields of the scene that decide its data."""
     parameters = {}
-    for name in upstream(KINDS[block["picture"]].stages):
-        method = ("method",) if takes_method(name, block.get("method", {})) else ()
-        fields = ("ball", "energy", *STAGES[name].names, *method)
-        parameters[name] = {field: block[field] for field in fields if field in block}
+    for name in upstream(scene.stages):
+        method = ("method",) if takes_method(name, scene) else ()
+        parameters[name] = scene.as_mapping(("ball", "energy", *STAGES[name].names, *method))
     return parameters
 
 
-def drawing(block: YamlMapping) -> YamlMapping:
-    """Return the part of a scene's block that decides its drawing."""
-    undrawn = KINDS[block["picture"]].undrawn
-    return {key: value for key, value in block.items() if key not in undrawn}
+def drawing(scene: Picture) -> YamlMapping:
+    """Return the fields of a scene that decide its drawing."""
+    return {key: value for key, value in scene.as_mapping().items() if key not in scene.undrawn}
 
 
-def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
+def artifact_paths(variants: Variants) -> ArtifactPaths:
     """Map (variant, scene, stage) to the path of the stage's dataset.
 
     A variant shares a scene's dataset with the first variant that gives this scene the same
@@ -65,13 +62,14 @@ def artifact_paths(variants: Variants) -> dict[tuple[str, str, str], str]:
     and those of the scene that they are drawn `over`. An added scene therefore changes no path.
     """
     first_paths: dict[tuple[str, str, str], str] = {}
-    dataset_paths: dict[tuple[str, str, str], str] = {}
+    dataset_paths: ArtifactPaths = {}
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
-            below = stages(scenes[block["over"]]) if "over" in block else {}
+            over = getattr(block, "over", None)
+            below = stages(scenes[over]) if over else {}
             for stage, parameters in stages(block).items():
                 used = [dataset_paths[variant, scene, name] for name in STAGES[stage].inputs]
-                owner = block["over"] if stage in below else scene
+                owner = over if over and stage in below else scene
                 name = f"{stage}_{owner}" if parameters else stage
                 key = owner, stage, json.dumps([parameters, used], sort_keys=True)
                 path = first_paths.setdefault(key, f"results/{variant}/{name}.nc")
@@ -89,9 +87,9 @@ def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
     return f"results/{variant}/figures/{scene}.{extension}"
 
 
-def is_measured(block: YamlMapping) -> bool:
+def is_measured(scene: Picture) -> bool:
     """Return whether a scene shows times of this machine."""
-    return any(STAGES[stage].measured for stage in KINDS[block["picture"]].stages)
+    return any(STAGES[stage].measured for stage in scene.stages)
 
 
 def figures(variants: Variants, variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
@@ -103,7 +101,7 @@ def figures(variants: Variants, variant: str = PAPER) -> dict[str, tuple[str, li
     figure_paths = {}
     for name, block in variants[variant].items():
         data = [dataset_paths[variant, name, stage] for stage in stages(block)]
-        for extension in block["formats"]:
+        for extension in block.formats:
             drawing_path = drawn(name, extension, variant)
             published = variant in PUBLISHED and extension in SHOWN and not is_measured(block)
             path = f"{PUBLISHED[variant]}/{name}.{extension}" if published else drawing_path
@@ -117,5 +115,5 @@ def data_only(variants: Variants, variant: str) -> dict[str, list[str]]:
     return {
         name: [dataset_paths[variant, name, stage] for stage in stages(block)]
         for name, block in variants[variant].items()
-        if not block["formats"]
+        if not block.formats
     }

@@ -67,10 +67,10 @@ def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
 
 def own_fields(kind: type[Picture]) -> list[str]:
     """Return the fields of a kind of picture that not every scene has, or that differ from it."""
-    base = Scene if issubclass(kind, Scene) else Picture
-    of_scene = {key: field.annotation for key, field in base.model_fields.items()}
+    base = fields_of(Scene if issubclass(kind, Scene) else Picture)
+    shared = {key: (field.annotation, field.metadata) for key, field in base.items()}
     own = fields_of(kind).items()
-    return [k for k, field in own if k not in of_scene or field.annotation != of_scene[k]]
+    return [key for key, f in own if shared.get(key) != (f.annotation, f.metadata)]
 
 
 def has_picture(kind: type[Picture]) -> bool:

@@ -47,8 +47,8 @@ class Plan(NamedTuple):
                 if file.exists() and file.stat().st_mtime > now:
                     os.utime(file, (now - 1, now - 1))
         for path, reason in self.freshness.outdated().items():
-            if reason != MISSING:
-                _write_reason(path, reason)
+            if reason != MISSING:  # its content is unique, and the file newer than the result
+                write_whole(ROOT / why_path(path), f"{reason}\n{time.time_ns()}\n")
 
 
 @cache
@@ -56,8 +56,3 @@ def plan() -> Plan:
     """Return the plan for config.yaml, the same during a process; raises ConfigError."""
     config = load(ROOT / "config.yaml")
     return Plan(config, Freshness(ROOT, build_specs(config)), set())
-
-
-def _write_reason(path: str, reason: str) -> None:
-    """Write the reason to a file of unique content, which is newer than the result."""
-    write_whole(ROOT / why_path(path), f"{reason}\n{time.time_ns()}\n")

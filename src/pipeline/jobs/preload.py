@@ -9,7 +9,7 @@ from contextlib import suppress
 from importlib import import_module
 
 _DATA = os.environ.get("PSEUDORIGID_PRELOAD") == "data"
-_MODULES = ["pipeline.jobs.dispatch", "pipeline.records.artifacts"]
+_MODULES = ["pipeline.jobs.job", "pipeline.records.artifacts"]
 _MODULES += ["pseudorigid.figures.axes.box", "pseudorigid.figures.canvas.render"]
 _MODULES += ["pseudorigid.dynamics.ensemble"] if _DATA else []
 

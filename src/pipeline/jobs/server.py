@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
 from ..records.record import log_path
-from . import dispatch
+from . import job
 
 if TYPE_CHECKING:  # jobs, and an installation, load this module without the config's
     from ..checks.freshness import Freshness
@@ -37,16 +37,16 @@ def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
     """Make a result in a process of its own, and return whether it is current afterwards."""
     # The exit status is no answer: multiprocessing may lose it if other threads start jobs.
     receiver, answer = context.Pipe(duplex=False)
-    job = context.Process(target=dispatch.make, args=(spec, answer))
-    job.start()
+    process = context.Process(target=job.make, args=(spec, answer))
+    process.start()
     answer.close()
     made = False
     with receiver, suppress(EOFError):
         made = receiver.recv()
-    job.join()
+    process.join()
     log = Path(log_path(spec.result))
     if not made and not log.exists():
-        status = job.exitcode or 0
+        status = process.exitcode or 0
         reason = signal.Signals(-status).name if status < 0 else "it ended without a message"
         with suppress(ValueError):  # the disk may be full
             write_whole(log, f"pseudorigid: {spec.scene}: the job was killed ({reason})\n")

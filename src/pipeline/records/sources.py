@@ -21,7 +21,7 @@ BOOKKEEPING = (
     "pipeline",
     "pipeline.declaration",
     "pipeline.jobs",
-    "pipeline.jobs.dispatch",
+    "pipeline.jobs.job",
     "pipeline.jobs.server",
     "pipeline.loading",
     "pipeline.records",

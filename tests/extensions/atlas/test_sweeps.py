@@ -18,7 +18,7 @@ def document(**fields):
 
 
 def check(**fields):
-    return config.check(document(**fields)).variants["atlas"]["a"]
+    return config.check(document(**fields)).variants["atlas"]["a"].as_mapping()
 
 
 def test_axes_are_the_decimals_they_are_meant_to_be():
@@ -33,7 +33,7 @@ def test_axes_are_the_decimals_they_are_meant_to_be():
 
 
 def test_the_shipped_sweeps_hold_the_papers_cases():
-    sweeps = config.load(SHIPPED).variants["atlas"]
+    sweeps = {n: s.as_mapping() for n, s in config.load(SHIPPED).variants["atlas"].items()}
     assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
     assert sweeps["line"]["k"] == [0.2]
     assert sum(len(part["cells"]) for part in grid.parts(sweeps["plane"])) == 160 * 160

@@ -133,11 +133,11 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     document["scenes"]["against_k"] = document["scenes"]["along_energy"] | against_k
     document |= {"variants": {"v": {"scale": 2}}, "claims": {}, "families": {}}
     scenes = config.check(document).variants["v"]
-    assert (scenes["rotation"]["energies"][0], scenes["rotation"]["starts"]) == (0.004, 600)
-    assert scenes["jumps"]["energies"] == [0.004, 0.0072, 0.01, 0.02]
+    assert (scenes["rotation"].energies[0], scenes["rotation"].starts) == (0.004, 600)
+    assert scenes["jumps"].energies == [0.004, 0.0072, 0.01, 0.02]
     families = scenes["along_energy"]
-    assert (families["span"], families["step"]) == ([-0.0156, 0.2396], 0.002)
-    assert (scenes["against_k"]["span"], scenes["against_k"]["step"]) == ([0.1, 0.3], 0.01)
+    assert (families.span, families.step) == ([-0.0156, 0.2396], 0.002)
+    assert (scenes["against_k"].span, scenes["against_k"].step) == ([0.1, 0.3], 0.01)
 
 
 def test_results_have_the_names_of_their_scenes_and_steps():

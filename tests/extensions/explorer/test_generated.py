@@ -100,7 +100,7 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
 
 def test_the_page_follows_config_and_manifest(text, tmp_path):
     document = config.load(SHIPPED)
-    document.variants["paper"]["fig2"]["energy"] = 0.0123
+    document.variants["paper"]["fig2"].energy = 0.0123
     assert '"energy":0.0123' in page.render(document) and '"energy":0.0123' not in text
     assert data.published_orbits(tmp_path) == []  # nothing is published yet
     folder = tmp_path / "paper_figures"
@@ -117,7 +117,7 @@ def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
     assert "families" not in scenes and not any("exact" in name for name in scenes)
     assert scenes["thin-shell/fig2"]["ball"]["k"] == 0.3333333333333333
     for variant, blocks in variants.items():
-        for scene, block in blocks.items():
+        for scene, block in ((name, each.as_mapping()) for name, each in blocks.items()):
             assert (data.address(variant, scene, block) in scenes) == (
                 "method" not in block and KINDS[block["picture"]].on_section
             )
@@ -136,9 +136,9 @@ def test_every_kind_of_picture_with_a_section_has_a_preset():
 
 def test_data_cannot_end_their_script(text):
     document = config.load(SHIPPED)
-    document.variants["paper"]["fig2"]["title"] = "</script><script>alert(1)"
+    document.variants["paper"]["fig3"].type = "</script><script>alert(1)"
     stored = json.loads(data_of(page.render(document)))
-    assert stored["scenes"]["fig2"]["title"] == "</script><script>alert(1)"
+    assert stored["scenes"]["fig3"]["type"] == "</script><script>alert(1)"
 
 
 def test_the_atlas_has_the_values_of_a_sweep():

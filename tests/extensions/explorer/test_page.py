@@ -13,7 +13,6 @@ from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from extensions.claims.analyses.jumps import jumps
 from pipeline import config
-from pipeline.config.schema.kinds import KINDS
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import winding
@@ -382,7 +381,7 @@ def test_every_preset_draws_and_has_one_sentence(person):
         scene
         for name in ("paper", "claims", "proofs")
         for scene, block in variants[name].items()
-        if KINDS[block["picture"]].on_section
+        if block.on_section
     }
     assert own == "" and {name for name in names if "/" not in name} == published
     assert set(names) == set(person.run("return Object.keys(JSON.parse(data.textContent).scenes)"))
@@ -429,7 +428,7 @@ def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
 @pytest.mark.parametrize("scene", ["fig8", "thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
 def test_the_name_of_a_scene_is_an_address(person, scene):
     variant, name = scene.split("/") if "/" in scene else ("paper", scene)
-    block = config.load(SHIPPED).variants[variant][name]
+    block = config.load(SHIPPED).variants[variant][name].as_mapping()
     person.open(f"{person.file}#{scene}")
     person.wait(lambda: person.state().get("preset") == scene)
     state = person.state()

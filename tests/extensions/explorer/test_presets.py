@@ -34,7 +34,7 @@ def test_orbits_of_two_clicks_are_copied(person, tmp_path):
     name, block = copied(person, "portrait")
     document = shipped() | {"scenes": {name: block}, "variants": {}}
     (tmp_path / "config.yaml").write_text(yaml.safe_dump(document))
-    block = config.load(tmp_path / "config.yaml").variants["paper"][name]
+    block = config.load(tmp_path / "config.yaml").variants["paper"][name].as_mapping()
     orbits = scene_orbits(Ball(**block["ball"]), block["energy"], block["starts"], block["impacts"])
     for variable, values in person.every_point().items():
         assert np.array_equal(orbits[variable].values, values)

@@ -51,8 +51,9 @@ def test_few_energies_of_the_twist_are_drawn_or_refused_in_one_line():
 def test_energies_outside_the_axes_are_reported():
     document = shipped()
     block = {"ball": document["ball"]} | document["proofs"]["twist"]
-    assert not [*KINDS["twist"].hidden(block)]
-    (line,) = KINDS["twist"].hidden(block | {"energies": [0.01, 0.07]})
+    twist = KINDS["twist"].model_validate
+    assert not [*twist(block).hidden()]
+    (line,) = twist(block | {"energies": [0.01, 0.07]}).hidden()
     assert line.startswith("energies 0.07 lies outside axes.energy.limits")
 
 

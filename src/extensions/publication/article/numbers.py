@@ -90,9 +90,9 @@ def _rows(root: Path, checked: Config, scene: str) -> Table:
     """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
     values = measured(root, checked.variants, PAPER, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
-    axes = checked.scenes[scene]["axes"]
+    axes = checked.scenes[scene].given_axes()
     return rows | {
-        f"ticks, {axis}": {"paper": _listed(ticks), "ours": _listed(axes[axis]["ticks"])}
+        f"ticks, {axis}": {"paper": _listed(ticks), "ours": _listed(axes[axis].ticks)}
         for axis, ticks in PRINTED_TICKS[scene].items()
     }
 

@@ -11,8 +11,7 @@ import xarray as xr
 
 from ...config import Config, paths
 from ...config.build_specs import build_specs
-from ...config.schema.fields import YamlMapping
-from ...config.schema.kinds import KINDS
+from ...config.schema.scene import Picture
 from ...records.artifacts import load
 from ...records.differences import brief, differing_keys
 from ...records.pictures import pixels
@@ -54,7 +53,7 @@ class _Comparison:
         lines += self._data(scene, blocks) if both else ()
         return [*lines, *self._side_by_side(scene, blocks, current)]
 
-    def _data(self, scene: str, blocks: Sequence[YamlMapping]) -> Iterator[str]:
+    def _data(self, scene: str, blocks: Sequence[Picture]) -> Iterator[str]:
         """Yield how the datasets of each stage differ, if those of both variants are current."""
         for stage in paths.stages(blocks[0]):
             results = [self.files[name, scene, stage] for name in self.names]
@@ -64,7 +63,7 @@ class _Comparison:
                     yield f"{'' if i else stage:10}  {text}"
 
     def _side_by_side(
-        self, scene: str, blocks: Sequence[YamlMapping], current: Sequence[str]
+        self, scene: str, blocks: Sequence[Picture], current: Sequence[str]
     ) -> Iterator[str]:
         """Save the figures of variants that are current side by side, and yield a line on them."""
         image = self.root / f"results/compare/{'..'.join(self.names)}/{scene}.png"
@@ -73,7 +72,7 @@ class _Comparison:
                 image.unlink()  # left by an earlier comparison
             return
         if len(current) == 2:
-            stages = KINDS[blocks[0]["picture"]].stages
+            stages = blocks[0].stages
             data = [
                 [load(self.root / self.files[name, scene, stage]) for stage in stages]
                 for name in self.names
@@ -87,7 +86,7 @@ class _Comparison:
         yield f"side by side{axes}: {image.relative_to(self.root)}"
 
 
-def _config_differences(first: YamlMapping, second: YamlMapping) -> Iterator[str]:
+def _config_differences(first: Picture, second: Picture) -> Iterator[str]:
     """Yield a line for each key of the config that differs, except derived axes."""
     before, after = (paths.drawing(block) | {"axes": None} for block in (first, second))
     keys = differing_keys(before, after)

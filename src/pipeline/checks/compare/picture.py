@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas import render
 
 from ...config.paths import drawing
 from ...config.schema.fields import YamlMapping
-from ...config.schema.kinds import KINDS
+from ...config.schema.scene import Picture
 from ...declaration import imported
 from ...records.files import replacing
 
@@ -26,14 +26,14 @@ _Pixels = npt.NDArray[np.uint8]
 
 
 def on_same_axes(
-    blocks: Sequence[YamlMapping], data: Sequence[Sequence[xr.Dataset]]
+    blocks: Sequence[Picture], data: Sequence[Sequence[xr.Dataset]]
 ) -> tuple[list[_Pixels], str]:
     """Draw a scene of two variants on axes that hold both; return the pixels and words on the axes.
 
     Each keeps its own axes if the kind of picture has none in the config, or if one of the pictures
     would shrink to a spot.
     """
-    draw = imported(KINDS[blocks[0]["picture"]].drawn_by)
+    draw = imported(blocks[0].drawn_by)
     found: list[dict[str, Any]] = [{}, {}]
     figures = [
         draw(drawing(block) | {"completed": axes}, *datasets)

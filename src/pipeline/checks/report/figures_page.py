@@ -25,7 +25,9 @@ def page() -> str:
         scenes = manifest.read(ROOT, published_set.folder)["scenes"]
         blocks = {name: scene["config"] for name, scene in scenes.items()}
         for file in published_set.measured:
-            blocks[Path(file).stem] = config.variants[published_set.group][Path(file).stem]
+            blocks[Path(file).stem] = config.variants[published_set.group][
+                Path(file).stem
+            ].as_mapping()
         captions = [(name, caption_of(name, block)) for name, block in blocks.items()]
         sections.append((SETS[published_set.group].heading, published_set, captions))
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")

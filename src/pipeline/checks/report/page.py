@@ -16,7 +16,6 @@ from PIL import Image
 
 from ...config import PAPER, PUBLISHED, Config, paths
 from ...config.build_specs import build_specs
-from ...config.schema.kinds import KINDS
 from ...declaration import extensions
 from ...records.files import read_bytes
 from ...records.pictures import pixels
@@ -96,12 +95,12 @@ class _Page:
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def _described(
-        self, identifier: str, variant: str, name: str, block: dict[str, Any], published: str = ""
+        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str = ""
     ) -> Picture:
         """Return the caption of a picture and the notes of extensions, without an image."""
-        picture: Picture = caption_of(name, block)._asdict()
+        picture: Picture = caption_of(name, block.as_mapping())._asdict()
         picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
-        notes = [part.note(variant, name, block, published) for part in self.parts]
+        notes = [part.note(variant, name, block.as_mapping(), published) for part in self.parts]
         return picture | {"published": published, "notes": [*filter(None, notes)]}
 
     def pictures_of(self, variant: str) -> list[Picture]:
@@ -145,7 +144,7 @@ class _Page:
         identifier = published.replace("/", "-")
         picture = self._described(identifier, variant, scene, block, published)
         if drawing and drawing not in findings.stale:
-            numbers = self._numbers(variant, scene) if KINDS[block["picture"]].headline else {}
+            numbers = self._numbers(variant, scene) if block.headline else {}
             made = self._shown(drawing, published_set.data[scene].values())
             return picture | made | numbers | {"rows": [], "file": published}
         if not (self.root / published).is_file():
@@ -177,5 +176,5 @@ class _Page:
         """Return the rows of a scene's quantities, and the headline quantity."""
         values = measured(self.root, self.variants, variant, scene)
         rows = [(name, printed(scene, name), value) for name, value in values.items()]
-        headline = KINDS[self.variants[variant][scene]["picture"]].headline
+        headline = self.variants[variant][scene].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}

@@ -24,7 +24,7 @@ def run(args: Arguments) -> int:
         measured = [
             paths.drawn(scene, "png", group)
             for scene, block in blocks.items()
-            if paths.is_measured(block) and block["formats"]
+            if paths.is_measured(block) and block.formats
         ]
         data = [path for each in paths.data_only(config.variants, group).values() for path in each]
         for kind, results in (("measured", measured), ("data", data)):

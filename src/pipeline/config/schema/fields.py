@@ -3,28 +3,63 @@
 Each field has three parts: pydantic's constraints; the words for what is allowed, which error
 messages and docs/config.md quote; and, as its docstring, what it means, for docs/config.md.
 
-The models only validate. Blocks stay the mappings that YAML made, so that 1 and 1.0 stay distinct.
+A checked config has these models. `Block.as_mapping` makes what is recorded of one.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
+import pydantic
 from annotated_types import Predicate
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
 from pydantic.fields import FieldInfo
 
-YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it
+YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it, or can write it
 ABSENT: Any = None  # the default of a field that may be left out and then has no value
 
 # Largest count of impacts, or of points of a manifold, in a scene. A larger number is a slip.
 LARGEST = 10_000_000
+
+TYPES_ALONE = "types alone"  # the context in which values only need to have the right type
+_OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
 
 
 class Block(BaseModel):
     """A mapping of the config. Unknown keys are mistakes, and so are numbers in quotes."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+    @pydantic.field_validator("*", mode="wrap")
+    @classmethod
+    def _field(cls, given: Any, check: Callable[[Any], Any], info: pydantic.ValidationInfo) -> Any:
+        """Return a field's value with numbers as written: records distinguish 1 from 1.0.
+
+        In the context TYPES_ALONE, a value of the right type that is not allowed stays as it is.
+        """
+        try:
+            return _as_written(check(given), given)
+        except pydantic.ValidationError as error:
+            kinds = {each["type"] for each in error.errors(include_url=False)}
+            if info.context == TYPES_ALONE and kinds <= _OF_VALUES:
+                return given
+            raise
+
+    def as_mapping(self, keys: Iterable[str] | None = None) -> YamlMapping:
+        """Return the fields that have a value, or those of some keys, as YAML or JSON has them."""
+        mapping = self.model_dump(by_alias=True, exclude_none=True)
+        return mapping if keys is None else {key: mapping[key] for key in keys if key in mapping}
+
+
+def _as_written(checked: Any, given: Any) -> Any:
+    """Return what a value was validated to, with all numbers as they were given."""
+    if checked is given:  # of type Any: YAML's aliases can make a value of any size
+        return given
+    if isinstance(checked, list):
+        return [_as_written(*pair) for pair in zip(checked, given, strict=True)]
+    if isinstance(checked, dict):
+        return {key: _as_written(value, given[key]) for key, value in checked.items()}
+    return checked if isinstance(checked, Block) else given
 
 
 def allowed(words: str, **constraints: Any) -> Any:
@@ -54,7 +89,13 @@ def rising(numbers: Sequence[float]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
-NOT_EMPTY = Predicate(lambda given: given.model_fields_set)  # of a block with optional fields
+def _not_empty(block: Block) -> Block:
+    if not block.model_fields_set:
+        raise ValueError
+    return block
+
+
+NOT_EMPTY = AfterValidator(_not_empty)  # of a block with optional fields
 
 # A union of two types names them by tags, of which pydantic makes a part of an error's location.
 TAGS = ("(first)", "(second)")
@@ -106,6 +147,11 @@ class Axis(Block):
     """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn."""
     ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
     """Positions of the tick marks and their labels, within the limits."""
+
+    def holds(self, value: float) -> bool:
+        """Return whether a value lies within the limits."""
+        low, high = self.limits
+        return low <= value <= high
 
 
 class View(Block):
@@ -183,7 +229,7 @@ Start = Annotated[
         ),
         _SECOND,
     ],
-    first_if(dict),
+    first_if(dict, Point),
     allowed("a fraction of the section's radius, or a point {x, xdot} or {x, y}"),
 ]
 Starts = Annotated[
@@ -208,10 +254,11 @@ Saddle = Annotated[
     Literal["hyperbolic", "inverse hyperbolic"],
     allowed("one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
 ]
+_Format = Literal["png", "svg", "pdf"]
 Formats = Annotated[
-    list[Literal["png", "svg", "pdf"]],
+    list[_Format],
     allowed("a list of png, svg, pdf that has png in it, none of them twice", min_length=1),
     Predicate(distinct),
     Predicate(lambda given: "png" in given),
 ]
-NoFormats = Annotated[list[str], allowed("an empty list: there is no picture", max_length=0)]
+NoFormats = Annotated[list[_Format], allowed("an empty list: there is no picture", max_length=0)]

@@ -23,22 +23,16 @@ class Scan(Block):
     scenes with manifolds allow no more."""
 
 
-def _of_extensions() -> dict[str, type[Block]]:
-    """Return the classes of further methods by the key that only they have."""
-    found = {}
-    for extension in extensions().values():
-        for key, place in extension.methods.items():
-            found[key] = imported(place)
-    return found
-
-
-_BY_KEY = _of_extensions()
+# Key that only a method of an extension has -> the class of its block.
+_BY_KEY: dict[str, type[Block]] = {
+    key: imported(place) for each in extensions().values() for key, place in each.methods.items()
+}
 METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
 
 
 def _tag(value: Any) -> str:
-    """Return the tag of the method that a value is an attempt at."""
-    keys = value if isinstance(value, Mapping) else ()
+    """Return the tag of the method whose block or mapping a value is meant to be."""
+    keys = value if isinstance(value, Mapping) else getattr(value, "model_fields_set", ())
     return next((TAGS[i] for i, key in enumerate(_BY_KEY, 1) if key in keys), TAGS[0])
 
 

@@ -5,15 +5,16 @@ stand with the group. They compare numbers as the decimals that were written.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from annotated_types import Predicate
+from pydantic import Field
 
 from . import fields
-from .fields import ABSENT, YamlMapping, allowed
-from .method import Method
+from .fields import ABSENT, allowed
+from .method import Method, Scan
 
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
 # 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.
@@ -21,11 +22,7 @@ LONGEST_FLIGHT = 1_000_000
 
 
 class CompletionError(Exception):
-    """A shorthand that cannot be written out: its place in the block, value and what is allowed."""
-
-    def __init__(self, place: tuple[str | int, ...], value: Any, allowed: str) -> None:
-        super().__init__(allowed)
-        self.place, self.value, self.allowed = place, value, allowed
+    """A shorthand that cannot be written out; the arguments are those of a CrossFieldError."""
 
 
 SectionAxes = dict[Literal["x", "xdot", "udot"], fields.Axis]
@@ -58,29 +55,29 @@ class Picture(fields.Block):
     formats: fields.Formats = ["png"]
     """File formats of the figure. png and svg are published; pdf stays in `results/`."""
 
-    @classmethod
-    def completed(cls, block: YamlMapping) -> YamlMapping:
-        """Return a block with shorthands written out; raises CompletionError."""
-        return block
+    def completed(self) -> Self:
+        """Return the scene with shorthands written out; raises CompletionError."""
+        return self
 
-    @classmethod
-    def hidden(cls, block: YamlMapping) -> Iterator[str]:
-        """Yield a line for each field of a checked block whose values lie outside its axes."""
-        for axis, field in cls.along.items():
-            limits = block.get("axes", {}).get(axis, {}).get("limits")
-            values = block[field] if isinstance(block[field], list) else [block[field]]
-            outside = [v for v in values if limits and not limits[0] <= v <= limits[1]]
-            if outside:
-                yield f"{field} {max(outside)} lies outside {beyond(axis, limits)}"
+    def given_axes(self) -> Mapping[str, fields.Axis]:
+        """Return the axes of the scene that the config has."""
+        return getattr(self, "axes", None) or {}
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Yield what is wrong between fields of a complete block, each of which has its type."""
-        for name, axis in block.get("axes", {}).items():
-            low, high = axis["limits"]
-            for tick in axis["ticks"]:
-                if low < high and not low <= tick <= high:
-                    words = f"numbers within the limits {axis['limits']}"
+    def hidden(self) -> Iterator[str]:
+        """Yield a line for each field whose values lie outside the axes."""
+        for name, field in self.along.items():
+            axis = self.given_axes().get(name)
+            outside = [v for v in _listed(getattr(self, field)) if axis and not axis.holds(v)]
+            if axis and outside:
+                yield f"{field} {max(outside)} lies outside {beyond(name, axis.limits)}"
+
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
+        """Yield what is wrong between fields, each of which has its type."""
+        for name, axis in self.given_axes().items():
+            low, high = axis.limits
+            for tick in axis.ticks:
+                if low < high and not axis.holds(tick):
+                    words = f"numbers within the limits {axis.limits}"
                     yield ("axes", name, "ticks"), tick, words
 
 
@@ -99,15 +96,17 @@ class Scene(Picture):
     """How the next impact is found. Without it, the first impact is found with a certificate that
     none was missed; leave it out unless you want to compare methods."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def along_energy(self) -> bool:
+        """Return whether the scene follows something over energies, from end to end of `span`."""
+        return getattr(self, "parameter", None) == "energy"
+
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the ball, its energies, and ticks."""
-        k, g = (block["ball"][name] for name in "kg")
-        if not g < k:
-            yield ("ball", "g"), g, f"0 < g < k = {k}"
+        if not self.ball.g < self.ball.k:
+            yield ("ball", "g"), self.ball.g, f"0 < g < k = {self.ball.k}"
             return
-        yield from _energy_errors(block)
-        yield from super().cross_field_errors(block)
+        yield from _energy_errors(self)
+        yield from super().cross_field_errors()
 
 
 class OfOrbits(Scene):
@@ -122,19 +121,22 @@ class OfOrbits(Scene):
     closed curve and some ten thousand the chaotic sea. Exponents converge slowly: the paper takes
     200000."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that starts lie on the section, and that impacts fit them and are not too many."""
-        yield from super().cross_field_errors(block)
-        starts, impacts = block["starts"], block["impacts"]
-        for i, start in enumerate(starts):
-            if isinstance(start, dict):
-                yield from _start_errors(block, start, ("starts", i))
-        if isinstance(impacts, list) and len(impacts) != len(starts):
-            yield ("impacts",), impacts, f"one number for each of the {len(starts)} starts"
-        elif sum(_impacts_of_each(block)) > fields.LARGEST:
+        yield from super().cross_field_errors()
+        for i, start in enumerate(self.starts):
+            if isinstance(start, fields.Point):
+                yield from _start_errors(self, start, ("starts", i))
+        if len(self.impacts_of_each()) != len(self.starts):
+            words = f"one number for each of the {len(self.starts)} starts"
+            yield ("impacts",), self.impacts, words
+        elif sum(self.impacts_of_each()) > fields.LARGEST:
             words = f"at most {fields.LARGEST} impacts in a scene, counted over all its starts"
-            yield ("impacts",), impacts, words
+            yield ("impacts",), self.impacts, words
+
+    def impacts_of_each(self) -> list[int]:
+        """Return the number of impacts of each orbit."""
+        return self.impacts if isinstance(self.impacts, list) else [self.impacts] * len(self.starts)
 
 
 class OfChaoticOrbits(OfOrbits):
@@ -149,12 +151,11 @@ class OfChaoticOrbits(OfOrbits):
     picture: those whose tangent vectors grow exponentially are called chaotic, whatever stands
     here. They are drawn first and in a grey of their own, so that regular orbits stand out."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that places in `sea` are places in `starts`."""
-        yield from super().cross_field_errors(block)
-        last = len(block["starts"]) - 1
-        for place in block["sea"]:
+        yield from super().cross_field_errors()
+        last = len(self.starts) - 1
+        for place in self.sea:
             if place > last:
                 yield ("sea",), place, f"a place in starts, from 0 to {last}"
 
@@ -166,13 +167,12 @@ class OfRecords(OfOrbits):
     """Number of points of each exponent's line: the exponents so far are kept after this many
     equal stretches of impacts. 400 points make a smooth line."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that there are no more records than impacts."""
-        yield from super().cross_field_errors(block)
-        least = min(_impacts_of_each(block))
-        if block["records"] > least:
-            yield ("records",), block["records"], f"at most impacts = {least}"
+        yield from super().cross_field_errors()
+        least = min(self.impacts_of_each())
+        if self.records > least:
+            yield ("records",), self.records, f"at most impacts = {least}"
 
 
 class OfSea(Scene):
@@ -186,13 +186,12 @@ class OfSea(Scene):
     impacts: int = fields.whole(100, 10_000_000)
     """Number of impacts of each orbit."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the starts are in order, and that all impacts fit into memory."""
-        yield from super().cross_field_errors(block)
-        if not block["between"][0] < block["between"][1]:
-            yield ("between",), block["between"], "two increasing fractions"
-        yield from bounded(block, "orbits", "impacts", "impacts in all")
+        yield from super().cross_field_errors()
+        if not fields.rising(self.between):
+            yield ("between",), self.between, "two increasing fractions"
+        yield from bounded(self, "orbits", "impacts", "impacts in all")
 
 
 class OfPeriodicOrbit(Scene):
@@ -216,25 +215,23 @@ class OfManifolds(OfPeriodicOrbit):
     """How finely the manifolds are traced. A finer resolution takes more time and more memory. A
     run says if the branches would have too many points."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the tolerance of a scan, and that no branch needs too many points."""
-        yield from super().cross_field_errors(block)
+        yield from super().cross_field_errors()
         # A branch begins as a segment of 1e-6: a coarser bisection leaves noise, not a line.
-        tolerance = block.get("method", {}).get("tolerance", 0)
-        if tolerance > 1e-12:
+        if isinstance(self.method, Scan) and self.method.tolerance > 1e-12:
             words = "a number from 1e-15 to 1e-12, for manifolds"
-            yield ("method", "tolerance"), tolerance, words
-        branches = 4 * block["period"]  # stable and unstable, on both sides of each point
-        longest = fields.LARGEST * block["resolution"]["distance"] / branches
-        sides = block.get("branches", {})
-        lengths: dict[tuple[str, ...], float]
-        lengths = {("branches", side, "length"): sides[side]["length"] for side in sides}
-        lengths |= {("length",): block["length"]} if "length" in block else {}
-        for place, length in lengths.items():
+            yield ("method", "tolerance"), self.method.tolerance, words
+        branches = 4 * self.period  # stable and unstable, on both sides of each point
+        longest = fields.LARGEST * self.resolution.distance / branches
+        for place, length in self.lengths():
             if length > longest:
                 words = f"at most {fields.LARGEST} times resolution.distance"
                 yield place, length, f"{words}, shared by {branches} branches = {longest}"
+
+    def lengths(self) -> Iterator[tuple[tuple[str, ...], float]]:
+        """Yield the place and the value of each length of branches."""
+        yield from ()
 
 
 class OfBranches(OfManifolds):
@@ -243,27 +240,34 @@ class OfBranches(OfManifolds):
     branches: Annotated[fields.BothBranches, fields.NOT_EMPTY]
     """Which branches of the manifolds are traced, and how far."""
 
+    def lengths(self) -> Iterator[tuple[tuple[str, ...], float]]:
+        """Yield the length of the branches of each side."""
+        for side, branch in self.branches:
+            if branch:
+                yield ("branches", side, "length"), branch.length
+
 
 class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
-    view: fields.View = {"elevation": 40, "azimuth": 115}  # type: ignore[assignment]
+    view: fields.View = Field({"elevation": 40, "azimuth": 115}, validate_default=True)
     """Direction from which the surface is seen. The surface is opaque and hides its far side."""
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
     rate, omega). An axis that is left out has limits that hold its data."""
 
 
-def is_sound(block: YamlMapping) -> bool:
-    """Return whether a block's ball has a section at its energies, so that more can be checked."""
-    return not any(Scene.cross_field_errors(block))
+def is_sound(scene: Scene) -> bool:
+    """Return whether a scene's ball has a section at its energies, so that more can be checked."""
+    return not any(Scene.cross_field_errors(scene))
 
 
-def bounded(block: YamlMapping, first: str, second: str, what: str) -> Iterator[CrossFieldError]:
+def bounded(scene: Scene, first: str, second: str, what: str) -> Iterator[CrossFieldError]:
     """Yield an error if the product of two fields, a count held in memory, is too large."""
-    if block[first] * block[second] > fields.LARGEST:
+    factor, other = getattr(scene, first), getattr(scene, second)
+    if factor * other > fields.LARGEST:
         words = f"at most {fields.LARGEST} {what}, {first} times {second}"
-        yield (second,), block[second], f"{words}: here {fields.LARGEST // block[first]}"
+        yield (second,), other, f"{words}: here {fields.LARGEST // factor}"
 
 
 def beyond(axis: str, limits: list[float]) -> str:
@@ -271,20 +275,20 @@ def beyond(axis: str, limits: list[float]) -> str:
     return f"axes.{axis}.limits {limits}: widen them, or leave axes.{axis} out"
 
 
-def not_elliptic(block: YamlMapping, name: str) -> Iterator[CrossFieldError]:
+def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:
     """Yield an error for each energy of a field at which the fixed point is hyperbolic."""
-    if not is_sound(block):
+    if not is_sound(scene):
         return
-    k, g = (block["ball"][name] for name in "kg")
+    k, g = scene.ball.k, scene.ball.g
     low, high = 0.0, math.pi  # of theta: the trace falls through -2 between them
     while (theta := (low + high) / 2) not in (low, high):
         low, high = (theta, high) if _fixed_point(k, theta)[1] > -2 else (low, theta)
     highest = _fixed_point(k, theta)[0] * g * g
-    several = isinstance(block[name], list)
-    for i, energy in enumerate(block[name] if several else [block[name]]):
+    given = getattr(scene, name)
+    for i, energy in enumerate(_listed(given)):
         if not energy < highest:
             words = f"an energy below {highest:.6g}, where the fixed point is elliptic"
-            yield ((name, i) if several else (name,)), energy, words
+            yield ((name, i) if isinstance(given, list) else (name,)), energy, words
 
 
 def _fixed_point(k: float, theta: float) -> tuple[float, float]:
@@ -303,20 +307,19 @@ def exact(value: float) -> Fraction:
     return Fraction(str(value))
 
 
-def _impacts_of_each(block: YamlMapping) -> list[int]:
-    impacts = block["impacts"]
-    return impacts if isinstance(impacts, list) else [impacts] * len(block["starts"])
+def _listed(value: Any) -> list[Any]:
+    """Return the values of a field that has one or several."""
+    return value if isinstance(value, list) else [value]
 
 
-def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
+def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
     """Yield energies without motion, with flights too long, or at which the ball could flatten."""
-    k, g = (exact(block["ball"][name]) for name in "kg")
+    k, g = exact(scene.ball.k), exact(scene.ball.g)
     lowest, highest = -g * g / (2 * k), k / 2 - g
     long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
-    energies: dict[tuple[str | int, ...], float] = {("energy",): block["energy"]}
-    lists = ["energies", "span"] if block.get("parameter") == "energy" else ["energies"]
-    for name in lists:
-        energies |= {(name, i): energy for i, energy in enumerate(block.get(name, ()))}
+    energies: dict[tuple[str | int, ...], float] = {("energy",): scene.energy}
+    for name in ("energies", "span") if scene.along_energy() else ("energies",):
+        energies |= {(name, i): energy for i, energy in enumerate(getattr(scene, name, ()))}
     for place, energy in energies.items():
         if not exact(energy) > lowest:
             bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
@@ -329,25 +332,26 @@ def _energy_errors(block: YamlMapping) -> Iterator[CrossFieldError]:
 
 
 def _start_errors(
-    block: YamlMapping, start: YamlMapping, place: tuple[str, int]
+    scene: Scene, start: fields.Point, place: tuple[str, int]
 ) -> Iterator[CrossFieldError]:
     """Check that a point lies inside the section at the scene's energy."""
-    if ("xdot" in start) == ("y" in start):
-        yield place, start, "a point {x, xdot} or {x, y}"
+    if (start.xdot is None) == (start.y is None):
+        yield place, start.as_mapping(), "a point {x, xdot} or {x, y}"
         return
-    k, g, energy = (exact(x) for x in (*(block["ball"][n] for n in "kg"), block["energy"]))
-    x = exact(start["x"])
+    k, g, energy = exact(scene.ball.k), exact(scene.ball.g), exact(scene.energy)
+    x = exact(start.x)
     twice_kinetic_energy = 2 * energy + 2 * g * x - k * x * x
     # Nearer to the rim than this, rounding decides whether the ball leaves the floor.
     margin = Fraction(1, 10**12) * (2 * energy + g * g / k)
-    if "y" in start:
-        y = exact(start["y"])
+    if start.y is not None:
+        y = exact(start.y)
         inside = (1 + k) * twice_kinetic_energy - y * y > margin
         condition = "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"
     else:
-        v = exact(start["xdot"])
+        v = exact(start.xdot)
         square = twice_kinetic_energy - v * v  # k udot^2
         inside = square > margin and (v >= 0 or square - k * v * v > margin)
         condition = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"
     if not inside:
-        yield place, start, f"a point on the section at energy {block['energy']}, {condition}"
+        words = f"a point on the section at energy {scene.energy}, {condition}"
+        yield place, start.as_mapping(), words

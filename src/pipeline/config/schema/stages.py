@@ -1,9 +1,9 @@
 """The stages: the function of each, its inputs, and the fields that decide its data."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Collection, Iterable
 
 from ...declaration import Stage, extensions
+from .scene import Picture, Scene
 
 _DYNAMICS, _STUDY = "pseudorigid.dynamics", "study.stages"
 STAGES = {
@@ -39,19 +39,24 @@ METHODS = {
 }
 
 
-def function_of(stage: str, block: Mapping[str, Any]) -> str:
-    """Return the function that computes a stage for a block of the config."""
-    for method in block.get("method", {}):
+def function_of(stage: str, scene: Picture) -> str:
+    """Return the function that computes a stage of a scene."""
+    for method in _method_keys(scene):
         if stage in METHODS.get(method, {}):
             return METHODS[method][stage]
     return STAGES[stage].function
 
 
-def takes_method(stage: str, method: Mapping[str, Any]) -> bool:
+def takes_method(stage: str, scene: Picture) -> bool:
     """Return whether a scene's `method` decides the data of a stage."""
     return STAGES[stage].follows and all(
-        stage in METHODS[name] for name in method if name in METHODS
+        stage in METHODS[name] for name in _method_keys(scene) if name in METHODS
     )
+
+
+def _method_keys(scene: Picture) -> Collection[str]:
+    """Return the keys of a scene's `method`, none if it has no method of its own."""
+    return scene.method.model_fields_set if isinstance(scene, Scene) and scene.method else ()
 
 
 def upstream(stages: Iterable[str]) -> list[str]:

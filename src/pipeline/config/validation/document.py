@@ -6,12 +6,13 @@ from pydantic import create_model
 
 from ...commands import all_commands
 from ...declaration import extensions, imported
-from ..paths import Config
+from ..paths import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
+from ..schema.scene import Picture
 from ..schema.sets import PAPER, SETS
 from ..schema.variant import Variant
 from . import scenes
-from .mistakes import complete, mistakes
+from .mistakes import validate
 from .words import ConfigError, refusal
 
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
@@ -19,59 +20,73 @@ _AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_leng
 _VARIANTS = Annotated[
     dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
 ]
-KEYS = {name: each.key for name, each in SETS.items() if each.key}  # set -> key of config.yaml
-
-
 # Key -> the class of a block of an extension that is no scenes.
 BLOCKS: dict[str, type[Block]] = {
     key: imported(place) for each in extensions().values() for key, place in each.blocks.items()
 }
-_FIELDS: dict[str, Any] = {
-    "ball": (BallBlock, ...),
-    "scenes": (dict[Name, Any], _AT_LEAST_ONE),
-    "variants": (_VARIANTS, {}),
-    **{key: (_SCENES, {}) for name, key in KEYS.items() if name != PAPER},
+
+
+class _Document(Block):
+    """a mapping with the keys ball and scenes"""
+
+    ball: BallBlock
+    scenes: dict[Name, Any] = _AT_LEAST_ONE
+    variants: _VARIANTS = {}
+
+
+_OF_EXTENSIONS: dict[str, Any] = {
+    **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != PAPER},
     **{key: (block, ABSENT) for key, block in BLOCKS.items()},
 }
-Document = create_model(
-    "Document", __base__=Block, __doc__="a mapping with the keys ball and scenes", **_FIELDS
-)
+Document = create_model("Document", __base__=_Document, __doc__=_Document.__doc__, **_OF_EXTENSIONS)
 
 
-def check(document: object) -> Config:
+def check(given: object) -> Config:
     """Return the complete config of a parsed YAML document.
 
     Raises ConfigError with a line for each mistake.
     """
-    lines = mistakes(Document, document, ())
-    given = complete(Document, document if isinstance(document, dict) else {})
-    given = {key: part if isinstance(part, dict) else {} for key, part in given.items()}
-    ball = None if mistakes(BallBlock, given.get("ball"), ()) else given["ball"]
-    if ball and not ball["g"] < ball["k"]:
-        lines.append(refusal(("ball", "g"), ball["g"], f"0 < g < k = {ball['k']}"))
+    document, lines = validate(Document, given, ())
+    blocks = given.items() if isinstance(given, dict) else ()
+    parts = {key: block for key, block in blocks if isinstance(block, dict)}
+    ball, _ = validate(BallBlock, parts.get("ball"), ())
+    if ball and not ball.g < ball.k:
+        lines.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
         ball = None
-    commands = all_commands()
-    left_out: dict[str, dict[str, str]] = {}
-    derived: dict[str, YamlMapping] = {name: {} for name in SETS}
-    for name, blocks in derived.items():
-        key = KEYS.get(name, name)
-        found = given.get(key, {}) if name in KEYS else imported(SETS[name].scenes)()
-        if kind := SETS[name].kind:
-            found = {
-                s: {"picture": kind} | b if isinstance(b, dict) else b for s, b in found.items()
-            }
-        for scene, block in found.items():
-            blocks[scene], scene_lines = scenes.checked(block, ball, (key, scene), found)
-            lines += scene_lines
-            if scene in commands or scene == "all":
-                lines.append(refusal((key,), scene, "a name that is no command of ./reproduce"))
-            if name != PAPER and scene in given.get("scenes", {}):
-                lines.append(refusal((key,), scene, "a name that no scene of the paper has"))
-    for name, block in given["variants"].items() if not lines else ():
-        derived[name], left_out[name], variant_lines = scenes.derive(given, name, block)
-        lines += variant_lines
-    if lines:
+    own_ball = ball.as_mapping() if ball else None
+    variants, left_out = Variants(), dict[str, dict[str, str]]()
+    for name in SETS:
+        variants[name], more = _scenes_of_set(name, parts, own_ball)
+        lines += more
+    if document and own_ball and not lines:
+        for name, variant in document.variants.items():
+            derived = scenes.derive_variant(parts["scenes"], own_ball, name, variant)
+            variants[name], left_out[name], more = derived
+            lines += more
+    if lines or document is None:
         raise ConfigError(*dict.fromkeys(lines))
-    return Config(
-        ball or {}, derived, left_out, {key: given[key] for key in BLOCKS if key in given}
-    )
+    return Config(variants, left_out, {k: v for k, v in document if k in BLOCKS and v})
+
+
+def _scenes_of_set(
+    name: str, parts: YamlMapping, ball: YamlMapping | None
+) -> tuple[dict[str, Picture], list[str]]:
+    """Return the scenes of a set that can be checked, and a line for each mistake."""
+    declared, found, lines = SETS[name], dict[str, Picture](), list[str]()
+    key = declared.key or name
+    given = imported(declared.scenes)() if declared.scenes else parts.get(key, {})
+    if declared.kind:
+        kind = {"picture": declared.kind}
+        given = {
+            s: kind | block if isinstance(block, dict) else block for s, block in given.items()
+        }
+    for scene, block in given.items():
+        checked, mistakes = scenes.check_scene(block, ball, (key, scene), given)
+        lines += mistakes
+        if scene in all_commands() or scene == "all":
+            lines.append(refusal((key,), scene, "a name that is no command of ./reproduce"))
+        if name != PAPER and scene in parts.get("scenes", {}):
+            lines.append(refusal((key,), scene, "a name that no scene of the paper has"))
+        if checked:
+            found[scene] = checked
+    return found, lines

@@ -3,22 +3,39 @@
 What is allowed at a place is read from the JSON schema that pydantic makes from the declaration.
 """
 
+from contextlib import suppress
 from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from ...records.names import suggestion
-from ..schema.fields import NAME, TAGS, Block, YamlMapping, fields_of
+from ..schema.fields import NAME, TAGS, TYPES_ALONE, Block
 from .words import Place, dotted, refusal
 
 _UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the second for keys not text
-_OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
+AnyBlock = TypeVar("AnyBlock", bound=Block)
 
 
-def mistakes(model: type[Block], given: object, place: Place) -> list[str]:
-    """Return a line for each mistake in `given`, which stands at `place`; the topmost first."""
-    errors = _errors(model, given)
+def validate(
+    model: type[AnyBlock], given: object, place: Place
+) -> tuple[AnyBlock | None, list[str]]:
+    """Return a block and a line for each mistake in it, the topmost first.
+
+    The block is None if a value has the wrong type, so that no check between fields is possible.
+    """
+    try:
+        return model.model_validate(given), []
+    except ValidationError as error:
+        lines = _lines(model, error, place)
+    with suppress(ValidationError):
+        return model.model_validate(given, context=TYPES_ALONE), lines
+    return None, lines
+
+
+def _lines(model: type[Block], error: ValidationError, place: Place) -> list[str]:
+    """Return a line for each mistake in a block, which stands at `place`."""
+    errors = _errors(error)
     # A misspelt key leaves the right one missing: report the former only, and first.
     rank = dict.fromkeys(_UNKNOWN_KEY, 0) | {"missing": 1}
     errors.sort(key=lambda error: (len(error[0]), rank.get(error[1], 2)))
@@ -30,18 +47,6 @@ def mistakes(model: type[Block], given: object, place: Place) -> list[str]:
         if not (kind == "missing" and loc[:-1] in misspelt)
         and (kind in _UNKNOWN_KEY or not any(loc[: len(key)] == key for key in unknown))
     ]
-
-
-def has_types(model: type[Block], given: object) -> bool:
-    """Return whether all values have their types, so that checks between fields are possible."""
-    return {kind for _, kind, _ in _errors(model, given)} <= _OF_VALUES
-
-
-def complete(model: type[Block], given: YamlMapping) -> YamlMapping:
-    """Add the defaults of the fields that a correct block leaves out."""
-    fields = {key: field for key, field in fields_of(model).items() if not field.is_required()}
-    defaults = {key: field.default for key, field in fields.items() if field.default is not None}
-    return defaults | given
 
 
 def allowed_at(model: type[Block], loc: Place) -> str:
@@ -77,21 +82,17 @@ def _node(model: type[Block], loc: Place) -> dict[str, Any]:
     return node
 
 
-def _errors(model: type[Block], given: object) -> list[tuple[Place, str, Any]]:
-    """Return the location, pydantic's name and the value of each error."""
-    try:
-        model.model_validate(given)
-    except ValidationError as error:
-        found = error.errors(include_url=False, include_context=False)
-        errors = [(e["loc"], e["type"], e["input"]) for e in found]
-        # A key that is not among those of a mapping is unknown, as in a block.
-        return [
-            (loc[:-1], _UNKNOWN_KEY[0], value)
-            if kind == "literal_error" and loc[-1] == "[key]"
-            else (loc, kind, value)
-            for loc, kind, value in errors
-        ]
-    return []
+def _errors(error: ValidationError) -> list[tuple[Place, str, Any]]:
+    """Return the location, pydantic's name and the value of each mistake."""
+    found = error.errors(include_url=False, include_context=False)
+    errors = [(e["loc"], e["type"], e["input"]) for e in found]
+    # A key that is not among those of a mapping is unknown, as in a block.
+    return [
+        (loc[:-1], _UNKNOWN_KEY[0], value)
+        if kind == "literal_error" and loc[-1] == "[key]"
+        else (loc, kind, value)
+        for loc, kind, value in errors
+    ]
 
 
 def _line(model: type[Block], loc: Place, kind: str, value: object, place: Place) -> str:

@@ -8,18 +8,19 @@ by L^2; bounds are checked before that.
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ...declaration import extensions
-from ..schema.fields import YamlMapping
-from ..schema.kinds import KINDS
-from ..schema.scene import CompletionError, Picture, exact
-from ..schema.sets import SETS
-from .mistakes import complete, has_types, mistakes
-from .words import Place, dotted, refusal, unknown
+from pydantic import create_model
 
-_OF_ALL_SCENES = ("ball", "energy", "method")
+from ...declaration import extensions
+from ..schema.fields import TYPES_ALONE, Point, YamlMapping
+from ..schema.kinds import KINDS
+from ..schema.scene import CompletionError, CrossFieldError, OfOrbits, Picture, Scene, exact
+from ..schema.sets import SETS
+from ..schema.variant import Variant
+from .mistakes import validate
+from .words import Place, dotted, refusal, unknown
 
 
 def reserved_names() -> list[str]:
@@ -29,117 +30,129 @@ def reserved_names() -> list[str]:
     return [*dict.fromkeys([*SETS, "compare", "report", *folders])]
 
 
-def checked(
-    given: object,
-    ball: YamlMapping | None,
-    place: Place,
-    others: Mapping[str, Any],
-) -> tuple[YamlMapping, list[str]]:
-    """Return a scene's complete block and a line for each mistake; with mistakes the block is {}.
+def check_scene(
+    given: object, ball: YamlMapping | None, place: Place, others: Mapping[str, Any]
+) -> tuple[Picture | None, list[str]]:
+    """Return a complete scene and a line for each mistake; None if its values have wrong types.
 
     `ball` is the ball of a scene without one, or None if it has mistakes itself. `others` are the
     scenes of its set, over one of which it may be drawn.
     """
     if not isinstance(given, dict):
-        return {}, [refusal(place, given, "a mapping that begins with picture")]
+        return None, [refusal(place, given, "a mapping that begins with picture")]
     words, picture = f"one of {', '.join(KINDS)}", (*place, "picture")
     if "picture" not in given:
-        return {}, [f"{dotted(picture)}: missing: expected {words}"]
+        return None, [f"{dotted(picture)}: missing: expected {words}"]
     if not isinstance(given["picture"], str) or given["picture"] not in KINDS:
-        return {}, [refusal(picture, given["picture"], words)]
-    kind = KINDS[given["picture"]]
-    lines = mistakes(kind, given, place)
-    of_ball = "ball" in kind.model_fields
-    if (ball is None and of_ball) or (lines and not has_types(kind, given)):
-        return {}, lines
+        return None, [refusal(picture, given["picture"], words)]
+    scene, lines = _read_scene(_with_ball(given, ball), place, others)
+    errors = scene.cross_field_errors() if scene else ()
+    return scene, lines + [refusal((*place, *at), value, allowed) for at, value, allowed in errors]
+
+
+def _with_ball(given: YamlMapping, ball: YamlMapping | None) -> YamlMapping:
+    """Return a scene with a ball, if there is one and the scene's kind has a ball."""
+    of_ball = ball and issubclass(KINDS[given["picture"]], Scene)
+    return {"ball": ball} | given if of_ball else given
+
+
+def _read_scene(
+    given: YamlMapping, place: Place, others: Mapping[str, Any]
+) -> tuple[Picture | None, list[str]]:
+    """Return a scene with shorthands written out, or None, and a line for each wrong field."""
+    scene, lines = validate(KINDS[given["picture"]], given, place)
+    if scene is None or (isinstance(scene, Scene) and scene.ball is None):
+        return None, lines
     try:
-        below = _below(kind, given, others) if kind.drawn_over else {}
-        block = kind.completed(below | complete(kind, ({"ball": ball} if of_ball else {}) | given))
+        return (_drawn_over(scene, others) if scene.drawn_over else scene).completed(), lines
     except CompletionError as error:
-        return {}, [refusal((*place, *error.place), error.value, error.allowed)]
-    for where, value, allowed in kind.cross_field_errors(block):
-        lines.append(refusal((*place, *where), value, allowed))
-    return ({}, lines) if lines else (block, [])
+        at, value, allowed = error.args
+        return None, [*lines, refusal((*place, *at), value, allowed)]
 
 
-def of_kind(block: object, kind: str) -> object:
-    """Return a scene that is of this kind if it does not say otherwise."""
-    return {"picture": kind} | block if isinstance(block, dict) else block
+def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
+    """Return a scene with the fields of the scene over which it is drawn."""
+    name = scene.as_mapping()["over"]
+    kind, over = KINDS[scene.picture], KINDS[scene.drawn_over]
+    given = others.get(name)
+    if not isinstance(given, dict) or given.get("picture") != scene.drawn_over:
+        raise CompletionError(("over",), name, f"a scene of kind {scene.drawn_over}")
+    below, lines = validate(over, given, ())
+    if below is None or lines:
+        raise CompletionError(("over",), name, "a scene without mistakes")
+    both: type[Picture] = create_model(kind.__name__, __base__=(kind, over))
+    fields = below.completed().as_mapping() | scene.as_mapping()
+    return both.model_validate(fields, context=TYPES_ALONE)
 
 
-def _below(kind: type[Picture], given: YamlMapping, others: Mapping[str, Any]) -> YamlMapping:
-    """Return the complete block of the scene over which another one is drawn."""
-    below, over = others.get(given["over"]), KINDS[kind.drawn_over]
-    if not isinstance(below, dict) or below.get("picture") != kind.drawn_over:
-        raise CompletionError(("over",), given["over"], f"a scene of kind {kind.drawn_over}")
-    if mistakes(over, below, ()):
-        raise CompletionError(("over",), given["over"], "a scene without mistakes")
-    return over.completed(complete(over, below))
-
-
-def derive(
-    document: YamlMapping, name: str, given: YamlMapping
-) -> tuple[YamlMapping, dict[str, str], list[str]]:
+def derive_variant(
+    scenes: YamlMapping, ball: YamlMapping, name: str, variant: Variant
+) -> tuple[dict[str, Picture], dict[str, str], list[str]]:
     """Return the scenes of a variant, why others are left out, and a line for each mistake.
 
-    A scene is left out if the values that the variant gives for all scenes do not suit it. It is a
-    mistake if they suit no scene, or if what the variant gives for the scene itself is wrong.
+    `scenes` are those of the paper as they are given, and `ball` is theirs. A scene is left out if
+    the values that the variant gives for all scenes do not suit it. It is a mistake if they suit no
+    scene, or if what the variant gives for the scene itself is wrong.
     """
     place = ("variants", name)
     if name in (reserved := reserved_names()):
         return {}, {}, [refusal(place[:-1], name, f"a name other than {', '.join(reserved)}")]
     lines: list[str] = []
-    changes = given.get("scenes", {})
+    changes = variant.scenes or {}
     for scene, change in changes.items():
-        lines += _change_mistakes(document["scenes"], scene, change, (*place, "scenes", scene))
+        lines += _change_mistakes(scenes, scene, change, (*place, "scenes", scene))
     if lines:
         return {}, {}, lines
-    scenes, left_out = {}, {}
+    derived, left_out = dict[str, Picture](), {}
     mistaken: dict[str, list[str]] = {}  # line -> the scenes that the value does not suit
     unsuitable: dict[str, list[str]] = {}
-    for scene, given_block in document["scenes"].items():
+    for scene, given in scenes.items():
         change, where = changes.get(scene, {}), (*place, "scenes", scene)
-        block = {"ball": document["ball"]} | given_block
-        derived = _derived(block, given, change)
-        kind = KINDS[derived["picture"]]
-        wrong = mistakes(kind, derived, where)
+        block = _with_ball(given, ball)
+        picture, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
         lines += wrong
-        if wrong and not has_types(kind, derived):
+        if picture is None:
             continue
-        scenes[scene] = complete(kind, derived)
-        errors = [*kind.cross_field_errors(scenes[scene])]
-        # What the variant gives for the scene itself is wrong where it is, and where all was well.
-        others = complete(kind, _derived(block, given, {}))
-        excused = {at[0] for at, *_ in kind.cross_field_errors(others)} - change.keys()
-        own = [error for error in errors if error[0][0] not in excused]
+        errors = [*picture.cross_field_errors()]
+        unchanged, _ = _read_scene(_merge_variant(block, variant, {}), where, scenes)
+        own = _errors_of_change(errors, unchanged, change)
         for at, value, allowed in own or errors:
-            shared = at[0] in given and at[0] not in change
+            shared = at[0] in variant.model_fields_set and at[0] not in change
             line = refusal((*(place if shared else where), *at), value, allowed)
             (mistaken if own else unsuitable).setdefault(line, []).extend([scene] * shared)
         if errors and not own:
             left_out[scene] = f"left out: {refusal(*errors[0])}"
-            del scenes[scene]
-    if not scenes:
+        else:
+            derived[scene] = _scaled(picture, variant.scale or 1)
+    if not derived:
         mistaken |= unsuitable
     lines += [f"{line}, for {', '.join(for_)}" if for_ else line for line, for_ in mistaken.items()]
-    scale = given.get("scale", 1)
-    if lines or scale == 1:
-        return scenes, left_out, lines
-    return {scene: _scaled(block, scale) for scene, block in scenes.items()}, left_out, []
+    return derived, left_out, lines
 
 
-def _derived(block: YamlMapping, variant: YamlMapping, change: YamlMapping) -> YamlMapping:
+def _errors_of_change(
+    errors: Iterable[CrossFieldError], unchanged: Picture | None, change: YamlMapping
+) -> list[CrossFieldError]:
+    """Return the errors in fields that a variant changes for one scene, or that had none before.
+
+    `unchanged` is the scene with the values that the variant gives for all scenes alone.
+    """
+    before = {at[0] for at, *_ in unchanged.cross_field_errors()} if unchanged else set()
+    return [error for error in errors if error[0][0] not in before - change.keys()]
+
+
+def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
     """Merge a variant's values into a scene's block, which includes its ball."""
-    replaced = {key: variant[key] for key in _OF_ALL_SCENES if key in variant}
-    if "method" in variant:  # methods are replaced as a whole
-        block = {key: value for key, value in block.items() if key != "method"}
-    derived: YamlMapping = _merged(_merged(block, replaced), change)
     kind = KINDS[block["picture"]]
+    replaced = variant.as_mapping(("ball", "energy", "method")) if issubclass(kind, Scene) else {}
+    if "method" in replaced:  # methods are replaced as a whole
+        block = {key: value for key, value in block.items() if key != "method"}
+    derived: YamlMapping = _merge(_merge(block, replaced), change)
     framing = ("ball", "energy", *kind.axes_depend_on, *kind.along.values())
-    moved = variant.get("scale", 1) != 1 or any(block.get(f) != derived.get(f) for f in framing)
-    if moved:
-        derived.pop("axes", None)
-    return derived | ({"axes": change["axes"]} if moved and "axes" in change else {})
+    if variant.scale in (None, 1) and all(block.get(f) == derived.get(f) for f in framing):
+        return derived
+    derived.pop("axes", None)
+    return derived | {key: value for key, value in change.items() if key == "axes"}
 
 
 def _change_mistakes(
@@ -154,32 +167,34 @@ def _change_mistakes(
     return []
 
 
-def _merged(old: Any, new: Any) -> Any:
+def _merge(old: Any, new: Any) -> Any:
     """Merge mappings key by key; replace anything else."""
     if not (isinstance(old, dict) and isinstance(new, dict)):
         return new
-    return old | {key: _merged(old.get(key), value) for key, value in new.items()}
+    return old | {key: _merge(old.get(key), value) for key, value in new.items()}
 
 
-def _scaled(block: YamlMapping, scale: float) -> YamlMapping:
-    """Express a complete block in another unit of length."""
-    ball = block["ball"] | {"g": _times(block["ball"]["g"], scale)}
-    block = block | {"ball": ball}
-    energies = {"energy", "energies", "marks"}
-    if block.get("parameter") == "energy":  # along which something is followed
-        energies |= {"span", "step"}
-    for name in energies & block.keys():
-        block[name] = _times(block[name], scale, scale)
-    if isinstance(block.get("starts"), list):  # fractions of the section stay
-        starts = block["starts"]
-        block["starts"] = [_times(s, scale) if isinstance(s, dict) else s for s in starts]
-    return block
+def _scaled(scene: Picture, scale: float) -> Picture:
+    """Express a scene in another unit of length."""
+    if scale == 1 or not isinstance(scene, Scene):
+        return scene
+    ball = scene.ball.model_copy(update={"g": _times(scene.ball.g, scale)})
+    scaled: YamlMapping = {"ball": ball}
+    energies = ["energy", "energies", "marks"] + ["span", "step"] * scene.along_energy()
+    for name in energies:
+        if (value := getattr(scene, name, None)) is not None:
+            scaled[name] = _times(value, scale, scale)
+    if isinstance(scene, OfOrbits):  # fractions of the section stay
+        starts = scene.starts
+        scaled["starts"] = [_times(s, scale) if isinstance(s, Point) else s for s in starts]
+    return scene.model_copy(update=scaled)
 
 
 def _times(values: Any, *factors: float) -> Any:
     """Multiply decimals as written and round once, so that 3 times 0.01 gives 0.03."""
     if isinstance(values, list):
         return [_times(value, *factors) for value in values]
-    if isinstance(values, dict):
-        return {key: _times(value, *factors) for key, value in values.items()}
+    if isinstance(values, Point):
+        scaled = {key: _times(value, *factors) for key, value in values.as_mapping().items()}
+        return values.model_copy(update=scaled)
     return float(math.prod(map(exact, (values, *factors))))

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Literal
 
-from ..fields import ABSENT, Axis, Window, YamlMapping, allowed, whole
+from ..fields import ABSENT, Axis, Window, allowed, whole
 from ..scene import (
     CrossFieldError,
     OfBranches,
@@ -66,23 +66,25 @@ class Closeup(OfManifolds):
     """Limits and ticks of the axes `x` (position, R) and `xdot` (velocity, omega R). An axis that
     is left out has the limits of the window."""
 
-    @classmethod
-    def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
-        """Check that the orbit has such a point."""
-        yield from super().cross_field_errors(block)
-        last = block["period"] - 1
-        if block["point"] > last:
-            yield ("point",), block["point"], f"a whole number from 0 to period - 1 = {last}"
+    def lengths(self) -> Iterator[tuple[tuple[str, ...], float]]:
+        """Yield the one length of all branches."""
+        yield ("length",), self.length
 
-    @classmethod
-    def hidden(cls, block: YamlMapping) -> Iterator[str]:
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
+        """Check that the orbit has such a point."""
+        yield from super().cross_field_errors()
+        last = self.period - 1
+        if self.point > last:
+            yield ("point",), self.point, f"a whole number from 0 to period - 1 = {last}"
+
+    def hidden(self) -> Iterator[str]:
         """Yield a line for each side of the window that is longer than its axis."""
-        k, g, energy = block["ball"]["k"], block["ball"]["g"], block["energy"]
-        radius = math.sqrt((2 * energy + g * g / k) / k)
-        for name, axis in block.get("axes", {}).items():
-            (low, high), (left, right) = block["window"][name], axis["limits"]
+        k, g = self.ball.k, self.ball.g
+        radius = math.sqrt((2 * self.energy + g * g / k) / k)
+        for name, axis in self.given_axes().items():
+            (low, high), (left, right) = getattr(self.window, name), axis.limits
             if radius * (high - low) > 1.001 * (right - left):  # limits are rounded
-                yield f"window.{name} {[low, high]} is wider than {beyond(name, axis['limits'])}"
+                yield f"window.{name} {[low, high]} is wider than {beyond(name, axis.limits)}"
 
 
 class Exponents(OfRecords):

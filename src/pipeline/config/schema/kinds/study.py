@@ -65,4 +65,4 @@ class MissedImpacts(Picture):
 
     stages = ("missed_all",)
 
-    formats: NoFormats = []  # type: ignore[assignment]
+    formats: NoFormats = []
