@@ -2,9 +2,13 @@
 
 import math
 import re
+from collections.abc import Iterable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
@@ -42,11 +46,13 @@ _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _FLAT = 0.02  # share below which a panel has room for the key
 _STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 _COLUMNS, _LINE = 3, 42  # of a key; pixels: height of its lines
+Entry = tuple[str, str, str]  # of a key: text, colour and mark
+Scene = dict[str, Any]  # a block of the checked config
 method_key = partial(key, columns=_COLUMNS, size=7.0)
 
 
 @style.pinned()
-def work(scene, data):
+def work(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw a work-precision diagram for one set of states: error and failures against cost.
 
     Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
@@ -82,7 +88,7 @@ def work(scene, data):
 
 
 @style.pinned()
-def edges(scene, data):
+def edges(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
     A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
@@ -93,10 +99,12 @@ def edges(scene, data):
     sheet, top = chart_sheet(1075 if flat else 1100 + _LINE * len(methods))
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
-    grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
-    sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
-    maximum = "touch", "depth", sides, name, (-14, -2)
-    for row, (variable, exponent, sides, name, limits) in enumerate((grazing, maximum)):
+    height = "Height of the gap's maximum, + or −"
+    rows = (
+        ("near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)),
+        ("touch", "depth", ("it just touches", "it just misses"), height, (-14, -2)),
+    )
+    for row, (variable, exponent, sides, name, limits) in enumerate(rows):
         x = [float(f"1e-{n}") for n in data[exponent].values]
         across = Axis(limits, range(*limits, 4), "", True)
         for side, text in enumerate(sides):
@@ -120,7 +128,7 @@ def edges(scene, data):
 
 
 @style.pinned()
-def energy(scene, data):
+def energy(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the energy drift of each method, and the impacts missed against the last drift.
 
     In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
@@ -153,7 +161,7 @@ def energy(scene, data):
 
 
 @style.pinned()
-def separation(scene, data):
+def separation(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the distance of each method's orbit from the proved one, from `failures.orbits`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
@@ -168,7 +176,7 @@ def separation(scene, data):
 
 
 @style.pinned()
-def figure_errors(scene, data):
+def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the error of each figure by each method in units of the largest invisible error.
 
     Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
@@ -206,26 +214,26 @@ def figure_errors(scene, data):
     return sheet.figure
 
 
-def chart_sheet(least, entries=()):
+def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
     """Return a sheet for a height in pixels and a key, and the upper end of its first frame."""
     lines = math.ceil(len(entries) / _COLUMNS)
     high = 75 * math.ceil((least + lines * _LINE) / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
 
 
-def _axis_with_zero(low, high, name):
+def _axis_with_zero(low: int, high: int, name: str) -> Axis:
     """Return an axis of decades whose lower end stands for zero."""
     ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
     labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
     return Axis((low, high), ticks, name, True, labels)
 
 
-def _zero_at_end(values, zero):
+def _zero_at_end(values: np.ndarray, zero: int) -> np.ndarray:
     """Raise values to the decade that stands for zero."""
     return np.maximum(values, float(f"1e{zero}"))
 
 
-def _break_above_zero(panel, across=False):
+def _break_above_zero(panel: Panel, across: bool = False) -> None:
     """Mark the gap between zero and the powers of ten on an axis that has both."""
     left, bottom, *_ = panel.frame
     start, level = (left, bottom) if across else (bottom, left)
@@ -236,32 +244,33 @@ def _break_above_zero(panel, across=False):
         panel.sheet.draw(*ends, color=color, lw=points, zorder=3.5)
 
 
-def _entries(names, families):
+def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
     """Return an entry of the key, (text, colour, mark), for each method or family."""
     pairs = zip(names, families, strict=True)
     return [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
 
 
-def _methods_with_merged_scans(data):
+def _methods_with_merged_scans(data: xr.Dataset) -> list[Entry]:
     """Return an entry for each method; scans of one tolerance look alike and share theirs."""
-    entries, scans = _entries(data["name"].values, data["family"].values), {}
+    entries = _entries(data["name"].values, data["family"].values)
+    scans: dict[str, list[int]] = {}  # by tolerance
     for i, name in enumerate(data["name"].values):
         if name.startswith("scan "):
-            scans.setdefault(name.partition(", ")[2], []).append((i, _scan_step(name)))
-    for tolerance, scan in scans.items():
-        if len(scan) > 1:
-            text = _printed(tolerance, f"scan {scan[0][1]} to {scan[-1][1]}")
-            for i, _ in scan:
-                entries[i] = (text, style.BLUE, "o")
+            scans.setdefault(name.partition(", ")[2], []).append(i)
+    for tolerance, same in scans.items():
+        if len(same) > 1:
+            first, last = (_scan_step(data["name"].values[i]) for i in (same[0], same[-1]))
+            for i in same:
+                entries[i] = (_printed(tolerance, f"scan {first} to {last}"), style.BLUE, "o")
     return entries
 
 
-def _scan_step(name):
+def _scan_step(name: str) -> str:
     """Return STEP of a method named "scan STEP, TOLERANCE"."""
     return name.partition(", ")[0].removeprefix("scan ")
 
 
-def _printed(name, family):
+def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
     family = family.removesuffix(" + bisection").removesuffix(" direction")
     setting = re.search(r"1e-0?(\d+)$", name)
