@@ -9,7 +9,7 @@ from pseudorigid.dynamics.tangent_orbits import begin, propagate_with_tangent
 from pseudorigid.dynamics.verdict import windows
 from study.timing import Call
 
-from .cell import cells, sunflower_points
+from .cell import cells_of_k, sunflower_points
 from .verdicts import random_cells
 
 CELLS = 3, 6  # values of k, and energies of each
@@ -32,7 +32,7 @@ def calls() -> dict[str, Call]:
                 propagate_with_tangent(one, k, 0, 4000, turning, growing, *sums)
 
     return {
-        CELL: Call(lambda: [cells(k, e, 200, 8000) for k, e in plane], len(drawn)),
+        CELL: Call(lambda: [cells_of_k(k, e, 200, 8000) for k, e in plane], len(drawn)),
         "a cell, each orbit alone and to its end": Call(
             each_to_the_end, len(drawn), CELL, "at least 8"
         ),
