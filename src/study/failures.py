@@ -39,9 +39,8 @@ ORBIT_METHODS = (
 def edges(methods: Sequence[Method], count: int = 200) -> xr.Dataset:
     """Compute the share of wrong or missing roots near grazing and near misses.
 
-    `count` states are used at each distance from grazing and each height of a maximum. In the
-    dataset near (method, side, distance) is against s = xdot + udot, and touch (method, side,
-    depth) against the height of a maximum of the gap.
+    `count` states are used at each distance from grazing s = xdot + udot, for near (method, side,
+    distance), and at each height of a maximum of the gap, for touch (method, side, depth).
     """
 
     def failing(columns: np.ndarray) -> np.ndarray:
@@ -94,11 +93,9 @@ def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
 def orbits(impacts: int = MILLION) -> xr.Dataset:
     """Compare the methods in this package's arithmetic along the chaotic orbit.
 
-    The dataset has missed, evaluations (method): impacts of the certified orbit that the method
-    flies past, and what it spends on one; drift (method, record): the largest relative error of the
-    energy so far on the method's own orbit; apart (method, impact): median over starts of the
-    distance in x between the method's orbit and the proved one; agree (one, other): for how many
-    impacts two methods' orbits stay within SEPARATION, the last row and column the proved orbit's.
+    `missed` and `evaluations` are those along the certified orbit, `drift` is that of the method's
+    own orbit. `apart` is the median over starts of the distance in x from the proved orbit, and
+    `agree` the number of impacts for which two orbits stay within SEPARATION.
     """
     start = states.chaotic()
     columns, truth = certified_orbit(BALL, start, impacts)

@@ -92,7 +92,7 @@ def figure_errors(
     for name, block in scenes.items():
         data = {stage: dataset for (stage, scene), dataset in artifacts.items() if scene == name}
         rows.append(MEASURES[measures[name]](block, **data))
-    of = {name: np.array([getattr(row, name) for row in rows]) for name in PictureErrors._fields}
+    of = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
     whole = (of["missed"] == 0) | ~of["misses_show"][:, None]
     good = (of["error"] <= of["limit"][:, None]) & whole
     cheapest = np.where(good, of["evaluations"], np.inf).argmin(axis=1)

@@ -5,7 +5,6 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib.colors import ListedColormap
 
 from pseudorigid.figures.axes.limits import ticks
 from pseudorigid.figures.axes.panel import Panel, log10
@@ -55,11 +54,9 @@ def palette(name: str) -> np.ndarray:
     if name == GREYS:
         levels = _LIGHTEST + (_DARKEST - _LIGHTEST) * np.arange(_COLOURS) // (_COLOURS - 1)
         return np.repeat(levels[:, None], 3, axis=1).astype(np.uint8)
-    listed = matplotlib.colormaps[name]
-    assert isinstance(listed, ListedColormap)
-    table = np.array(listed.colors)
-    rows = table[(2 * np.arange(_COLOURS) + 1) * len(table) // (2 * _COLOURS)]
-    return (rows * 255 + 0.5).astype(np.uint8)
+    table = matplotlib.colormaps[name]
+    rows = table((2 * np.arange(_COLOURS) + 1) * table.N // (2 * _COLOURS))
+    return (rows[:, :3] * 255 + 0.5).astype(np.uint8)
 
 
 def _paste(sheet: Sheet, left: int, bottom: int, image: np.ndarray) -> None:
