@@ -92,23 +92,23 @@ def figure_errors(
     for name, block in scenes.items():
         data = {stage: dataset for (stage, scene), dataset in artifacts.items() if scene == name}
         rows.append(MEASURES[measures[name]](block, **data))
-    of = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
-    whole = (of["missed"] == 0) | ~of["misses_show"][:, None]
-    good = (of["error"] <= of["limit"][:, None]) & whole
-    cheapest = np.where(good, of["evaluations"], np.inf).argmin(axis=1)
+    column = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
+    whole = (column["missed"] == 0) | ~column["misses_show"][:, None]
+    good = (column["error"] <= column["limit"][:, None]) & whole
+    cheapest = np.where(good, column["evaluations"], np.inf).argmin(axis=1)
     axes = [block["axes"][row.axis] for block, row in zip(scenes.values(), rows, strict=True)]
-    width = of["stroke"] * DPI / 72 * of["pixel"]
+    width = column["stroke"] * DPI / 72 * column["pixel"]
     each = ("scene", "method")
     variables = {
         "scene": ("scene", list(scenes), "scene"),
-        "error": (each, of["error"], "error of the picture in pixels", "pixel"),
-        "missed": (each, of["missed"], "impacts flown past"),
-        "evaluations": (each, of["evaluations"], "evaluations an impact"),
-        "impacts": ("scene", of["impacts"], "impacts computed for the comparison"),
-        "pixel": ("scene", of["pixel"], "a pixel in units of the axis", _AXIS),
+        "error": (each, column["error"], "error of the picture in pixels", "pixel"),
+        "missed": (each, column["missed"], "impacts flown past"),
+        "evaluations": (each, column["evaluations"], "evaluations an impact"),
+        "impacts": ("scene", column["impacts"], "impacts computed for the comparison"),
+        "pixel": ("scene", column["pixel"], "a pixel in units of the axis", _AXIS),
         "line": ("scene", width, "width of a line or dot in units of the axis", _AXIS),
         "digit": ("scene", list(map(_last_digit, axes)), "last digit of the axis' labels", _AXIS),
-        "limit": ("scene", of["limit"], "error that the picture can hide, in pixels", "pixel"),
+        "limit": ("scene", column["limit"], "error that the picture can hide, in pixels", "pixel"),
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
         "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
     }
@@ -122,6 +122,7 @@ def _last_digit(axis: Block) -> float:
 
 
 def _portrait(block: Block) -> PictureErrors:
+    """Measure the drift of the energy, as a change of the section's radius."""
     ball, orbits = _orbits(block)
     pixel = 1.0 / Box(block).view.scale
     _, radius = ball.section(block["energy"])
@@ -135,6 +136,7 @@ def _portrait(block: Block) -> PictureErrors:
 
 
 def _exponents(block: Block) -> PictureErrors:
+    """Measure the change of the exponents' mean."""
     ball, orbits = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
     means = [
@@ -154,6 +156,7 @@ def _vector_exponent(method: CountedMethod, ball: Ball, state: State, impacts: i
 
 
 def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
+    """Measure the error of height and time at the impacts."""
     ball = Ball(**block["ball"])
     orbit = of_type(periodic, block["type"])
     x, xdot, udot = states_of(orbit)[:, 0].tolist()
@@ -174,6 +177,7 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
+    """Measure the error of an impact on the branches, summed over later impacts."""
     ball = Ball(**block["ball"])
     pixel = 1.0 / Box(block).view.scale if "view" in block else _pixels(closeup.plane(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))

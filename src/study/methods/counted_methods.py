@@ -111,6 +111,7 @@ class CountedMethod(Method):
 
 
 def _parameters(ball: Ball) -> Parameters:
+    """Return the numbers of a ball that compiled methods take."""
     return ball.k, ball.g, impact_coefficients(ball.k)
 
 

@@ -39,7 +39,7 @@ def small_tree(folder):
 
 
 def hashes(tree):
-    files = sorted((tree.path / "results" / "sweep").rglob("*.nc"))
+    files = sorted((tree.path / "results" / "atlas").rglob("*.nc"))
     return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
@@ -105,4 +105,4 @@ def test_a_rerun_after_the_nodes_daemon_died_finishes_with_the_same_bytes(cluste
     status, output = finish(begin(tree, cluster))
     assert status == 0, output
     assert hashes(tree) == local
-    assert not list((tree.path / "results/sweep").rglob("*.part"))
+    assert not list((tree.path / "results/atlas").rglob("*.part"))

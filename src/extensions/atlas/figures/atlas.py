@@ -38,7 +38,7 @@ QUOTATION = (
 )
 LEFT, WIDE, HIGH = 115, 800, 640  # pixels: the left of a plane's frame, and its largest size
 _SIZE = 6.0  # points: text beside lines
-_NAME = 46  # pixels: the room that the name of a resonance needs
+_NAME_WIDTH = 46  # pixels: the room that the name of a resonance needs
 _DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
 Sweep = dict[str, Any]  # a block of the checked config
 
@@ -183,7 +183,7 @@ def _apart(centres: list[float]) -> list[float]:
     order = sorted(range(len(centres)), key=lambda i: centres[i])
     moved = list(centres)
     for left, right in pairwise(order):
-        push = 0.5 * max(0.0, _NAME - (moved[right] - moved[left]))
+        push = 0.5 * max(0.0, _NAME_WIDTH - (moved[right] - moved[left]))
         moved[left], moved[right] = moved[left] - push, moved[right] + push
     return moved
 
