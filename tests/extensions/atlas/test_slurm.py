@@ -29,7 +29,9 @@ def local(tmp_path_factory):
     tree = small_tree(tmp_path_factory.mktemp("local"))
     result = tree.run("sweep", "--cores", "1")
     assert result.returncode == 0, result.stdout
-    return hashes(tree)
+    made = hashes(tree)
+    assert len(made) == 1 + len(SWEEP["k"]) * len(SWEEP["energy"])
+    return made
 
 
 def small_tree(folder):
