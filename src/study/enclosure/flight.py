@@ -6,12 +6,11 @@ parabolas that lie above f.
 """
 
 import math
-from dataclasses import dataclass
-from typing import Any, Generic
+from typing import NamedTuple
 
 from flint import acb, arb, ctx
 
-from .jets import Jet, Value
+from .jets import Jet
 
 _MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly touches the floor
 # A step is shortened by far more than the rounding of the parabola's root, so that the check in
@@ -31,80 +30,79 @@ class UndecidedError(NotProvedError, ArithmeticError):
     """A question that cannot be decided for this set of states at this precision."""
 
 
-@dataclass(frozen=True)
-class Flight(Generic[Value]):
+class Flight(NamedTuple):
     """Flights after an impact, eq. (26), and their gap f(t), eq. (21).
 
     x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it.
     """
 
-    x: Value
-    b: Value
-    c: Value
-    s: Value
+    x: arb | acb | Jet
+    b: arb | acb | Jet
+    c: arb | acb | Jet
+    s: arb | acb | Jet
     g: arb
 
-    def derivatives(self, t: Value) -> tuple[Value, Value, Value, Value]:
-        """Return f, f', f'' and f''' at t."""
+    def derivatives(self, t: arb | Jet) -> tuple:
+        """f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
         x, c = self.x, self.c
-        height, slope = self._height_and_slope(t, sine, cosine)
-        return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
+        first_two = self._height_and_slope(t, sine, cosine)
+        return *first_two, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
-    def height(self, t: Value) -> Value:
-        """Return f at t."""
-        return self._height_and_slope(t, *t.sin_cos())[0]
+    def height_and_slope(self, t: arb | acb | Jet) -> tuple:
+        """f and f' at t."""
+        return self._height_and_slope(t, *t.sin_cos())
 
-    def slope(self, t: Value) -> Value:
-        """Return f' at t."""
-        return self._height_and_slope(t, *t.sin_cos())[1]
+    def height(self, t: arb | acb | Jet) -> arb | acb | Jet:
+        """f at t."""
+        return self.height_and_slope(t)[0]
 
-    def _height_and_slope(self, t: Value, sine: Value, cosine: Value) -> tuple[Value, Value]:
-        """Return f and f' at t, with sine and cosine of t."""
+    def slope(self, t: arb | acb | Jet) -> arb | acb | Jet:
+        """f' at t."""
+        return self.height_and_slope(t)[1]
+
+    def _height_and_slope(self, t, sine, cosine):
         versine = 1 - cosine
         height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
         return height, self.g * t - self.s - self.c * versine + self.x * sine
 
-    def end(self, tau: Value) -> tuple[Value, Value, Value]:
+    def end(self, tau: arb | acb | Jet) -> tuple:
         """Return x, xdot and udot at the end of flights of this duration, eq. (28)."""
         sine, cosine = tau.sin_cos()
         x, c = self.x, self.c
         return x * cosine - c * sine, self.b + self.g * tau, x * sine + c * cosine
 
-    def rounded(self: "Flight[arb]") -> "Flight[arb]":
+    def rounded(self) -> "Flight":
         """Return the flights in balls of the context's precision."""
-        return Flight(+self.x, +self.b, +self.c, +self.s, +self.g)
+        return Flight(*(+part for part in self))
 
-    def constant(self: "Flight[Jet]") -> "Flight[Any]":
+    def constant(self) -> "Flight":
         """Return the flights of the constant terms of jets."""
-        x, b, c, s = (part.constant for part in (self.x, self.b, self.c, self.s))
-        return Flight(x, b, c, s, self.g)
+        return Flight(*(part.constant for part in self[:-1]), self.g)
 
-    def first_root(self) -> Value:
+    def first_root(self) -> arb | Jet:
         """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
 
         The ball contains the first root, which is simple, for every choice of parameters in the
         balls; for jets it is the Taylor series of that root. Raises UndecidedError where an earlier
         touch of the floor cannot be excluded, s may be zero, or g is not positive.
         """
-        flight: Flight[Any] = self
         if isinstance(self.x, Jet):
-            return flight.expand(flight.constant().first_root())
-        root: Any = _refine(flight, *_isolate(flight))
-        return root
+            return self.expand(self.constant().first_root())
+        return _refine(self, *_isolate(self))
 
-    def expand(self: "Flight[Jet]", root: arb | acb) -> Jet:
+    def expand(self, root: arb | acb) -> Jet:
         """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
         time, order = Jet.constant_of(self.x.algebra, root), 0
         while order < self.x.algebra.order:
-            height, slope = self._height_and_slope(time, *time.sin_cos())
+            height, slope = self.height_and_slope(time)
             height.coefficients[0] = 0 * root
             time = time - height / slope
             order = 2 * order + 1
         return time
 
 
-def launch(k: arb, g: arb, x: Value, v: Value, w: Value, s: Value) -> Flight[Value]:
+def launch(k: arb, g: arb, x: arb | Jet, v: arb | Jet, w: arb | Jet, s: arb | Jet) -> Flight:
     """Return the flight after an impact at x with the velocities v and w, eq. (25).
 
     s is v + w, which the sum of two balls would round.
@@ -112,7 +110,7 @@ def launch(k: arb, g: arb, x: Value, v: Value, w: Value, s: Value) -> Flight[Val
     return Flight(x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s, g)
 
 
-def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight[arb], arb]:
+def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight, arb]:
     """Return flights from points of the rim, s = 0, x = -g - beyond, and their first root.
 
     Raises UndecidedError as `first_root` does, and where not beyond >= 0: there the ball stays on
@@ -127,7 +125,7 @@ def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight[arb], arb]:
     return flight, _refine(flight, *_isolate(flight, start))
 
 
-def _isolate(flight: Flight[arb], start: arb | None = None) -> tuple[arb, arb]:
+def _isolate(flight: Flight, start: arb | None = None) -> tuple[arb, arb]:
     """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0.
 
     `start` is a time up to which f < 0 is known.
@@ -145,7 +143,7 @@ def _isolate(flight: Flight[arb], start: arb | None = None) -> tuple[arb, arb]:
         bits = min(2 * bits, most)
 
 
-def _refine(flight: Flight[arb], low: arb, high: arb) -> arb:
+def _refine(flight: Flight, low: arb, high: arb) -> arb:
     """Narrow a root by interval Newton, T = t - f(t)/f'(T), with twice the bits at each level."""
     root = low.union(high)
     levels = [ctx.prec]
@@ -170,7 +168,7 @@ def _refine(flight: Flight[arb], low: arb, high: arb) -> arb:
     return root
 
 
-def _march(flight: Flight[arb], start: arb | None) -> tuple[arb, arb]:
+def _march(flight: Flight, start: arb | None) -> tuple[arb, arb]:
     """Isolate the first root at the context's precision."""
     amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
     curvature_bound, jerk_bound = (flight.g + amplitude).upper(), amplitude.upper()
@@ -186,24 +184,22 @@ def _march(flight: Flight[arb], start: arb | None) -> tuple[arb, arb]:
             high = (t - 2 * height.lower() / slope.lower()).mid()
             if flight.slope(t.union(high)) > 0 and flight.height(high) > 0:
                 return t, high
-        known_jerk = None if count < _PLAIN_STEPS else jerk.upper()
-        step = _step(height, slope, curvature, curvature_bound, jerk_bound, known_jerk)
+        jerk = None if count < _PLAIN_STEPS else jerk.upper()
+        step = _step(height, slope, curvature, curvature_bound, jerk_bound, jerk)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
         t = (t + step).lower()  # the parabola is known to be negative up to here
     raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
-def _step(
-    height: arb, slope: arb, curvature: arb, curvature_bound: arb, jerk_bound: arb, jerk: arb | None
-) -> arb:
+def _step(height, slope, curvature, curvature_bound, jerk_bound, jerk=None):
     """Return a time within which f stays negative, from f, f', f'' and perhaps f''' here, or 0."""
     # f(t + h) <= f + f' h + m h^2/2 for h <= reach, m = min(mean_curvature(reach), g + A)
     f, d, m = (float(a) for a in (height.upper(), slope.upper(), curvature_bound))
     if not f < 0.0:
-        return arb(0)
+        return 0
 
-    def mean_curvature(reach: arb) -> arb:
+    def mean_curvature(reach):
         if jerk is None:
             return (curvature + jerk_bound * reach / 3).upper()
         growth = max(jerk, arb(0)) + jerk_bound * reach / 4
@@ -218,18 +214,18 @@ def _step(
         curvature_bound = bound if bound > 0 else arb(0)
     root = _parabola_root(f, d, float(curvature_bound))
     step = arb(min(_STEP_FACTOR * root, float(reach)))
-    return step if height + step * (slope + step * curvature_bound / 2) < 0 else arb(0)
+    return step if height + step * (slope + step * curvature_bound / 2) < 0 else 0
 
 
 def _parabola_root(f: float, d: float, m: float) -> float:
-    """Return the positive root of f + d h + m h^2/2, f < 0 and m >= 0; infinity if none."""
+    """Positive root of f + d h + m h^2/2 for f < 0 and m >= 0; infinite where there is none."""
     root = math.sqrt(d * d - 2.0 * m * f)
     if d > 0.0:
         return -2.0 * f / (d + root)
     return (root - d) / m if m > 0.0 else math.inf
 
 
-def _first_step(flight: Flight[arb], jerk_bound: arb) -> arb:
+def _first_step(flight: Flight, jerk_bound: arb) -> arb:
     """Return a time up to which f < 0.
 
     f/t <= -s + (g + x) t/2 + A t^2/6; where s = 0 = g + x, f/t^3 <= -c/6 + A t/24.
@@ -251,7 +247,7 @@ def _first_step(flight: Flight[arb], jerk_bound: arb) -> arb:
     return t
 
 
-def _long_flight(flight: Flight[arb], amplitude: arb) -> tuple[arb, arb] | None:
+def _long_flight(flight: Flight, amplitude: arb) -> tuple[arb, arb] | None:
     """Return the interval on which f <= x + A + b t + g t^2/2 < 0, or None."""
     b = -flight.s - flight.c
     height = flight.x + amplitude

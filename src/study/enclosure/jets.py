@@ -1,19 +1,11 @@
 """Truncated Taylor series in a few variables, with balls as coefficients."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import accumulate, product
+from itertools import product
 from math import prod
-from operator import mul
-from typing import Any, TypeVar
 
 from flint import acb, arb
-
-# Coefficients are arb or acb, all of a jet of the same type.
-Coefficient = Any
-Value = TypeVar("Value", arb, acb, "Jet")
-Powers = tuple[int, ...]  # of the variables of a monomial
 
 
 @dataclass(frozen=True)
@@ -21,8 +13,8 @@ class Algebra:
     """Monomials of total degree up to `order`, sorted by degree, and their multiplication table."""
 
     order: int
-    monomials: tuple[Powers, ...]
-    products: tuple[tuple[int, int, int], ...]  # (i, j, k): monomial i times j is monomial k
+    monomials: tuple  # the exponents of each
+    products: tuple  # (i, j, k): monomial i times monomial j is monomial k
 
 
 @cache
@@ -43,7 +35,7 @@ def algebra_with_parameter(variables: int, order: int, parameter_order: int) -> 
     return _algebra(order + parameter_order, [(*p, n) for p in monomials for n in powers])
 
 
-def _algebra(order: int, monomials: list[Powers]) -> Algebra:
+def _algebra(order: int, monomials: list[tuple]) -> Algebra:
     """Return the Algebra of these monomials, with products of others left out."""
     monomials.sort(key=lambda p: (sum(p), [-power for power in p]))
     index = {powers: i for i, powers in enumerate(monomials)}
@@ -59,21 +51,21 @@ def _algebra(order: int, monomials: list[Powers]) -> Algebra:
 class Jet:
     """Truncated Taylor series: coefficients, arb or acb, of the algebra's monomials in order."""
 
-    def __init__(self, algebra: Algebra, coefficients: list[Coefficient]):
+    def __init__(self, algebra: Algebra, coefficients: list):
         self.algebra, self.coefficients = algebra, coefficients
 
     @classmethod
-    def constant_of(cls, algebra: Algebra, value: Coefficient) -> "Jet":
-        """Return the series of a constant."""
+    def constant_of(cls, algebra: Algebra, value: arb | acb) -> "Jet":
+        """The series of a constant."""
         return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
 
     @classmethod
-    def plane(cls, order: int, *values: Coefficient) -> list["Jet"]:
-        """Return the two series value + variable, for values of the variables."""
+    def plane(cls, order: int, *values: arb | acb) -> list["Jet"]:
+        """The two series value + variable, for values of the variables."""
         return cls.series(algebra(2, order), *values)
 
     @classmethod
-    def series(cls, algebra: Algebra, *values: Coefficient) -> list["Jet"]:
+    def series(cls, algebra: Algebra, *values: arb | acb) -> list["Jet"]:
         """Return the series value + variable, for a value of each of the algebra's variables."""
         jets = [cls.constant_of(algebra, value) for value in values]
         for place, jet in enumerate(jets):
@@ -83,14 +75,14 @@ class Jet:
         return jets
 
     @property
-    def constant(self) -> Coefficient:
-        """The constant term."""
+    def constant(self) -> arb | acb:
+        """Constant term."""
         return self.coefficients[0]
 
-    def __getitem__(self, powers: Powers) -> Coefficient:
+    def __getitem__(self, powers):
         return self.coefficients[self.algebra.monomials.index(powers)]
 
-    def __add__(self, other: "Jet | Coefficient") -> "Jet":
+    def __add__(self, other):
         mine = self.coefficients
         if isinstance(other, Jet):
             theirs = other.coefficients
@@ -99,20 +91,20 @@ class Jet:
 
     __radd__ = __add__
 
-    def __neg__(self) -> "Jet":
+    def __neg__(self):
         return Jet(self.algebra, [-a for a in self.coefficients])
 
-    def __sub__(self, other: "Jet | Coefficient") -> "Jet":
+    def __sub__(self, other):
         return self + (-other)
 
-    def __rsub__(self, other: Coefficient) -> "Jet":
+    def __rsub__(self, other):
         return (-self) + other
 
-    def __mul__(self, other: "Jet | Coefficient") -> "Jet":
+    def __mul__(self, other):
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a * other for a in self.coefficients])
         mine, theirs = self.coefficients, other.coefficients
-        out: list[Coefficient] = [None] * len(mine)
+        out = [None] * len(mine)
         for i, j, k in self.algebra.products:
             term = mine[i] * theirs[j]
             out[k] = term if out[k] is None else out[k] + term
@@ -120,20 +112,20 @@ class Jet:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: "Jet | Coefficient") -> "Jet":
+    def __truediv__(self, other):
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a / other for a in self.coefficients])
         return self * other._inverse()
 
-    def __rtruediv__(self, other: Coefficient) -> "Jet":
+    def __rtruediv__(self, other):
         return self._inverse() * other
 
-    def _inverse(self) -> "Jet":
+    def _inverse(self):
         value = self.constant
         return self.compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
 
     def sqrt(self) -> "Jet":
-        """Return the square root with positive constant term."""
+        """The square root with positive constant term."""
         value = self.constant
         terms = [value.sqrt()]
         for n in range(self.algebra.order):
@@ -141,11 +133,10 @@ class Jet:
         return self.compose(terms)
 
     def sin_cos(self) -> tuple["Jet", "Jet"]:
-        """Return sine and cosine."""
+        """Sine and cosine."""
         sine, cosine = self.constant.sin_cos()
         cycle = (sine, cosine, -sine, -cosine)
-        terms: list[Coefficient] = []
-        factorial = 1
+        terms, factorial = [], 1
         for n in range(self.algebra.order + 2):
             terms.append(cycle[n % 4] / factorial)
             factorial *= n + 1
@@ -157,15 +148,17 @@ class Jet:
         if not all(jet.constant == 0 for jet in substitutes):
             raise ValueError("a substitute is not 0 at 0: the series would lack terms")
         total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
-        repeated = ([jet] * self.algebra.order for jet in substitutes)
-        powers = [list(accumulate(jets, mul, initial=one)) for jets in repeated]
+        powers = [[one] for _ in substitutes]
+        for row, jet in zip(powers, substitutes, strict=True):
+            for _ in range(self.algebra.order):
+                row.append(row[-1] * jet)
         for monomial, c in zip(self.algebra.monomials, self.coefficients, strict=True):
             first, *rest = (row[i] for row, i in zip(powers, monomial, strict=True))
             total = total + prod(rest, start=first) * c
         return total
 
-    def compose(self, terms: Sequence[Coefficient]) -> "Jet":
-        """Return the sum of terms[n] (self - constant)^n."""
+    def compose(self, terms):
+        """The sum of terms[n] (self - constant)^n."""
         rest = Jet(self.algebra, [0 * self.constant, *self.coefficients[1:]])
         total = Jet.constant_of(self.algebra, terms[-1])
         for term in reversed(terms[:-1]):
@@ -173,7 +166,7 @@ class Jet:
         return total
 
 
-def square_root(square: Value) -> Value:
+def square_root(square: arb | acb | Jet) -> arb | acb | Jet:
     """Return the square root of a ball or a jet with a positive real part; so is the root's."""
     value = square.constant if isinstance(square, Jet) else square
     if not value.real > 0:
@@ -181,7 +174,7 @@ def square_root(square: Value) -> Value:
     if isinstance(value, arb):
         return square.sqrt()
     root = _complex_root(value)
-    if not isinstance(square, Jet):
+    if square is value:
         return root
     total, order = Jet.constant_of(square.algebra, root), 0
     while order < square.algebra.order:

@@ -4,12 +4,12 @@ import re
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Generic, NamedTuple
+from typing import NamedTuple
 
 from flint import acb, arb, ctx, fmpq
 
 from .flight import Flight, UndecidedError
-from .jets import Jet, Value, square_root
+from .jets import Jet, square_root
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
@@ -54,13 +54,13 @@ def fraction_of(value: arb) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
-class Impact(NamedTuple, Generic[Value]):
+class Impact(NamedTuple):
     """The next impact of a point: its x and y, the time of flight tau, and s = xdot + udot."""
 
-    x: Value
-    y: Value
-    tau: Value
-    s: Value
+    x: arb | Jet
+    y: arb | Jet
+    tau: arb | Jet
+    s: arb | Jet
 
 
 @dataclass(frozen=True)
@@ -92,11 +92,9 @@ class Surface:
     g: Fraction
     energy: Fraction
     width: Fraction = Fraction(0)
-    _balls: dict[int, tuple[arb, arb, arb]] = field(
-        default_factory=dict, init=False, compare=False, repr=False
-    )
+    _balls: dict = field(default_factory=dict, compare=False, repr=False)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self):
         for name in ("k", "g", "energy", "width"):
             object.__setattr__(self, name, exact(name, getattr(self, name)))
         if not 0 < self.k <= 1:
@@ -110,7 +108,7 @@ class Surface:
         if not self.width >= 0:
             raise ValueError(f"width = {self.width} is not allowed: at least 0")
 
-    def __str__(self) -> str:
+    def __str__(self):
         values = (("k", self.k), ("g", self.g), ("E", self.energy))
         return ", ".join(f"{name} = {_shortened(value)}" for name, value in values)
 
@@ -135,7 +133,7 @@ class Surface:
         k, g, energy = self.constants()
         return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
 
-    def speed(self, x: Value, y: Value) -> Value:
+    def speed(self, x: arb | acb | Jet, y: arb | acb | Jet) -> arb | acb | Jet:
         """Return the contact speed s = xdot + udot just before the impact.
 
         At complex points it is the square root with positive real part. Raises UndecidedError where
@@ -147,38 +145,37 @@ class Surface:
             raise UndecidedError("a point is not proved to lie inside the section's rim")
         return square_root(square)
 
-    def velocities(self, x: Value, y: Value) -> tuple[Value, Value]:
+    def velocities(self, x: arb | Jet, y: arb | Jet) -> tuple[arb | Jet, arb | Jet]:
         """Return xdot and udot just before the impact; raises UndecidedError as `speed` does."""
         k = self.constants()[0]
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
-    def flight(self, x: Value, y: Value) -> Flight[Value]:
+    def flight(self, x: arb | acb | Jet, y: arb | acb | Jet) -> Flight:
         """Return the flight after the impact; raises UndecidedError as `speed` does."""
         k, g, _ = self.constants()
         s = self.speed(x, y)
         return Flight(x, (y - k * s) / (1 + k), -(y + s) / (1 + k), s, g)
 
-    def impact(self, x: Value, y: Value, root: acb | None = None) -> Impact[Value]:
+    def impact(self, x: arb | acb | Jet, y: arb | acb | Jet, root: acb | None = None) -> Impact:
         """Enclose the next impact of every point of the balls x and y, eq. (28).
 
         At complex points `root` encloses the flight times, which `complex_flight` continues. Raises
         UndecidedError where a point may lie on the rim, or a flight may touch the floor earlier.
         """
-        flight: Flight[Any] = self.flight(x, y)
+        flight = self.flight(x, y)
         if root is None:
             tau = flight.first_root()
         else:
             tau = flight.expand(root) if isinstance(x, Jet) else root
-        end, xdot, udot = flight.end(tau)
-        return Impact(end, xdot - self.constants()[0] * udot, tau, xdot + udot)
+        x, xdot, udot = flight.end(tau)
+        return Impact(x, xdot - self.constants()[0] * udot, tau, xdot + udot)
 
-    def jacobian(self, x: arb, y: arb) -> tuple[tuple[Any, ...], Impact[arb]]:
+    def jacobian(self, x: arb, y: arb) -> tuple[tuple, Impact]:
         """Enclose the derivative DP over a box, as two rows, and the box's image.
 
         Raises UndecidedError as `impact` does.
         """
-        at_x, at_y = Jet.plane(1, x, y)
-        image = self.impact(at_x, at_y)
-        rows = tuple(tuple(jet.coefficients[1:]) for jet in (image.x, image.y))
-        return rows, Impact(*(jet.constant for jet in image))
+        image = self.impact(*Jet.plane(1, x, y))
+        rows = tuple(tuple(image[i].coefficients[1:]) for i in (0, 1))
+        return rows, Impact(*(part.constant for part in image))
