@@ -76,7 +76,15 @@ class Atlas(Picture):
     @classmethod
     def completed(cls, block: YamlMapping) -> YamlMapping:
         """Write out the axes."""
-        return block | {axis: _axis(block[axis], axis) for axis in ("k", "energy")}
+        axes = {}
+        for axis in ("k", "energy"):
+            for place, value, words in _axis_errors(block[axis], axis):
+                raise CompletionError(place, value, words)
+            axes[axis] = _values(block[axis])
+            if any(not a < b for a, b in pairwise(axes[axis])):
+                words = "increasing numbers that differ in six digits"
+                raise CompletionError((axis,), block[axis], words)
+        return block | axes
 
     @classmethod
     def cross_field_errors(cls, block: YamlMapping) -> Iterator[CrossFieldError]:
@@ -93,8 +101,10 @@ class Atlas(Picture):
             yield ("energy",), energy, f"axes with at most {MOST_CELLS} cells, here {sizes}"
             return
         if cells * block["starts"] * impacts > LARGEST_IMPACTS:
-            most = f"at most {LARGEST_IMPACTS} impacts in a sweep"
-            yield ("impacts",), impacts, f"{most}, counted over all cells and starts"
+            words = (
+                f"at most {LARGEST_IMPACTS} impacts in a sweep, counted over all cells and starts"
+            )
+            yield ("impacts",), impacts, words
         if cells > MOST_JOBS * size:
             words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
             yield ("block",), size, words
@@ -106,18 +116,14 @@ class Verdicts(Picture):
     stages = ("verdicts",)
 
 
-def _axis(given: YamlMapping | list[float], axis: str) -> list[float]:
-    """Return the numbers of an axis; CompletionError if they do not increase."""
+def _axis_errors(given: YamlMapping | list[float], axis: str) -> Iterator[CrossFieldError]:
+    """Yield an error if the ends of an axis are wrong."""
     if isinstance(given, dict):
         low, high = given["from"], given["to"]
         if not low < high:
-            raise CompletionError((axis, "to"), high, f"a number above from = {low}")
-        if given.get("spacing") == "log" and not low > 0:
-            raise CompletionError((axis, "from"), low, "a number > 0 where spacing is log")
-    values = _values(given)
-    if any(not a < b for a, b in pairwise(values)):
-        raise CompletionError((axis,), given, "increasing numbers that differ in six digits")
-    return values
+            yield (axis, "to"), high, f"a number above from = {low}"
+        elif given.get("spacing") == "log" and not low > 0:
+            yield (axis, "from"), low, "a number > 0 where spacing is log"
 
 
 def _energy_errors(
