@@ -2,9 +2,13 @@
 
 import math
 import re
+from collections.abc import Iterable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
@@ -36,17 +40,19 @@ STYLES = {
     "engine 1e-03": ("#a86f00", "o"),
 }
 LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
-_ZERO = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
+_ZERO_DECADE = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
 _MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
-_FLAT = 0.02  # share below which a panel has room for the key
-_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
-_COLUMNS, _LINE = 3, 42  # of a key; pixels: height of its lines
-method_key = partial(key, columns=_COLUMNS, size=7.0)
+_MOST_FLAT_SHARE = 0.02  # share below which a panel has room for the key
+_BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
+_KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
+Entry = tuple[str, str, str]  # of a key: text, colour and mark
+Scene = dict[str, Any]  # a block of the checked config
+method_key = partial(key, columns=_KEY_COLUMNS, size=7.0)
 
 
 @style.pinned()
-def work(scene, data):
+def work(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw a work-precision diagram for one set of states: error and failures against cost.
 
     Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
@@ -57,7 +63,7 @@ def work(scene, data):
     entries, wrong = _entries(families, families), data["wrong"].values
     sheet, top = chart_sheet(1030, entries)
     across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
-    error = _axis_with_zero(_ZERO, 0, "Relative error of the flight time")
+    error = _axis_with_zero(_ZERO_DECADE, 0, "Relative error of the flight time")
     upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
     shares = (0, 0.2, 0.4, 0.6) if wrong.max() > 0.1 else (0, 0.05, 0.1)
     share = Axis((0.0, shares[-1]), shares, "Share of wrong roots")
@@ -69,7 +75,9 @@ def work(scene, data):
     for family, (_, color, marker) in zip(families, entries, strict=True):
         part = data.isel(method=data["family"].values == family)
         x, wrong = part[cost].values, part["wrong"].values
-        median, worst = (_zero_at_end(part[name].values, _ZERO) for name in ("median", "worst"))
+        median, worst = (
+            _zero_at_end(part[name].values, _ZERO_DECADE) for name in ("median", "worst")
+        )
         reliable = wrong <= _MAX_WRONG_SHARE
         upper.line(x, median, color=color, lw=0.9)
         upper.line(x[reliable], worst[reliable], color=color, lw=0.5, ls="--")
@@ -82,21 +90,25 @@ def work(scene, data):
 
 
 @style.pinned()
-def edges(scene, data):
+def edges(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
     A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
     in which no method fails, if there is one.
     """
     methods = _entries(data["name"].values, data["family"].values)
-    flat = [(v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _FLAT][:1]
-    sheet, top = chart_sheet(1075 if flat else 1100 + _LINE * len(methods))
+    flat = [
+        (v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _MOST_FLAT_SHARE
+    ][:1]
+    sheet, top = chart_sheet(1075 if flat else 1100 + _KEY_LINE * len(methods))
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
-    grazing = "near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)
-    sides, name = ("it just touches", "it just misses"), "Height of the gap's maximum, + or −"
-    maximum = "touch", "depth", sides, name, (-14, -2)
-    for row, (variable, exponent, sides, name, limits) in enumerate((grazing, maximum)):
+    height = "Height of the gap's maximum, + or −"
+    rows = (
+        ("near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)),
+        ("touch", "depth", ("it just touches", "it just misses"), height, (-14, -2)),
+    )
+    for row, (variable, exponent, sides, name, limits) in enumerate(rows):
         x = [float(f"1e-{n}") for n in data[exponent].values]
         across = Axis(limits, range(*limits, 4), "", True)
         for side, text in enumerate(sides):
@@ -120,7 +132,7 @@ def edges(scene, data):
 
 
 @style.pinned()
-def energy(scene, data):
+def energy(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the energy drift of each method, and the impacts missed against the last drift.
 
     In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
@@ -128,7 +140,7 @@ def energy(scene, data):
     entries = _methods_with_merged_scans(data)
     named = list(dict.fromkeys(entries))
     sheet, top = chart_sheet(1135, named)
-    drift = _axis_with_zero(_ZERO, 1, "Largest relative error of the energy so far")
+    drift = _axis_with_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
@@ -142,7 +154,7 @@ def energy(scene, data):
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
     for i, (_, color, marker) in enumerate(entries):
         drift = data["drift"].values[i]
-        upper.line(data["record"].values, _zero_at_end(drift, _ZERO), color=color, lw=0.9)
+        upper.line(data["record"].values, _zero_at_end(drift, _ZERO_DECADE), color=color, lw=0.9)
         end = drift[-1], max(float(data["missed"].values[i]), 0.1)
         lower.dots(*end, color, marker=marker)
         if entries.count(entries[i]) > 1:
@@ -153,22 +165,22 @@ def energy(scene, data):
 
 
 @style.pinned()
-def separation(scene, data):
+def separation(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the distance of each method's orbit from the proved one, from `failures.orbits`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = _axis_with_zero(_ZERO, 0, "Median distance in $x$ from the proved orbit")
+    up = _axis_with_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     _break_above_zero(panel)
     entries = _methods_with_merged_scans(data)
     for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
-        panel.line(data["impact"].values, _zero_at_end(distance, _ZERO), color=color, lw=0.9)
+        panel.line(data["impact"].values, _zero_at_end(distance, _ZERO_DECADE), color=color, lw=0.9)
     method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
     return sheet.figure
 
 
 @style.pinned()
-def figure_errors(scene, data):
+def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the error of each figure by each method in units of the largest invisible error.
 
     Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
@@ -206,62 +218,63 @@ def figure_errors(scene, data):
     return sheet.figure
 
 
-def chart_sheet(least, entries=()):
+def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
     """Return a sheet for a height in pixels and a key, and the upper end of its first frame."""
-    lines = math.ceil(len(entries) / _COLUMNS)
-    high = 75 * math.ceil((least + lines * _LINE) / 75)  # whole quarters of an inch
+    lines = math.ceil(len(entries) / _KEY_COLUMNS)
+    high = 75 * math.ceil((least + lines * _KEY_LINE) / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
 
 
-def _axis_with_zero(low, high, name):
+def _axis_with_zero(low: int, high: int, name: str) -> Axis:
     """Return an axis of decades whose lower end stands for zero."""
     ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
     labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
     return Axis((low, high), ticks, name, True, labels)
 
 
-def _zero_at_end(values, zero):
+def _zero_at_end(values: np.ndarray, zero: int) -> np.ndarray:
     """Raise values to the decade that stands for zero."""
     return np.maximum(values, float(f"1e{zero}"))
 
 
-def _break_above_zero(panel, across=False):
+def _break_above_zero(panel: Panel, across: bool = False) -> None:
     """Mark the gap between zero and the powers of ten on an axis that has both."""
     left, bottom, *_ = panel.frame
     start, level = (left, bottom) if across else (bottom, left)
-    for shift, rise, color, points in ((0, 0, "white", 1.6), *_STROKES):
+    for shift, rise, color, points in ((0, 0, "white", 1.6), *_BREAK_STROKES):
         along = [start + 30 + shift + end for end in (-5, 5)]
         off = [level - rise, level + rise]
         ends = (along, off) if across else (off, along)
         panel.sheet.draw(*ends, color=color, lw=points, zorder=3.5)
 
 
-def _entries(names, families):
+def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
     """Return an entry of the key, (text, colour, mark), for each method or family."""
     pairs = zip(names, families, strict=True)
     return [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
 
 
-def _methods_with_merged_scans(data):
+def _methods_with_merged_scans(data: xr.Dataset) -> list[Entry]:
     """Return an entry for each method; scans of one tolerance look alike and share theirs."""
-    entries, scans = _entries(data["name"].values, data["family"].values), {}
+    entries = _entries(data["name"].values, data["family"].values)
+    scans: dict[str, list[int]] = {}  # by tolerance
     for i, name in enumerate(data["name"].values):
         if name.startswith("scan "):
-            scans.setdefault(name.partition(", ")[2], []).append((i, _scan_step(name)))
-    for tolerance, scan in scans.items():
-        if len(scan) > 1:
-            text = _printed(tolerance, f"scan {scan[0][1]} to {scan[-1][1]}")
-            for i, _ in scan:
-                entries[i] = (text, style.BLUE, "o")
+            scans.setdefault(name.partition(", ")[2], []).append(i)
+    for tolerance, same in scans.items():
+        if len(same) > 1:
+            first, last = (_scan_step(data["name"].values[i]) for i in (same[0], same[-1]))
+            for i in same:
+                entries[i] = (_printed(tolerance, f"scan {first} to {last}"), style.BLUE, "o")
     return entries
 
 
-def _scan_step(name):
+def _scan_step(name: str) -> str:
     """Return STEP of a method named "scan STEP, TOLERANCE"."""
     return name.partition(", ")[0].removeprefix("scan ")
 
 
-def _printed(name, family):
+def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
     family = family.removesuffix(" + bisection").removesuffix(" direction")
     setting = re.search(r"1e-0?(\d+)$", name)

@@ -4,15 +4,16 @@
 for a million impacts. A failure is a wrong root, `work.is_wrong`.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, Result, State
 from pseudorigid.dynamics.variables import LENGTH
 
 from . import reference_solver, states
+from .methods import Method
 from .methods.counted_methods import OURS, engine_method, scan_method
 from .states import BALL
 from .work import dataset, is_wrong, proved_times
@@ -31,32 +32,27 @@ ORBIT_METHODS = (
     OURS,
     *(scan_method(step, 1e-12) for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)),
     *(scan_method(0.1, tolerance) for tolerance in (1e-3, 1e-6, 1e-9)),
-    engine_method(1e-2),
-    engine_method(1e-3),
+    *map(engine_method, (1e-2, 1e-3)),
 )
 
 
-def edges(methods, count: int = 200) -> xr.Dataset:
+def edges(methods: Sequence[Method], count: int = 200) -> xr.Dataset:
     """Compute the share of wrong or missing roots near grazing and near misses.
 
-    `count` states are used at each distance from grazing and each height of a maximum. In the
-    dataset near (method, side, distance) is against s = xdot + udot, and touch (method, side,
-    depth) against the height of a maximum of the gap.
+    `count` states are used at each distance from grazing s = xdot + udot, for near (method, side,
+    distance), and at each height of a maximum of the gap, for touch (method, side, depth).
     """
 
-    def failing(states_at: Callable, exponents: Sequence[int]) -> np.ndarray:
-        """Return failing shares (method, side, exponent) over states_at(side, exponent)."""
-        shares = np.empty((len(methods), len(SIDES), len(exponents)))
-        for j, side in enumerate(SIDES):
-            for i, exponent in enumerate(exponents):
-                columns = states_at(side, exponent)
-                truth = proved_times(BALL, columns)
-                for m, method in enumerate(methods):
-                    shares[m, j, i] = is_wrong(method.solve(BALL, *columns)[0], truth).mean()
-        return shares
+    def failing(columns: np.ndarray) -> np.ndarray:
+        """Return the failing share of each method."""
+        return _wrong_roots(methods, columns).mean(axis=1)
 
-    near = failing(lambda side, e: states.grazing_at(e, side, count), DISTANCES)
-    touch = failing(lambda side, e: states.near_miss(side * states.TEN_TO_MINUS[e], count), DEPTHS)
+    grazing = [[failing(states.grazing_at(e, side, count)) for e in DISTANCES] for side in SIDES]
+    touching = [
+        [failing(states.near_miss(side * states.TEN_TO_MINUS[e], count)) for e in DEPTHS]
+        for side in SIDES
+    ]
+    near, touch = (np.array(shares).transpose(2, 0, 1) for shares in (grazing, touching))
     variables = {
         "near": (("method", "side", "distance"), near, "failing share, by xdot + udot"),
         "touch": (("method", "side", "depth"), touch, "failing share, by height of a maximum"),
@@ -67,16 +63,27 @@ def edges(methods, count: int = 200) -> xr.Dataset:
     return dataset(methods, variables, states=count)
 
 
-def certified_orbit(ball: Ball, state, impacts: int) -> tuple[np.ndarray, np.ndarray]:
+def _wrong_roots(methods: Sequence[Method], columns: np.ndarray) -> np.ndarray:
+    """Return which roots (method, n) of flights from states (3, n) are wrong or missing."""
+    truth = proved_times(BALL, columns)
+    return np.array([is_wrong(method.solve(BALL, *columns)[0], truth) for method in methods])
+
+
+def certified_orbit(ball: Ball, state: State, impacts: int) -> tuple[np.ndarray, np.ndarray]:
     """Return states (3, impacts) of the certified orbit from `state`, and the flight times."""
     track, _ = OURS.orbit(ball, state, impacts)
-    return np.column_stack((state, track[:3, :-1])), track[3]
+    return states_before(state, track), track[3]
 
 
-def energy_drift(ball: Ball, state, track: np.ndarray) -> np.ndarray:
+def states_before(state: State, track: np.ndarray) -> np.ndarray:
+    """Return the states (3, n) from which the n flights of an orbit's track start."""
+    return np.column_stack((np.array(state), track[:3, :-1]))
+
+
+def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
     """Return the largest relative error of the energy so far, at each impact of `track`."""
 
-    def energy(x, v, w):
+    def energy(x: Result, v: Result, w: Result) -> Result:
         return (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
 
     first = energy(*state)
@@ -86,40 +93,42 @@ def energy_drift(ball: Ball, state, track: np.ndarray) -> np.ndarray:
 def orbits(impacts: int = MILLION) -> xr.Dataset:
     """Compare the methods in this package's arithmetic along the chaotic orbit.
 
-    The dataset has missed, evaluations (method): impacts of the certified orbit that the method
-    flies past, and what it spends on one; drift (method, record): the largest relative error of the
-    energy so far on the method's own orbit; apart (method, impact): median over starts of the
-    distance in x between the method's orbit and the proved one; agree (one, other): for how many
-    impacts two methods' orbits stay within SEPARATION, the last row and column the proved orbit's.
+    `missed` and `evaluations` are those along the certified orbit, `drift` is that of the method's
+    own orbit. `apart` is the median over starts of the distance in x from the proved orbit, and
+    `agree` the number of impacts for which two orbits stay within SEPARATION.
     """
-    methods = ORBIT_METHODS
     start = states.chaotic()
     columns, truth = certified_orbit(BALL, start, impacts)
     records = RECORDS[impacts >= RECORDS]
     missed, evaluations, drift = [], [], []
-    for method in methods:
+    for method in ORBIT_METHODS:
         tau, count = method.solve(BALL, *columns)
         missed.append(is_wrong(tau, truth).sum())
         evaluations.append(count.mean())
         track, _ = method.orbit(BALL, start, impacts)
         drift.append(energy_drift(BALL, start, track)[records - 1])
-    starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
-    tracks = [[m.orbit(BALL, state, AGREE_IMPACTS)[0][0] for state in starts] for m in methods]
-    tracks.append([[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts])
-    tracks = np.array(tracks)
-    apart = np.median(np.abs(tracks[:-1] - tracks[-1]), axis=1)
-    agree = [[_agreement(a, b) for b in tracks] for a in tracks]
+    positions = _positions()
+    distances = np.median(np.abs(positions[:-1] - positions[-1]), axis=1)
+    agree = [[_agreement(a, b) for b in positions] for a in positions]
     distance = "median distance in x from the judge's orbit"
     variables = {
         "missed": ("method", missed, "impacts flown past"),
         "evaluations": ("method", evaluations, "evaluations an impact"),
         "drift": (("method", "record"), drift, "largest relative error of the energy"),
         "record": ("record", records, "number of impacts"),
-        "apart": (("method", "impact"), apart, distance, LENGTH),
+        "apart": (("method", "impact"), distances, distance, LENGTH),
         "impact": ("impact", np.arange(1, AGREE_IMPACTS + 1), "number of impacts"),
         "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
     }
-    return dataset(methods, variables, impacts=impacts, apart=SEPARATION)
+    return dataset(ORBIT_METHODS, variables, impacts=impacts, apart=SEPARATION)
+
+
+def _positions() -> np.ndarray:
+    """Return x (method, start, impact) of orbits by each of ORBIT_METHODS, last the proved ones."""
+    starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
+    computed = [[m.orbit(BALL, s, AGREE_IMPACTS)[0][0] for s in starts] for m in ORBIT_METHODS]
+    proved = [[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts]
+    return np.array([*computed, proved])
 
 
 def _agreement(a: np.ndarray, b: np.ndarray) -> float:
@@ -129,7 +138,7 @@ def _agreement(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.median(first))
 
 
-def missed(methods, impacts: int = MILLION) -> xr.Dataset:
+def missed(methods: Sequence[Method], impacts: int = MILLION) -> xr.Dataset:
     """Count the impacts of the certified chaotic orbit that both the coarsest scan and others miss.
 
     The methods solve only the flights for which a scan with step 0.5 gives a wrong root. What they
@@ -137,8 +146,6 @@ def missed(methods, impacts: int = MILLION) -> xr.Dataset:
     """
     columns, certified = certified_orbit(BALL, states.chaotic(), impacts)
     hard = is_wrong(scan_method(0.5, 1e-12).solve(BALL, *columns)[0], certified)
-    columns = columns[:, hard]
-    truth = proved_times(BALL, columns)
-    count = [is_wrong(method.solve(BALL, *columns)[0], truth).sum() for method in methods]
+    count = _wrong_roots(methods, columns[:, hard]).sum(axis=1)
     variables = {"missed": ("method", count, "impacts missed, of those that scan 0.5 misses")}
-    return dataset(methods, variables, impacts=impacts, hard=truth.size)
+    return dataset(methods, variables, impacts=impacts, hard=int(hard.sum()))

@@ -11,21 +11,23 @@ The kind of picture names its measure of error:
     exponents the change of a tangent vector's exponent, averaged over the orbits
 
 A missed impact puts a point off the orbit. A picture of orbits shows it even if the energy is
-exact; the mean exponent of a long orbit does not.
+exact; the mean exponent of a long orbit does not. The size of a pixel is that of the drawn figure,
+so this stage imports the drawings.
 """
 
 import math
+from collections.abc import Callable
 from decimal import Decimal
-from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.orbits import start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.figures.axes.box import Box
+from pseudorigid.figures.axes.plane import Plane
 from pseudorigid.figures.canvas.style import DPI
 from pseudorigid.figures.kinds import closeup, exponents, motion
 from pseudorigid.kernel.arithmetic import log, sincos_each
@@ -33,8 +35,10 @@ from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import reference_solver
-from .failures import certified_orbit, energy_drift
-from .methods.counted_methods import ENGINES, OURS, SCANS
+from .failures import certified_orbit, energy_drift, states_before
+from .methods import Flights
+from .methods.counted_methods import ENGINES, OURS, SCANS, CountedMethod
+from .stages import described
 from .work import dataset, is_wrong, proved_times
 
 # The march, scans of 0.5 and 0.1, the finest scan, and all engines but the coarsest.
@@ -44,9 +48,10 @@ _AXIS = "unit of the axis"  # a scale: R for positions, 1/omega for times, 1 for
 # below that of the orbits' mean does not show.
 SCATTER = 0.004
 BRANCH_POINTS = 2000  # of a manifold, evenly by index; one miss in a thousand shows
+Block = dict[str, Any]  # a scene of the checked config
 
 
-class Errors(NamedTuple):
+class PictureErrors(NamedTuple):
     """Errors of the methods in one figure; lists have an entry for each method."""
 
     error: list[float]  # of the picture, in pixels
@@ -60,7 +65,23 @@ class Errors(NamedTuple):
     misses_show: bool = True
 
 
-def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr.Dataset:
+def needs(
+    *datasets: xr.Dataset, scenes: dict[str, Block], measures: dict[str, str], inputs: list[str]
+) -> xr.Dataset:
+    """Measure the error of each figure by each method.
+
+    `scenes` and `measures` are those of `figure_errors`; `inputs` name the datasets STAGE/SCENE.
+    """
+    keys = [tuple(name.split("/")) for name in inputs]
+    artifacts = dict(zip(keys, datasets, strict=True))
+    return described("needs", figure_errors(scenes, measures, artifacts))
+
+
+def figure_errors(
+    scenes: dict[str, Block],
+    measures: dict[str, str],
+    artifacts: dict[tuple[str, ...], xr.Dataset],
+) -> xr.Dataset:
     """Compute each figure's error under each method, and which methods are good enough.
 
     `scenes` has the blocks of the checked config, with their axes, `measures` a key of MEASURES for
@@ -71,68 +92,75 @@ def figure_errors(scenes: dict, measures: dict[str, str], artifacts: dict) -> xr
     for name, block in scenes.items():
         data = {stage: dataset for (stage, scene), dataset in artifacts.items() if scene == name}
         rows.append(MEASURES[measures[name]](block, **data))
-    error, missed, evaluations, impacts, axes, pixel, stroke, limit, misses_show = (
-        np.array(column) for column in zip(*rows, strict=True)
-    )
-    good = (error <= limit[:, None]) & ((missed == 0) | ~misses_show[:, None])
-    cheapest = np.where(good, evaluations, np.inf).argmin(axis=1)
-    blocks = zip(scenes.values(), axes, strict=True)
-    labels = [[f"{tick:.10g}" for tick in block["axes"][axis]["ticks"]] for block, axis in blocks]
-    digit = [float(f"1e-{max(len(text.partition('.')[2]) for text in row)}") for row in labels]
-    width = stroke * DPI / 72 * pixel
+    column = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
+    whole = (column["missed"] == 0) | ~column["misses_show"][:, None]
+    good = (column["error"] <= column["limit"][:, None]) & whole
+    cheapest = np.where(good, column["evaluations"], np.inf).argmin(axis=1)
+    axes = [block["axes"][row.axis] for block, row in zip(scenes.values(), rows, strict=True)]
+    width = column["stroke"] * DPI / 72 * column["pixel"]
     each = ("scene", "method")
     variables = {
         "scene": ("scene", list(scenes), "scene"),
-        "error": (each, error, "error of the picture in pixels", "pixel"),
-        "missed": (each, missed, "impacts flown past"),
-        "evaluations": (each, evaluations, "evaluations an impact"),
-        "impacts": ("scene", impacts, "impacts computed for the comparison"),
-        "pixel": ("scene", pixel, "a pixel in units of the axis", _AXIS),
+        "error": (each, column["error"], "error of the picture in pixels", "pixel"),
+        "missed": (each, column["missed"], "impacts flown past"),
+        "evaluations": (each, column["evaluations"], "evaluations an impact"),
+        "impacts": ("scene", column["impacts"], "impacts computed for the comparison"),
+        "pixel": ("scene", column["pixel"], "a pixel in units of the axis", _AXIS),
         "line": ("scene", width, "width of a line or dot in units of the axis", _AXIS),
-        "digit": ("scene", digit, "last digit of the axis' labels", _AXIS),
-        "limit": ("scene", limit, "error that the picture can hide, in pixels", "pixel"),
+        "digit": ("scene", list(map(_last_digit, axes)), "last digit of the axis' labels", _AXIS),
+        "limit": ("scene", column["limit"], "error that the picture can hide, in pixels", "pixel"),
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
         "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
     }
     return dataset(METHODS, variables)
 
 
-def _portrait(block: dict) -> Errors:
-    ball, states, impacts = _orbits(block)
+def _last_digit(axis: Block) -> float:
+    """Return the place value of the last decimal in the labels of an axis."""
+    decimals = (len(f"{tick:.10g}".partition(".")[2]) for tick in axis["ticks"])
+    return float(f"1e-{max(decimals)}")
+
+
+def _portrait(block: Block) -> PictureErrors:
+    """Measure the drift of the energy, as a change of the section's radius."""
+    ball, orbits = _orbits(block)
     pixel = 1.0 / Box(block).view.scale
-    radius = ball.section(block["energy"])[1]
+    _, radius = ball.section(block["energy"])
     error = []
     for method in METHODS:
-        tracks = [method.orbit(ball, *each)[0] for each in zip(states, impacts, strict=True)]
-        drifts = [energy_drift(ball, *each)[-1] for each in zip(states, tracks, strict=True)]
-        error.append(max(drifts) * abs(ball.energy(*states[-1])) / (ball.k * radius) / pixel)
-    return Errors(error, *_misses(ball, states, impacts), sum(impacts), "x", pixel, stroke=0.8)
+        tracks = [method.orbit(ball, *orbit)[0] for orbit in orbits]
+        pairs = zip(orbits, tracks, strict=True)
+        drift = max(energy_drift(ball, state, track)[-1] for (state, _), track in pairs)
+        error.append(drift * abs(ball.energy(*orbits[-1][0])) / (ball.k * radius) / pixel)
+    return PictureErrors(error, *_misses(ball, orbits), "x", pixel, stroke=0.8)
 
 
-def _exponents(block: dict) -> Errors:
-    ball, states, impacts = _orbits(block)
+def _exponents(block: Block) -> PictureErrors:
+    """Measure the change of the exponents' mean."""
+    ball, orbits = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
-
-    def vector_exponent(method, state, impacts):
-        """Return the exponent of a tangent vector, which tends to the largest."""
-        track, _ = method.orbit(ball, state, impacts)
-        x, xdot, udot = np.column_stack((state, track[:3, :-1]))
-        return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
-
-    pairs = list(zip(states, impacts, strict=True))
     means = [
-        sum(vector_exponent(method, *pair) for pair in pairs) / len(pairs) for method in METHODS
+        sum(_vector_exponent(method, ball, *orbit) for orbit in orbits) / len(orbits)
+        for method in METHODS
     ]
     error = [abs(mean - means[0]) / pixel for mean in means]
-    limit = SCATTER / math.sqrt(len(states)) / pixel
-    missed, evaluations = _misses(ball, states, impacts)
-    return Errors(error, missed, evaluations, sum(impacts), "exponent", pixel, 0.8, limit, False)
+    limit = SCATTER / math.sqrt(len(orbits)) / pixel
+    return PictureErrors(error, *_misses(ball, orbits), "exponent", pixel, 0.8, limit, False)
 
 
-def _motion(block: dict, periodic: xr.Dataset) -> Errors:
+def _vector_exponent(method: CountedMethod, ball: Ball, state: State, impacts: int) -> float:
+    """Return the exponent of a tangent vector, which tends to the largest."""
+    track, _ = method.orbit(ball, state, impacts)
+    x, xdot, udot = states_before(state, track)
+    return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
+
+
+def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
+    """Measure the error of height and time at the impacts."""
     ball = Ball(**block["ball"])
     orbit = of_type(periodic, block["type"])
-    state = tuple(states_of(orbit)[:, 0].tolist())
+    x, xdot, udot = states_of(orbit)[:, 0].tolist()
+    state = x, xdot, udot
     impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
     truth = np.array(reference_solver.orbit(ball, state, impacts)).T
     times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
@@ -144,16 +172,14 @@ def _motion(block: dict, periodic: xr.Dataset) -> Errors:
         high = np.abs(track[0] - truth[0]) / up
         error.append(float(max(late.max(), high.max())))
         evaluations.append(count / impacts)
-    missed, _ = _misses(ball, [state], [impacts])
-    return Errors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
+    missed, _, _ = _misses(ball, [(state, impacts)])
+    return PictureErrors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
 
 
-def _branches(block: dict, periodic: xr.Dataset, manifolds: xr.Dataset) -> Errors:
+def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
+    """Measure the error of an impact on the branches, summed over later impacts."""
     ball = Ball(**block["ball"])
-    if "view" in block:
-        pixel = 1.0 / Box(block).view.scale
-    else:
-        pixel, _ = _pixels(closeup.plane(block))
+    pixel = 1.0 / Box(block).view.scale if "view" in block else _pixels(closeup.plane(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
@@ -162,17 +188,17 @@ def _branches(block: dict, periodic: xr.Dataset, manifolds: xr.Dataset) -> Error
     columns = columns[:, :: max(1, columns.shape[1] // BRANCH_POINTS)]
     columns[2] = np.maximum(columns[2], -columns[1])
     truth = proved_times(ball, columns)
-    times, missed, evaluations = _solved(ball, columns, truth)
+    solved = [method.solve(ball, *columns) for method in METHODS]
     exact = _next_states(ball, columns, truth)
     error = []
-    for tau in times:
+    for tau, _ in solved:
         distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
         largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
         error.append(largest / (1.0 - 1.0 / growth) / pixel)
-    return Errors(error, missed, evaluations, truth.size, "x", pixel, stroke=0.5)
+    return PictureErrors(error, *_counts(solved, truth), "x", pixel, stroke=0.5)
 
 
-MEASURES = {
+MEASURES: dict[str, Callable[..., PictureErrors]] = {
     "portrait": _portrait,
     "motion": _motion,
     "tangle": _branches,
@@ -181,31 +207,32 @@ MEASURES = {
 }
 
 
-def _pixels(plane) -> tuple[float, float]:
-    """Size of a pixel on the two axes of a plane picture."""
+def _pixels(plane: Plane) -> tuple[float, float]:
+    """Return the size of a pixel on the two axes of a plane picture."""
     left, bottom, right, top = plane.frame
     (x0, x1), (y0, y1) = plane.across.limits, plane.up.limits
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
 
 
-def _orbits(block: dict) -> tuple[Ball, list, list[int]]:
-    """Return ball, states and numbers of impacts of a scene of orbits."""
+def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]]]:
+    """Return the ball of a scene of orbits, and the start of each orbit with its impacts."""
     ball, starts, impacts = Ball(**block["ball"]), block["starts"], block["impacts"]
     states = [start_state(ball, block["energy"], start) for start in starts]
-    return ball, states, impacts if isinstance(impacts, list) else [impacts] * len(starts)
+    each = impacts if isinstance(impacts, list) else [impacts] * len(starts)
+    return ball, list(zip(states, each, strict=True))
 
 
-def _misses(ball, states, impacts):
-    """Return each method's missed impacts and evaluations an impact along certified orbits."""
-    pieces = map(partial(certified_orbit, ball), states, impacts)
+def _misses(ball: Ball, orbits: list[tuple[State, int]]) -> tuple[list[int], list[float], int]:
+    """Return `_counts` of the flights along certified orbits."""
+    pieces = (certified_orbit(ball, *orbit) for orbit in orbits)
     columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
-    return _solved(ball, columns, truth)[1:]
+    return _counts([method.solve(ball, *columns) for method in METHODS], truth)
 
 
-def _solved(ball, columns, truth):
-    """Return each method's flight times, number of wrong ones, and evaluations a flight."""
-    times, counts = zip(*(method.solve(ball, *columns) for method in METHODS), strict=True)
-    return times, [is_wrong(tau, truth).sum() for tau in times], [n.mean() for n in counts]
+def _counts(solved: list[Flights], truth: np.ndarray) -> tuple[list[int], list[float], int]:
+    """Return the impacts missed and the evaluations a flight by each method, and all flights."""
+    missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
+    return missed, [float(count.mean()) for _, count in solved], truth.size
 
 
 def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray:
@@ -217,7 +244,7 @@ def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray
 
 
 @jit
-def _growth(jacobians):
+def _growth(jacobians: np.ndarray) -> float:
     """Return the logarithm by which a product of matrices (n, 3, 3) stretches (1, 0, 0)."""
     a, b, c = 1.0, 0.0, 0.0
     total = 0.0

@@ -5,10 +5,12 @@ so are the doubles k and g of a ball. Where the precision does not decide which 
 it is raised.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 from flint import arb, ctx
+
+from pseudorigid.dynamics.ball import Ball, State
 
 from .enclosure.flight import UndecidedError, launch
 from .enclosure.surface import Exact, ball_of, exact
@@ -29,7 +31,7 @@ def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
     root is double, as far as the last bits can tell.
     """
 
-    def flight_time():
+    def flight_time() -> arb | None:
         tau = _impact(*map(arb, (k, g, x, v, w)))[3]
         return tau if tau == 0 or tau.rel_accuracy_bits() >= _ACCURACY_BITS else None
 
@@ -39,7 +41,7 @@ def first_root(k: Number, g: Number, x: Number, v: Number, w: Number) -> arb:
     return tau
 
 
-def _decided(compute: Callable, bits: int):
+def _decided(compute: Callable[[], arb | None], bits: int) -> arb | None:
     """Return the first result that is not None, with bits doubled from these on, or None."""
     while bits <= _MOST_BITS:
         with ctx.workprec(bits):
@@ -61,13 +63,7 @@ def _impact(k: arb, g: arb, x: arb, v: arb, w: arb) -> tuple[arb, arb, arb, arb]
     return *flight.end(tau), tau
 
 
-def flight_times(ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> list[float]:
-    """Return the time of `first_root` for each state, rounded to a double."""
-    states = zip(x.tolist(), xdot.tolist(), udot.tolist(), strict=True)
-    return [float(first_root(ball.k, ball.g, *state)) for state in states]
-
-
-def orbit(ball, state: Sequence[float], impacts: int) -> list[tuple[float, float, float]]:
+def orbit(ball: Ball, state: State, impacts: int) -> list[tuple[float, float, float]]:
     """Compute the orbit of a state to 512 bits.
 
     Returns x, xdot, udot of each impact without the start, rounded to doubles. Raises
@@ -105,7 +101,7 @@ def impact_errors(
         if progress is not None:
             progress(i)
 
-        def error(state=row[:3], computed=row[3:]):
+        def error(state: list[float] = row[:3], computed: list[float] = row[3:]) -> arb:
             proved = _impact(*map(ball_of, ball), *map(arb, state))
             errors = [abs(a - b).upper() for a, b in zip(proved, computed, strict=True)]
             return max(errors) if all(it.is_finite() for it in errors) else arb("inf")

@@ -1,10 +1,8 @@
-"""The parts of the study, as stages, whose data are equal on every machine."""
-
-from typing import Any
+"""Stages that compare the compiled methods. Their data are equal on every machine."""
 
 import xarray as xr
 
-from . import failures, figure_errors, states
+from . import failures, states
 from . import work as work_precision
 
 
@@ -23,20 +21,8 @@ def drift() -> xr.Dataset:
     return described("orbits", failures.orbits())
 
 
-def needs(
-    *datasets: xr.Dataset, scenes: dict[str, Any], measures: dict[str, str], inputs: list[str]
-) -> xr.Dataset:
-    """Measure the error of each figure by each method.
-
-    `scenes` are blocks of config by name, `measures` their kinds of picture; `inputs` name the
-    datasets STAGE/SCENE.
-    """
-    keys = [tuple(name.split("/")) for name in inputs]
-    figures = dict(zip(keys, datasets, strict=True))
-    return described("needs", figure_errors.figure_errors(scenes, measures, figures))
-
-
-def described(part: str, dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset with the attributes of a part of the study."""
+def described(comparison: str, dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset with its title, and the ball and energy that all comparisons have."""
     ball = {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
-    return dataset.assign_attrs(stage="study", title=f"Methods compared: {part}", **ball)
+    title = f"Methods compared: {comparison}"
+    return dataset.assign_attrs(stage="study", title=title, **ball)

@@ -6,7 +6,7 @@ its own random seed, so that it does not change with another; the seeds' values 
 
 import numpy as np
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.kernel.arithmetic import sincos_each
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
@@ -17,7 +17,7 @@ CHAOTIC = 0.534522  # Figure 2's start in the sea, in section radii
 TEN_TO_MINUS = np.array([float(f"1e-{n}") for n in range(15)])
 
 
-def chaotic() -> tuple[float, float, float]:
+def chaotic() -> State:
     """Return the start of Figure 2's chaotic sea."""
     return BALL.start(CHAOTIC, ENERGY)
 
@@ -68,7 +68,7 @@ def near_miss(height: float, count: int) -> np.ndarray:
     """
     random = np.random.default_rng([4, int(height > 0)])
     k, g = BALL.k, BALL.g
-    states = []
+    states: list[tuple[float, ...]] = []
     while len(states) < count:
         x, t = random.uniform(-0.3, 0.3), random.uniform(1.0, 6.0)
         times = t * (np.arange(1, 201) / 200.0)

@@ -20,18 +20,27 @@ def flown_past(method, columns):
     return [not abs(a - b) <= min(b, 1) / 10 for a, b in zip(tau.tolist(), true, strict=True)]
 
 
-def test_shares_near_grazing_and_touches_are_those_of_an_independent_solver(monkeypatch):
-    monkeypatch.setattr(failures, "DISTANCES", (0, 4))
-    monkeypatch.setattr(failures, "DEPTHS", (3, 9))
-    edges = failures.edges((OURS, SCAN), count=25)
-    for j, side in enumerate(failures.SIDES):
-        for i, (near, touch) in enumerate(((0, 3), (4, 9))):
-            columns = states.grazing_at(near, side, 25)
-            assert edges["near"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
-            columns = states.near_miss(side * 10.0**-touch, 25)
-            assert edges["touch"].values[1, j, i] == np.mean(flown_past(SCAN, columns))
+@pytest.fixture(scope="module")
+def edges():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(failures, "DISTANCES", (0, 4))
+        patch.setattr(failures, "DEPTHS", (3, 9))
+        return failures.edges((OURS, SCAN), count=25)
+
+
+@pytest.mark.parametrize("side", failures.SIDES)
+@pytest.mark.parametrize(("i", "near", "touch"), [(0, 0, 3), (1, 4, 9)])
+def test_shares_of_failures_are_those_of_an_independent_solver(edges, side, i, near, touch):
+    scan = edges.isel(method=1, side=failures.SIDES.index(side))
+    columns = states.grazing_at(near, side, 25)
+    assert scan["near"].values[i] == np.mean(flown_past(SCAN, columns))
+    columns = states.near_miss(side * 10.0**-touch, 25)
+    assert scan["touch"].values[i] == np.mean(flown_past(SCAN, columns))
+
+
+def test_the_march_does_not_fail_and_a_scan_misses_touches_shorter_than_its_step(edges):
     assert not (edges["near"].values[0].any() or edges["touch"].values[0].any())
-    assert edges["touch"].values[1, 0].min() > 0.5  # a touch is shorter than its step
+    assert edges["touch"].values[1, 0].min() > 0.5
 
 
 def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatch):
@@ -49,7 +58,6 @@ def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatc
     whole = failures.orbits(impacts)
     assert whole["missed"].values.tolist() == [0, sum(late)]
     assert whole["drift"].values[1].max() < 1e-9  # energy does not show missed impacts
-    assert np.all(np.diff(whole["drift"].values, axis=1) >= 0)
 
 
 def test_the_drift_is_the_largest_error_so_far():
@@ -63,11 +71,9 @@ def test_the_drift_is_the_largest_error_so_far():
 
 def test_the_proved_orbit_is_that_of_sixty_digits():
     state = states.chaotic()
-    rows = proved.orbit(BALL, state, 40)
     exact = [mpf(float(a)) for a in state]
-    k, g = mpf(BALL.k), mpf(BALL.g)
-    for row in rows:
-        *exact, _ = exact_map(k, g, *exact)
+    for row in proved.orbit(BALL, state, 40):
+        *exact, _ = exact_map(mpf(BALL.k), mpf(BALL.g), *exact)
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
 
 

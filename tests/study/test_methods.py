@@ -5,8 +5,8 @@ import pytest
 
 from pseudorigid import lyapunov_spectrum
 from study import states
-from study.methods import counted_methods, scipy_events
-from study.methods.counted_methods import OURS, engine_method, scan_method
+from study.methods import scipy_events
+from study.methods.counted_methods import OURS, TOLERANCES, engine_method, scan_method
 
 BALL = states.BALL
 
@@ -24,40 +24,42 @@ def test_the_certified_march_is_the_map(uniform):
 
 
 METHODS = [
-    *((lambda tolerance=tolerance: scan_method(0.1, tolerance), tolerance)
-      for tolerance in counted_methods.TOLERANCES),
-    *((lambda step=step: engine_method(step), 2 * step) for step in (1e-2, 1e-4)),
-    (lambda: scipy_events.brentq_method(0.1, 1e-9), 1e-8),
-    (lambda: scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
-    (lambda: scipy_events.ivp_method("Radau", 1e-6), 1e-3),
-    *((lambda direction=direction: taylor_method(direction), 1e-13) for direction in range(2)),
-]  # fmt: skip
+    *((scan_method(0.1, tolerance), tolerance) for tolerance in TOLERANCES),
+    *((engine_method(step), 2 * step) for step in (1e-2, 1e-4)),
+    (scipy_events.brentq_method(0.1, 1e-9), 1e-8),
+    (scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
+    (scipy_events.ivp_method("Radau", 1e-6), 1e-3),
+]
 
 
-def taylor_method(direction):
-    pytest.importorskip("heyoka")
-    from study.methods import taylor
-
-    return taylor.taylor_method(1e-15, list(taylor.DIRECTIONS)[direction])
-
-
-@pytest.mark.parametrize(("method", "error"), METHODS)
-def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
-    columns, truth = uniform[0][:, :20], uniform[1][:20]
-    tau, count = method().solve(BALL, *columns)
-    assert np.abs(tau - truth).max() <= error
+def assert_accurate(method, error, columns, truth):
+    tau, count = method.solve(BALL, *columns[:, :20])
+    assert np.abs(tau - truth[:20]).max() <= error
     assert count.min() > 1
 
 
-def test_near_misses_have_their_height():
-    for depth in (1e-3, -1e-3, 1e-9, -1e-9):
-        for x, v, w in states.near_miss(depth, 5).T:
-            s = v + w
-            b, c = v - BALL.k * 2 * s / (1 + BALL.k), w - 2 * s / (1 + BALL.k)
-            t = np.linspace(0.9, 6.1, 200_001)
-            gap = x + t * (b + BALL.g / 2 * t) - x * np.cos(t) + c * np.sin(t)
-            top = np.flatnonzero((gap[1:-1] > gap[:-2]) & (gap[1:-1] >= gap[2:])) + 1
-            assert np.abs(gap[top] - depth).min() < 1e-9 + 1e-3 * abs(depth)
+@pytest.mark.parametrize(("method", "error"), METHODS, ids=lambda value: getattr(value, "name", ""))
+def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
+    assert_accurate(method, error, *uniform)
+
+
+@pytest.mark.parametrize("direction", ["any", "positive"])
+def test_heyoka_is_as_accurate_as_its_settings(uniform, direction):
+    pytest.importorskip("heyoka")
+    from study.methods import taylor
+
+    assert_accurate(taylor.taylor_method(1e-15, direction), 1e-13, *uniform)
+
+
+@pytest.mark.parametrize("height", [1e-3, -1e-3, 1e-9, -1e-9])
+def test_near_misses_have_their_height(height):
+    for x, v, w in states.near_miss(height, 5).T:
+        s = v + w
+        b, c = v - BALL.k * 2 * s / (1 + BALL.k), w - 2 * s / (1 + BALL.k)
+        t = np.linspace(0.9, 6.1, 200_001)
+        gap = x + t * (b + BALL.g / 2 * t) - x * np.cos(t) + c * np.sin(t)
+        top = np.flatnonzero((gap[1:-1] > gap[:-2]) & (gap[1:-1] >= gap[2:])) + 1
+        assert np.abs(gap[top] - height).min() < 1e-9 + 1e-3 * abs(height)
 
 
 @pytest.mark.parametrize("side", [1, -1])

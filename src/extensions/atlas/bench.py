@@ -1,30 +1,29 @@
 """Rows of the benchmark on cells of a sweep, drawn at random over the plane of the atlas."""
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.verdict import windows
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
+from study.timing import Call
 
-from .cell import cells, sunflower_points
+from .cell import cells_of_k, sunflower_points
 from .verdicts import random_cells
 
 CELLS = 3, 6  # values of k, and energies of each
-BASES = {"cells": "a cell here"}
-ROWS = (("a cell, each orbit alone and to its end", "to the end", "cells", "at least 8"),)
+CELL = "a cell here"
 
 
-def calls() -> dict[str, tuple[Callable, int]]:
-    """Return calls that compute cells, with their numbers."""
+def calls() -> dict[str, Call]:
+    """Return the calls that compute cells, by name."""
     rows = np.reshape(random_cells(math.prod(CELLS), 2), (*CELLS, 2)).tolist()
     plane = [(row[0][0], [e for _, e in row]) for row in rows]
     drawn = [(k, e) for k, energies in plane for e in energies]
     turning, growing = windows((4000,))
 
-    def each_to_the_end():
+    def each_to_the_end() -> None:
         for k, e in drawn:
             x, _, rotation = fixed_point.numbers(k, e)
             for point in np.stack(sunflower_points(k, e, 200)).T:
@@ -33,12 +32,14 @@ def calls() -> dict[str, tuple[Callable, int]]:
                 propagate_with_tangent(one, k, 0, 4000, turning, growing, *sums)
 
     return {
-        "cells": (lambda: [cells(k, e, 200, 8000) for k, e in plane], len(drawn)),
-        "to the end": (each_to_the_end, len(drawn)),
+        CELL: Call(lambda: [cells_of_k(k, e, 200, 8000) for k, e in plane], len(drawn)),
+        "a cell, each orbit alone and to its end": Call(
+            each_to_the_end, len(drawn), CELL, "at least 8"
+        ),
     }
 
 
 def lines(seconds: dict[str, tuple[float, float, float]]) -> list[str]:
     """Return what cells take, by the median, lowest and highest seconds of one."""
-    middle = seconds["cells"][0]
+    middle = seconds[CELL][0]
     return [f"a cell: {1e3 * middle:.4g} ms; a million: {1e6 * middle / 3600:.1f} core hours"]

@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ VARIABLES = {
 }
 
 
-def cell(k: float, e: float, starts: int, impacts: int) -> dict:
+def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
     """Compute the numbers of one cell, with the keys of VARIABLES.
 
     At most `impacts` impacts, at least 4, of each orbit are followed. The orbits start evenly over
@@ -54,30 +55,27 @@ def cell(k: float, e: float, starts: int, impacts: int) -> dict:
     does not. Chains inside the main island, islands around islands, and a second orbit of the same
     period count as well.
     """
-    return cells(k, [e], starts, impacts)[0]
+    return cells_of_k(k, [e], starts, impacts)[0]
 
 
-def cells(k: float, energies: Sequence[float], starts: int, impacts: int) -> list[dict]:
+def cells_of_k(
+    k: float, energies: Sequence[float], starts: int, impacts: int
+) -> list[dict[str, Any]]:
     """Compute the numbers of several cells with one k, with the bits of `cell` but in less time."""
+    cells = []
     step = max(1, BATCH_SIZE // starts)
-    batches = (energies[first : first + step] for first in range(0, len(energies), step))
-    return [numbers for batch in batches for numbers in _batch(k, batch, starts, impacts)]
+    for batch in (energies[first : first + step] for first in range(0, len(energies), step)):
+        places, traces, rotations = zip(*(fixed_point.numbers(k, e) for e in batch), strict=True)
+        states = np.concatenate([sunflower_points(k, e, starts) for e in batch], axis=1)
+        centre, expected = np.repeat(places, starts), np.repeat(rotations, starts)
+        verdicts = classify_orbits(k, states, centre, expected, impacts)
+        for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True)):
+            orbits = verdicts[i * starts : (i + 1) * starts]
+            cells.append({"trace": trace, "rotation": rotation} | _summary(orbits, rotation))
+    return cells
 
 
-def _batch(k: float, energies: Sequence[float], starts: int, impacts: int) -> list[dict]:
-    fixed_points = [fixed_point.numbers(k, e) for e in energies]
-    places, traces, rotations = zip(*fixed_points, strict=True)
-    states = np.concatenate([sunflower_points(k, e, starts) for e in energies], axis=1)
-    centre, expected = np.repeat(places, starts), np.repeat(rotations, starts)
-    verdicts = classify_orbits(k, states, centre, expected, impacts)
-    return [
-        {"trace": trace, "rotation": rotation}
-        | _summary(verdicts[i * starts : (i + 1) * starts], rotation)
-        for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True))
-    ]
-
-
-def _summary(orbits: np.recarray, rotation: float) -> dict:
+def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
     """Return the numbers of a cell that follow from the verdicts on its orbits."""
     starts, regular = orbits.regular.size, orbits.regular
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
@@ -107,7 +105,7 @@ def _summary(orbits: np.recarray, rotation: float) -> dict:
 
 
 def wilson(count: int, total: int) -> tuple[float, float]:
-    """Wilson's 95 % interval (1927) of the share count/total, conservative for even starts."""
+    """Return Wilson's 95 % interval (1927) of a share, which is conservative for even starts."""
     share, z2 = count / total, NORMAL_95 * NORMAL_95 / total
     middle = (share + 0.5 * z2) / (1.0 + z2)
     half = math.sqrt(share * (1.0 - share) * z2 + 0.25 * z2 * z2) / (1.0 + z2)
@@ -125,7 +123,8 @@ def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @jit
-def _spiral(e, k, x, v, w):
+def _spiral(e: float, k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray) -> None:
+    """Write states evenly over half of the section, on a spiral with the golden angle."""
     energy = 2.0 * e + 1.0 / k  # twice the energy above that of the ball at rest
     wide = math.sqrt(energy / k)
     high = math.sqrt((1.0 + k) * energy)

@@ -9,6 +9,7 @@ A method for determining a stochastic transition, J. Math. Phys. 20, 1979). The 
 import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -32,6 +33,9 @@ _MIN_HALF_WIDTH, _MAX_HALF_WIDTH = 1e-13, 1e-3
 _STARTS, _IMPACTS, _MAX_ISLANDS, _CURVES_BACK = 400, 16_000, 200, 8
 _CELLS = 64  # of `between`, searched if no orbit is found between its ends
 _MAX_CLOSURE = 1e-6  # section radii; an orbit that misses its start by more is a jump of the turns
+Interval = tuple[float, float]
+Triple = tuple[float, float, float]
+Function = Callable[[float], float]
 _CONVERGENT = ("noble", "convergent")
 _VARIABLES = {
     "turns": (_CONVERGENT, "turns around the fixed point"),
@@ -47,7 +51,10 @@ _VARIABLES = {
 }
 
 
-def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) -> xr.Dataset:
+def last_curve(
+    ball: Ball, energy: float, convergents: int, between: Interval, impacts: int, drawn: int,
+    nobles: Sequence[Sequence[int]] | None = None,
+) -> xr.Dataset:  # fmt: skip
     """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
     `nobles` are continued fractions [0, a1, a2, ...], after which all quotients are 1; by default
@@ -63,16 +70,16 @@ def last_curve(ball, energy, convergents, between, impacts, drawn, nobles=None) 
     """
     rows = []
     for i, noble in enumerate(edge_nobles(ball, energy, between) if nobles is None else nobles):
-        quotients = [int(a) for a in noble]
         try:
-            rows.append(_row(ball, energy, quotients, convergents, between, impacts, drawn))
+            search = OrbitSearch(ball, energy, between)
+            rows.append(_row(search, [int(a) for a in noble], convergents, impacts, drawn))
         except ValueError:
             if nobles is not None or i == 0:
                 raise
     return xr.Dataset(of_rows(_VARIABLES, rows), attrs={"impacts": impacts})
 
 
-def edge_nobles(ball: Ball, energy: float, between: tuple[float, float]) -> list[list[int]]:
+def edge_nobles(ball: Ball, energy: float, between: Interval) -> list[list[int]]:
     """Choose two noble rotation numbers, on either side of the edge of an island.
 
     `between` is a part of y = 0, in section radii, that begins in the island and ends outside; a
@@ -127,9 +134,11 @@ def _simplest_between(low: float, high: float) -> list[int]:
     return [whole, *_simplest_between(1.0 / (high - whole), upper)]
 
 
-def _row(ball, energy, noble, convergents, between, impacts, drawn) -> tuple:
+def _row(
+    search: "OrbitSearch", noble: list[int], convergents: int, impacts: int, drawn: int
+) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one noble number."""
-    search = OrbitSearch(ball, energy, between)
+    ball, energy = search.ball, search.energy
     orbits = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
     start = orbits[-1][2]
     (turns,), (exponent,) = winding(ball, energy, np.array([start]), impacts)
@@ -154,6 +163,14 @@ def value(noble: Sequence[int]) -> float:
     return number
 
 
+class SymmetricOrbit(NamedTuple):
+    """A symmetric periodic orbit, which starts on y = 0."""
+
+    start: float  # section radii
+    residue: float
+    closure: float  # by how much the orbit misses its start, in section radii
+
+
 class OrbitSearch:
     """Search on y = 0 for symmetric periodic orbits with a given number of turns.
 
@@ -162,14 +179,14 @@ class OrbitSearch:
     select one of the many solutions.
     """
 
-    def __init__(self, ball, energy, between):
+    def __init__(self, ball: Ball, energy: float, between: Interval):
         self.ball, self.energy, self.between = ball, energy, between
         centre, self.radius = ball.section(energy)
         fixed_place, self.fixed_rotation = symmetric_fixed_point(ball, energy)
         self.fixed_x = centre + self.radius * fixed_place
 
-    def orbit(self, turns: int, period: int) -> tuple[float, float, float]:
-        """Return start, residue and closure of the orbit with so many turns in a period."""
+    def orbit(self, turns: int, period: int) -> SymmetricOrbit:
+        """Return an orbit with so many turns in a period; raise ValueError if none is found."""
         found = self.find(turns, period)
         if found is not None:
             return found
@@ -181,18 +198,18 @@ class OrbitSearch:
             f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
 
-    def find(self, turns: int, period: int) -> tuple[float, float, float] | None:
-        """Return start, residue and closure of an orbit, or None if none is found."""
+    def find(self, turns: int, period: int) -> SymmetricOrbit | None:
+        """Return an orbit with so many turns in a period, or None if none is found."""
         excess_turns = self._excess_turns(turns, period)
         first, last = self.between
-        brackets = self._brackets(excess_turns, _CELLS)
+        brackets: Iterator[Interval] = self._brackets(excess_turns, _CELLS)
         if excess_turns(first) > 0.0 > excess_turns(last):
             brackets = itertools.chain([self.between], brackets)
         solved = (self._solve(excess_turns, period, bracket) for bracket in brackets)
         return next((orbit for orbit in solved if orbit is not None), None)
 
-    def innermost(self, turns: int, period: int, cells: int) -> tuple[float, float, float] | None:
-        """Return `find`'s values of the orbit nearest to the fixed point, or None.
+    def innermost(self, turns: int, period: int, cells: int) -> SymmetricOrbit | None:
+        """Return the orbit that is nearest to the fixed point, or None if none is found.
 
         It is searched in the first of so many cells of `between` at whose ends orbits have too many
         and too few turns, or the other way round.
@@ -201,21 +218,22 @@ class OrbitSearch:
         bracket = next(self._brackets(excess_turns, cells), None)
         return None if bracket is None else self._solve(excess_turns, period, bracket)
 
-    def _excess_turns(self, turns: int, period: int) -> Callable:
+    def _excess_turns(self, turns: int, period: int) -> Function:
         """Return the function of a start that is zero on an orbit with these turns."""
         half, odd = divmod(period, 2)
 
-        def excess_turns(start):
+        def excess_turns(start: float) -> float:
             before, last, _ = self._half_orbit(start, half)
             return 2.0 * before + odd * last - turns
 
         return excess_turns
 
-    def _solve(self, excess_turns, period, bracket) -> tuple[float, float, float] | None:
-        """Return start, residue and closure of the orbit in a bracket, None if it is not closed."""
-        start = _bisect(excess_turns, *bracket)
-        if period % 2:
-            start = self._symmetric_flight(start, period // 2)
+    def _solve(
+        self, excess_turns: Function, period: int, bracket: Interval
+    ) -> SymmetricOrbit | None:
+        """Return the orbit in a bracket, or None if it does not close."""
+        crossing = _bisect(excess_turns, *bracket)
+        start = self._symmetric_flight(crossing, period // 2) if period % 2 else crossing
         if start is None:
             return None
         state = self.ball.start(start, self.energy)
@@ -225,9 +243,9 @@ class OrbitSearch:
             return None
         jacobian = self.ball.jacobian(*state, impacts=period)
         trace = float(jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2] - 1.0)
-        return start, 0.25 * (2.0 - trace), closure
+        return SymmetricOrbit(start, 0.25 * (2.0 - trace), closure)
 
-    def _brackets(self, excess_turns: Callable, cells: int) -> Iterator[tuple[float, float]]:
+    def _brackets(self, excess_turns: Function, cells: int) -> Iterator[Interval]:
         """Yield the ends of cells, that with too many turns first, which have an orbit between."""
         first, last = self.between
         low, above = first, excess_turns(first) > 0.0
@@ -238,17 +256,17 @@ class OrbitSearch:
                 above = not above
             low = high
 
-    def _half_orbit(self, start: float, half: int) -> tuple[float, float, float]:
+    def _half_orbit(self, start: float, half: int) -> Triple:
         """Return `_turns` of the orbit from a start on y = 0."""
         k, g = self.ball.k, self.ball.g
         # the state of Ball.start, without its checks of a start, which take as long as the orbit
         state = formulas.start(k, g, self.energy, start)
-        return _turns(*state, k, g, self.fixed_x, self.fixed_rotation, half)
+        return _turns(state, k, g, self.fixed_x, self.fixed_rotation, half)
 
     def _symmetric_flight(self, start: float, half: int) -> float | None:
         """Return the nearby start whose flight after `half` impacts is symmetric, or None."""
 
-        def asymmetry(at):
+        def asymmetry(at: float) -> float:
             return self._half_orbit(at, half)[2]
 
         width = _MIN_HALF_WIDTH
@@ -260,7 +278,7 @@ class OrbitSearch:
         return None
 
 
-def _bisect(function: Callable, above: float, below: float) -> float:
+def _bisect(function: Function, above: float, below: float) -> float:
     """Return where a function changes from positive, at `above`, to not positive, to a double."""
     while (middle := 0.5 * (above + below)) not in (above, below):
         if function(middle) > 0.0:
@@ -271,16 +289,17 @@ def _bisect(function: Callable, above: float, below: float) -> float:
 
 
 @jit
-def _turns(x, v, w, k, g, centre, expected, impacts):
-    """Return turns around x = centre in `impacts`, in one impact more, and b + g tau/2 of that."""
+def _turns(state: Triple, k: float, g: float, x0: float, expected: float, impacts: int) -> Triple:
+    """Return turns around x = x0 in `impacts`, in one impact more, and b + g tau/2 of that one."""
+    x, v, w = state
     coefficients = kernel.impact_coefficients(k)
     round_y = 1.0 / math.sqrt(k * (1.0 + k))
     total, turn, asymmetry = 0.0, 0.0, 0.0
-    p, q = x - centre, round_y * (v - k * w)
+    p, q = x - x0, round_y * (v - k * w)
     for i in range(impacts + 1):
         total += turn if i else 0.0
         x, v, w, tau, _, _ = kernel.step(x, v, w, k, g, coefficients, None)
-        r, s = x - centre, round_y * (v - k * w)
+        r, s = x - x0, round_y * (v - k * w)
         turn = angle(p * r + q * s, q * r - p * s) / (2.0 * math.pi)
         if turn < expected - 0.5:
             turn += 1.0

@@ -10,13 +10,16 @@ EARLY impacts is chaotic and is followed no further. The methods are:
                               34, 2001); in two dimensions GALI_2 equals it up to a factor
     weighted Birkhoff average of the turns around the fixed point: the difference between the
                               winding numbers of the two halves (Das et al., Nonlinearity 30, 2017)
-    as soon as safe           `sweep.verdict`, with at most that many impacts
+    as soon as safe           `pseudorigid.dynamics.verdict`, with at most that many impacts
 
 A best threshold gives the fewest wrong verdicts on the first set of cells; the second is unseen.
 """
 
 import math
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from itertools import repeat
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -34,16 +37,18 @@ from .cell import sunflower_points
 LONG, EARLY = 400_000, 20_000  # impacts
 SURELY_CHAOTIC = 10 * GROWTH_THRESHOLD  # a regular orbit's growth is about 0.85 at any length
 LENGTHS = (250, 500, 1000, 2000, 4000, 8000)  # impacts after which the methods decide
+# Name -> quantity of an orbit, and the threshold below which it is regular; None for the best one.
 METHODS = {
-    "growth below 3": "growth",
-    "growth, best threshold": "growth",
-    "SALI (two vectors)": "alignment",
-    "weighted Birkhoff average": "unsettled",
-    "as soon as safe": "safe",
+    "growth below 3": ("growth", 3.0),
+    "growth, best threshold": ("growth", None),
+    "SALI (two vectors)": ("alignment", None),
+    "weighted Birkhoff average": ("unsettled", None),
+    "as soon as safe": ("safe", math.nan),
 }
 SETS = ("cells on which thresholds were chosen", "unseen cells")
 K, ENERGY = (0.012, 0.332), (0.1, 40.0)  # ranges of k and E/g^2
 
+Arrays = dict[str, np.ndarray]  # quantity -> its values on orbits, the last dim
 _EACH = ("set", "method", "length")
 _CELL = {
     "k": (("set", "cell"), *AXES["k"]),
@@ -63,31 +68,22 @@ def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
     """
     drawn = [cell for number in range(len(SETS)) for cell in random_cells(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
-        results = list(pool.map(lambda cell: _cell(*cell, orbits), drawn))
+        results = list(pool.map(_cell, *zip(*drawn, strict=True), repeat(orbits)))
     orbit_keys = ("growth", "unsettled", "alignment", "safe", "followed", "truth")
     sets = [
         {key: np.concatenate([cell[key] for cell in part], axis=-1) for key in orbit_keys}
         for part in (results[:cells], results[cells:])
     ]
-    shape = len(SETS), len(METHODS), len(LENGTHS)
-    missed, alarms, cost = np.empty((3, *shape))
-    threshold = np.full(shape[1:], np.nan)
-    threshold[0] = 3.0
-    for m, key in enumerate(METHODS.values()):
-        for j, length in enumerate(LENGTHS):
-            if m and key != "safe":
-                threshold[m, j] = _best_threshold(sets[0][key][j], sets[0]["truth"])
-            for i, orbit in enumerate(sets):
-                regular = orbit[key][j] < threshold[m, j] if key != "safe" else orbit[key][j]
-                missed[i, m, j] = np.mean(regular & ~orbit["truth"])
-                alarms[i, m, j] = np.mean(~regular & orbit["truth"])
-                cost[i, m, j] = np.mean(orbit["followed"][j]) if key == "safe" else length
+    thresholds = [_thresholds(sets[0], *method) for method in METHODS.values()]
+    quantities = [key for key, _ in METHODS.values()]
+    errors = [list(map(partial(_errors, orbit), quantities, thresholds)) for orbit in sets]
+    missed, alarms, cost = np.moveaxis(np.array(errors), 2, 0)
     variables = {
         "wrong": (_EACH, missed + alarms, "share of wrong verdicts"),
         "missed": (_EACH, missed, "chaotic orbits called regular, share of all"),
         "alarms": (_EACH, alarms, "regular orbits called chaotic, share of all"),
         "cost": (_EACH, cost, "mean number of impacts of an orbit"),
-        "threshold": (_EACH[1:], threshold, "regular is what lies below"),
+        "threshold": (_EACH[1:], thresholds, "regular is what lies below"),
         "name": ("method", list(METHODS), "how an orbit is judged"),
         "cells": ("set", SETS, "set of cells"),
         "length": ("length", LENGTHS, "largest number of impacts"),
@@ -96,6 +92,22 @@ def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
     numbers = numbers.reshape(len(SETS), cells, len(_CELL))
     data = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
     return xr.Dataset(data, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
+
+
+def _thresholds(orbits: Arrays, key: str, fixed: float | None) -> np.ndarray:
+    """Return the threshold of a method after each of LENGTHS, the best one if none is fixed."""
+    if fixed is not None:
+        return np.full(len(LENGTHS), fixed)
+    return np.array([_best_threshold(values, orbits["truth"]) for values in orbits[key]])
+
+
+def _errors(orbits: Arrays, key: str, threshold: np.ndarray) -> np.ndarray:
+    """Return the shares missed and falsely alarmed and the cost (3, length) of a method."""
+    regular, cost = orbits[key] < threshold[:, None], np.array(LENGTHS, float)
+    if key == "safe":
+        regular, cost = orbits["safe"], orbits["followed"].mean(axis=1)
+    truth = orbits["truth"]
+    return np.array([(regular & ~truth).mean(axis=1), (~regular & truth).mean(axis=1), cost])
 
 
 def random_cells(count: int, number: int) -> list[tuple[float, float]]:
@@ -113,7 +125,7 @@ def random_cells(count: int, number: int) -> list[tuple[float, float]]:
     return cells
 
 
-def _cell(k: float, e: float, count: int) -> dict:
+def _cell(k: float, e: float, count: int) -> dict[str, Any]:
     """Return the quantities by which each method decides on a cell's orbits, and the truth."""
     x, _, rotation = fixed_point.numbers(k, e)
     states = np.stack(sunflower_points(k, e, count))
@@ -130,7 +142,9 @@ def _cell(k: float, e: float, count: int) -> dict:
     }
 
 
-def _growth_and_truth(k, states, centre, expected) -> dict:
+def _growth_and_truth(
+    k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray
+) -> Arrays:
     """Return growth and difference of winding numbers after each of LENGTHS, and the truth."""
     turning, growing = windows((*LENGTHS, EARLY, LONG))
     turning = turning[: 3 * len(LENGTHS)]
@@ -155,7 +169,9 @@ def _growth_and_truth(k, states, centre, expected) -> dict:
     }
 
 
-def _alignment(k, states, centre, expected) -> np.ndarray:
+def _alignment(
+    k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray
+) -> np.ndarray:
     """Return minus SALI of two tangent vectors of the energy surface after each of LENGTHS."""
     first, second = (begin(k, states, centre, expected) for _ in range(2))
     x, v, w = states
@@ -186,7 +202,7 @@ def _best_threshold(values: np.ndarray, truth: np.ndarray) -> float:
     return float(values[min(at, values.size - 1)])
 
 
-def _summary(cell: dict) -> tuple[float, ...]:
+def _summary(cell: dict[str, Any]) -> tuple[float, ...]:
     """Return the values of _CELL for one cell."""
     sea = ~cell["truth"] & ~np.isnan(cell["exponent"])
     shared, long = cell["exponent"][sea], cell["exponent_long"][sea]

@@ -1,12 +1,29 @@
 """The methods that are compared.
 
-A method has a `name`, a `family` of methods that differ in one setting, and a function
-
-    solve(ball, x, xdot, udot) -> (tau, evaluations)
-
-of states just before an impact, arrays (n,). It returns flight times, NaN if none is found, and the
-cost of each. `counted_methods` has the methods in this package's arithmetic, whose results are the
-same on every machine. `scipy_events` and `taylor` have those of libraries, whose results are
-measurements; `external_solver` applies them to one flight at a time. `pynamicalsys_lyapunov` has
-the exponents of a library.
+`counted_methods` has the methods in this package's arithmetic, whose results are the same on every
+machine. `scipy_events` and `taylor` have those of libraries, whose results are measurements;
+`external_solver` applies them to one flight at a time. `pynamicalsys_lyapunov` has the exponents of
+a library.
 """
+
+from typing import Protocol
+
+import numpy as np
+
+from pseudorigid.dynamics.ball import Ball
+
+Flights = tuple[np.ndarray, np.ndarray]
+
+
+class Method(Protocol):
+    """A method that finds the next impact; methods of a family differ in one setting."""
+
+    name: str
+    family: str
+
+    def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
+        """Return flight times of states just before an impact, and their cost, arrays (n,).
+
+        A time is NaN if no root is found.
+        """
+        raise NotImplementedError

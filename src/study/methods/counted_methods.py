@@ -1,6 +1,6 @@
 """Methods in this package's arithmetic, whose results have the same bytes on every machine.
 
-There are three kinds of method to find the flight after an impact:
+There are three kinds of method:
 
     MARCH   the certified march of pseudorigid.kernel.flight
     SCAN    the paper's method: steps of constant length until the gap changes sign, then bisection
@@ -14,17 +14,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.formulas import impact_coefficients
 from pseudorigid.kernel.impact import MOST_SCAN_STEPS, scan
 
+from . import Flights, Method
+
 MARCH, SCAN, ENGINE = 0, 1, 2
+Settings = tuple[int, float, float]  # kind, step and tolerance in time units
+Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
+Numbers = tuple[float, float, float]  # x, xdot and udot just before an impact
+NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations
 
 
 @jit
-def _engine(x, b, c, g, step):
-    """Return (tau, x', xdot', udot', steps) of a flight that begins at x with velocities b, c."""
+def _engine(x: float, b: float, c: float, g: float, step: float) -> NextImpact:
+    """Return the end of a flight that begins at x with the velocities b and c."""
     position, strain, v, w = x, -x, b, c
     count = 0
     while True:
@@ -40,8 +48,10 @@ def _engine(x, b, c, g, step):
 
 
 @jit
-def _flight(kind, step, tolerance, x, v, w, k, g, coefficients):
-    """Return (tau, x', xdot', udot', evaluations) of one impact and the flight that follows."""
+def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: float) -> NextImpact:
+    """Return the next impact of a state just before an impact."""
+    kind, step, tolerance = settings
+    k, g, coefficients = ball
     if kind == MARCH:
         p, v, q, tau, count, _ = kernel.step(x, v, w, k, g, coefficients, None)
         return tau, p, v, q, count
@@ -54,63 +64,69 @@ def _flight(kind, step, tolerance, x, v, w, k, g, coefficients):
 
 
 @jit
-def _flights(kind, step, tolerance, x, v, w, k, g, tau, count):
-    coefficients = kernel.impact_coefficients(k)
-    for i in range(x.size):
-        tau[i], _, _, _, count[i] = _flight(
-            kind, step, tolerance, x[i], v[i], w[i], k, g, coefficients
-        )
+def _flights(
+    settings: Settings, ball: Parameters, states: np.ndarray, tau: np.ndarray, count: np.ndarray
+) -> None:
+    """Write the flight times of states (3, n), and their evaluations."""
+    for i in range(tau.size):
+        x, v, w = states[0, i], states[1, i], states[2, i]
+        tau[i], _, _, _, count[i] = _next_impact(settings, ball, x, v, w)
 
 
 @jit
-def _orbit(kind, step, tolerance, x, v, w, k, g, out):
-    coefficients = kernel.impact_coefficients(k)
+def _orbit(settings: Settings, ball: Parameters, state: Numbers, out: np.ndarray) -> int:
+    """Write x, xdot, udot and tau of the impacts of an orbit; return its evaluations."""
+    x, v, w = state
     total = 0
     for i in range(out.shape[1]):
-        tau, x, v, w, count = _flight(kind, step, tolerance, x, v, w, k, g, coefficients)
+        tau, x, v, w, count = _next_impact(settings, ball, x, v, w)
         out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
         total += count
     return total
 
 
-@dataclass(frozen=True)
-class CountedMethod:
-    """A method of one of the kinds above, with its step and tolerance in time units."""
+@dataclass
+class CountedMethod(Method):
+    """A method of one of the kinds above."""
 
     name: str
     family: str
-    kind: int
-    step: float = 0.0
-    tolerance: float = 0.0
+    settings: Settings
 
-    def solve(self, ball, x, xdot, udot) -> tuple[np.ndarray, np.ndarray]:
-        """Return flight times and evaluations of states, arrays (n,); NaN if no root is found."""
+    def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
+        """Return flight times of states, arrays (n,), and evaluations of the gap."""
         tau, count = np.empty(x.size), np.empty(x.size, np.int64)
-        _flights(self.kind, self.step, self.tolerance, x, xdot, udot, ball.k, ball.g, tau, count)
+        _flights(self.settings, _parameters(ball), np.array([x, xdot, udot]), tau, count)
         return tau, count
 
-    def orbit(self, ball, state, impacts: int) -> tuple[np.ndarray, int]:
+    def orbit(self, ball: Ball, state: State, impacts: int) -> tuple[np.ndarray, int]:
         """Return the method's own orbit from `state`, and the evaluations of all flights.
 
         The rows of the orbit (4, impacts) are x, xdot, udot just before each impact after the
         start, and the time tau of the flight that ends there.
         """
-        track, settings = np.empty((4, impacts)), (self.kind, self.step, self.tolerance)
-        return track, _orbit(*settings, *(float(a) for a in state), ball.k, ball.g, track)
+        track = np.empty((4, impacts))
+        x, xdot, udot = map(float, state)
+        return track, _orbit(self.settings, _parameters(ball), (x, xdot, udot), track)
 
 
-OURS = CountedMethod("certified march", "certified march", MARCH)
+def _parameters(ball: Ball) -> Parameters:
+    """Return the numbers of a ball that compiled methods take."""
+    return ball.k, ball.g, impact_coefficients(ball.k)
+
+
+OURS = CountedMethod("certified march", "certified march", (MARCH, 0.0, 0.0))
 
 
 def scan_method(step: float, tolerance: float) -> CountedMethod:
     """Return the paper's method with a step and a tolerance."""
     name, family = f"scan {step:g}, {tolerance:.0e}", f"scan {step:g} + bisection"
-    return CountedMethod(name, family, SCAN, step, tolerance)
+    return CountedMethod(name, family, (SCAN, step, tolerance))
 
 
 def engine_method(step: float) -> CountedMethod:
     """Return a physics engine with a time step."""
-    return CountedMethod(f"engine {step:.0e}", "time stepping", ENGINE, step)
+    return CountedMethod(f"engine {step:.0e}", "time stepping", (ENGINE, step, 0.0))
 
 
 TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)

@@ -4,12 +4,12 @@ import numba
 import numpy as np
 from pynamicalsys import DiscreteDynamicalSystem
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.kernel import impact as kernel
 
 
 @numba.njit
-def _mapping(u, parameters):
+def _mapping(u: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     """Return the state after u = (x, xdot, udot); parameters = (k, g)."""
     k, g = parameters[0], parameters[1]
     coefficients = kernel.impact_coefficients(k)
@@ -18,7 +18,7 @@ def _mapping(u, parameters):
 
 
 @numba.njit
-def _jacobian(u, parameters, *_):
+def _jacobian(u: np.ndarray, parameters: np.ndarray, *_: float) -> np.ndarray:
     """Return the analytic Jacobian, eq. (33)."""
     k, g = parameters[0], parameters[1]
     coefficients = kernel.impact_coefficients(k)
@@ -34,11 +34,10 @@ def _jacobian(u, parameters, *_):
     return out
 
 
-def spectrum(ball: Ball, state: tuple[float, float, float], impacts: int) -> np.ndarray:
+def spectrum(ball: Ball, state: State, impacts: int) -> np.ndarray:
     """Return the three Lyapunov exponents of one orbit, in nats an impact, by QR."""
     system = DiscreteDynamicalSystem(
         mapping=_mapping, jacobian=_jacobian, system_dimension=3, number_of_parameters=2
     )
-    return np.asarray(
-        system.lyapunov(list(state), impacts, parameters=[ball.k, ball.g], method="QR")
-    )
+    parameters = [ball.k, ball.g]
+    return np.asarray(system.lyapunov(list(state), impacts, parameters=parameters, method="QR"))

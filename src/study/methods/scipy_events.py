@@ -2,22 +2,28 @@
 
 import math
 
+import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from .external_solver import AFTER, ExternalSolver, just_after
 
-# First steps in time units. LSODA may not see a flight that ends within its first step; a tiny one
-# costs it nothing.
-FIRST_STEP = {"LSODA": 1e-8}
-DEFAULT_FIRST_STEP = 1e-2
+
+class RisingGap:
+    """The terminal event of solve_ivp where the gap rises through 0."""
+
+    terminal, direction = True, 1
+
+    def __call__(self, _: float, y: np.ndarray) -> float:
+        """Return the gap of (x, u, xdot, udot)."""
+        return float(y[0] + y[1])
 
 
 def brentq_method(step: float, tolerance: float) -> ExternalSolver:
     """Return a scan that scipy.optimize.brentq refines to a tolerance."""
 
-    def flight(x, b, c, g, latest):
-        def gap(t):
+    def flight(x: float, b: float, c: float, g: float, latest: float) -> tuple[float, int]:
+        def gap(t: float) -> float:
             return x + t * (b + 0.5 * g * t) - x * math.cos(t) + c * math.sin(t)
 
         count = 1
@@ -38,35 +44,25 @@ def brentq_method(step: float, tolerance: float) -> ExternalSolver:
 
 def ivp_method(solver: str, rtol: float, max_step: float = math.inf) -> ExternalSolver:
     """Return solve_ivp, atol = rtol/1000, with a terminal event where the gap rises through 0."""
+    steps = {"method": solver, "rtol": rtol, "atol": 1e-3 * rtol, "max_step": max_step}
+    rising = RisingGap()
 
-    def gap(_, y):
-        return y[0] + y[1]
-
-    gap.terminal = True
-    gap.direction = 1
-
-    def flight(x, b, c, g, latest):
+    def flight(x: float, b: float, c: float, g: float, latest: float) -> tuple[float, int]:
         calls = 0
 
-        def fall(_, y):
+        def fall(_: float, y: np.ndarray) -> tuple[float, ...]:
             nonlocal calls
             calls += 1
             return y[2], y[3], g, -y[1]
 
+        # LSODA may not see a flight that ends within its first step; a tiny one costs it nothing.
+        first = min(1e-8 if solver == "LSODA" else 1e-2, 0.5 * latest)
+        span, start = (AFTER, latest), just_after(x, b, c, g)
         try:
-            times = solve_ivp(
-                fall,
-                (AFTER, latest),
-                just_after(x, b, c, g),
-                method=solver,
-                rtol=rtol,
-                atol=1e-3 * rtol,
-                events=gap,
-                first_step=min(FIRST_STEP.get(solver, DEFAULT_FIRST_STEP), 0.5 * latest),
-                max_step=max_step,
-            ).t_events[0]
+            solved = solve_ivp(fall, span, start, events=rising, first_step=first, **steps)
         except ValueError:  # its event search can end in "f(a) and f(b) must have different signs"
             return math.nan, calls
+        times = solved.t_events[0]
         return (float(times[0]) if times.size else math.nan), calls
 
     family = solver if max_step == math.inf else f"{solver}, steps <= {max_step:g}"

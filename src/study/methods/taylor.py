@@ -11,7 +11,7 @@ DIRECTIONS = {"any": hy.event_direction.any, "positive": hy.event_direction.posi
 
 
 @cache
-def _integrator(g, tolerance, direction):
+def _integrator(g: float, tolerance: float, direction: str) -> hy.taylor_adaptive:
     """Return a compiled integrator whose event is the gap, to be reused for every flight."""
     x, u, v, w = hy.make_vars("x", "u", "v", "w")
     return hy.taylor_adaptive(
@@ -29,7 +29,7 @@ def taylor_method(tolerance: float, direction: str) -> ExternalSolver:
     One order of one Taylor step counts as one evaluation of the right-hand side.
     """
 
-    def flight(x, b, c, g, latest):
+    def flight(x: float, b: float, c: float, g: float, latest: float) -> tuple[float, int]:
         ta = _integrator(g, tolerance, direction)
         ta.reset_cooldowns()
         ta.time = AFTER

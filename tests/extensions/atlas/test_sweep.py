@@ -33,15 +33,16 @@ def checked(**sweeps):
 
 
 @pytest.mark.parametrize(
-    ("name", "sweeps", "line"),
+    ("name", "sweeps", "slurm", "line"),
     [
-        ("lime", {"plane": SMALL, "line": SMALL}, "no sweep lime: did you mean line"),
-        (None, {}, "sweeps: empty"),
+        (["lime"], {"plane": SMALL, "line": SMALL}, False, "no sweep lime: did you mean line"),
+        ([], {}, False, "sweeps: empty"),
+        ([], {"small": SMALL}, True, "--slurm: there is no sbatch on this machine"),
     ],
 )
-def test_a_sweep_that_is_not_in_the_config_is_one_line(name, sweeps, line):
-    names = [name] if name else []
-    args = Arguments(word="sweep", sweep=names, slurm=False, options=[])
+def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweeps, slurm, line):
+    monkeypatch.setenv("PATH", "/nowhere")
+    args = Arguments(word="sweep", sweep=name, slurm=slurm, options=[])
     args.config = checked(**sweeps)
     with pytest.raises(UsageError, match=line):
         command.run(args)
@@ -71,16 +72,17 @@ def set_sweep(tree, block):
     tree.write(tree.document() | {"sweeps": {"small": block}})
 
 
+def data(tree):
+    """Return the files of the sweep's data."""
+    return list((tree.path / "results" / "atlas").rglob("*.nc"))
+
+
 def hashes(tree):
-    """File -> sha256 of the sweep's data."""
-    files = (tree.path / "results" / "atlas").rglob("*.nc")
-    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in data(tree)}
 
 
 def times(tree):
-    """File -> its time of change, of the sweep's data."""
-    files = (tree.path / "results" / "atlas").rglob("*.nc")
-    return {file.name: file.stat().st_mtime_ns for file in files}
+    return {file.name: file.stat().st_mtime_ns for file in data(tree)}
 
 
 def test_damaged_files_alone_are_made_again(tree):
@@ -112,10 +114,10 @@ def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
     set_sweep(tree, SMALL | {"energy": [0.3, 2.0, 7.0]})
     shutil.rmtree(tree.path / ".snakemake")  # its memory of parameters
     tree.succeed("sweep", "-c", "1")
-    data = load(tree.path / "results" / "atlas" / "sweep_small.nc")
-    assert data["energy"].values.tolist() == [0.3, 2.0, 7.0]
+    dataset = load(tree.path / "results" / "atlas" / "sweep_small.nc")
+    assert dataset["energy"].values.tolist() == [0.3, 2.0, 7.0]
     one = cell.cell(0.1, 7.0, SMALL["starts"], SMALL["impacts"])
-    assert data.sel(k=0.1, energy=7.0)["exponent"] == one["exponent"]
+    assert dataset.sel(k=0.1, energy=7.0)["exponent"] == one["exponent"]
 
 
 @pytest.mark.slow
@@ -133,14 +135,6 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
     assert present.items() <= wanted.items()
     tree.succeed("sweep", "-c", "1")
     assert hashes(tree) == wanted
-
-
-def test_slurm_needs_sbatch(monkeypatch):
-    monkeypatch.setenv("PATH", "/nowhere")
-    args = Arguments(word="sweep", sweep=[], slurm=True, options=[])
-    args.config = checked(small=SMALL)
-    with pytest.raises(UsageError, match="--slurm: there is no sbatch on this machine"):
-        command.run(args)
 
 
 @pytest.mark.slow

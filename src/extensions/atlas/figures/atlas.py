@@ -1,16 +1,30 @@
 """The atlas: the regular share of the section and the exponent of the rest, over k and E/g^2."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures.axes.limits import decades, linear
-from pseudorigid.figures.axes.panel import Panel, Window, corner, letters, log10, title, upright
+from pseudorigid.figures.axes.panel import (
+    Axis,
+    Panel,
+    Window,
+    corner,
+    letters,
+    log10,
+    title,
+    upright,
+)
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, pieces
 
+from ..cell import NORMAL_95
 from . import raster
 
 RESONANCES = tuple((1, q) for q in range(2, 11))
@@ -23,18 +37,19 @@ QUOTATION = (
 )
 LEFT, WIDE, HIGH = 115, 800, 640  # pixels: the left of a plane's frame, and its largest size
 _SIZE = 6.0  # points: text beside lines
-_NAME = 46  # pixels: the room that the name of a resonance needs
-_NORMAL = 1.959964  # standard errors either way that hold 95 %
+_NAME_WIDTH = 46  # pixels: the room that the name of a resonance needs
 _DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
+Sweep = dict[str, Any]  # a block of the checked config
 
 
-def draw(sweep, data):
+def draw(sweep: Sweep, data: xr.Dataset) -> Figure:
     """Draw a sweep: a plane over k and E/g^2, or a line over the energy if it has one k."""
-    return (line if len(sweep["k"]) == 1 else plane)(sweep, data)
+    figure: Figure = (line if len(sweep["k"]) == 1 else plane)(sweep, data)
+    return figure
 
 
 @style.pinned()
-def plane(sweep, data):
+def plane(sweep: Sweep, data: xr.Dataset) -> Figure:
     """Draw the regular share and the sea's exponent as coloured cells over E/g^2 and k."""
     lower = 320
     upper = lower + pixels(sweep)[1] + 225
@@ -58,22 +73,25 @@ def plane(sweep, data):
     return sheet.figure
 
 
-def pixels(sweep):
+def pixels(sweep: Sweep) -> tuple[int, int]:
     """Return width and height of a plane, with whole pixels for each cell."""
-    sizes = (len(sweep["energy"]), WIDE), (len(sweep["k"]), HIGH)
-    return tuple(count * max(1, most // count) for count, most in sizes)
+    across, up = len(sweep["energy"]), len(sweep["k"])
+    return across * max(1, WIDE // across), up * max(1, HIGH // up)
 
 
-def sheet_above(bottom, sweep):
+def sheet_above(bottom: int, sweep: Sweep) -> Sheet:
     """Return a sheet whose upper panel is a plane that begins at the height `bottom`."""
     return Sheet(style.COLUMN, 75 * -(-(bottom + pixels(sweep)[1] + 105) // 75))
 
 
-def cells(sheet, bottom, sweep, values, most, table, text):
+def cells(
+    sheet: Sheet, bottom: int, sweep: Sweep, values: np.ndarray, most: float, table: str, text: str
+) -> Window:
     """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
-    up = linear(*raster.edges(sweep["k"])[[0, -1]], 7, "$k$")
+    first, last = raster.outer_edges(sweep["k"])
+    up = linear(first, last, 7, "$k$")
     panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
     panel.minor()
     raster.cells(panel, sweep, values / most, table)
@@ -82,7 +100,7 @@ def cells(sheet, bottom, sweep, values, most, table, text):
     return panel
 
 
-def _plane_key(sheet, top):
+def _plane_key(sheet: Sheet, top: int) -> None:
     """Explain curves, circles and grey in rows from the height `top` down."""
     across, rows = [LEFT, LEFT + 50], [top - 40 * i for i in range(4)]
     texts = (
@@ -93,8 +111,8 @@ def _plane_key(sheet, top):
     )
     for y, text in zip(rows, texts, strict=True):
         sheet.text(LEFT + 70, y, text, size=_SIZE)
-    _stroke(sheet, across, [rows[0]] * 2)
-    _stroke(sheet, across, [rows[1]] * 2, dashed=True)
+    _stroke(sheet, (across, [rows[0]] * 2))
+    _stroke(sheet, (across, [rows[1]] * 2), dashed=True)
     dot = {"ls": "none", "marker": "o"}
     sheet.draw([LEFT + 25], [rows[2]], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
     sheet.draw([LEFT + 25], [rows[2]], ms=2.5, color=style.BLACK, mew=0, **dot)
@@ -102,7 +120,7 @@ def _plane_key(sheet, top):
 
 
 @style.pinned()
-def line(sweep, data):
+def line(sweep: Sweep, data: xr.Dataset) -> Figure:
     """Draw regular share with its 95 % interval, and the sea's exponent with quartiles."""
     sheet = Sheet(style.COLUMN, 1275)
     k = sweep["k"][0]
@@ -126,12 +144,11 @@ def line(sweep, data):
         title(sheet, panel.frame, text, rise)
         corner(sheet, panel.frame, bars, rise, _SIZE)
     _upright_lines((above, below), k, energy[0], unit)
-    error = _NORMAL * data["exponent_error"].values[0]
-    quartiles = data["exponent_low"].values[0], data["exponent_high"].values[0]
-    mean = data["exponent"].values[0]
-    regular = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
-    above.estimates(energy, *regular, style.BLUE)
-    below.estimates(energy, np.full(energy.size, np.nan), *quartiles, style.pale(style.VERMILION))
+    error = NORMAL_95 * data["exponent_error"].values[0]
+    mean, low, high = (data[f"exponent{end}"].values[0] for end in ("", "_low", "_high"))
+    regular, least, most = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
+    above.estimates(energy, regular, least, most, style.BLUE)
+    below.estimates(energy, np.full(energy.size, np.nan), low, high, style.pale(style.VERMILION))
     below.estimates(energy, mean, mean - error, mean + error, style.VERMILION)
     for i, text in enumerate(QUOTATION if "g" in sweep else ()):
         sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
@@ -144,7 +161,7 @@ def line(sweep, data):
     return sheet.figure
 
 
-def _upright_lines(panels, k, first, unit):
+def _upright_lines(panels: Sequence[Panel], k: float, first: float, unit: float) -> None:
     """Draw the energies of resonances and of the onset of jumps, as far as they are swept."""
     sheet, last = panels[0].sheet, panels[0].across.limits[1]
     energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
@@ -160,17 +177,17 @@ def _upright_lines(panels, k, first, unit):
         sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
 
 
-def _apart(centres):
+def _apart(centres: list[float]) -> list[float]:
     """Return the centres of names, moved apart where neighbours would touch."""
     order = sorted(range(len(centres)), key=lambda i: centres[i])
     moved = list(centres)
     for left, right in pairwise(order):
-        push = 0.5 * max(0.0, _NAME - (moved[right] - moved[left]))
+        push = 0.5 * max(0.0, _NAME_WIDTH - (moved[right] - moved[left]))
         moved[left], moved[right] = moved[left] - push, moved[right] + push
     return moved
 
 
-def _curves(panel, named):
+def _curves(panel: Panel, named: bool) -> None:
     """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps."""
     bottom, top = panel.up.limits
     k = bottom + (top - bottom) * np.arange(1001) / 1000
@@ -179,15 +196,17 @@ def _curves(panel, named):
         energy = np.array([fixed_point.resonance(value, turns, impacts) for value in k.tolist()])
         visible = _is_between(panel.across, energy)
         for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
-            _stroke(panel.sheet, *piece)
+            _stroke(panel.sheet, piece)
         if named:
             name_curve(panel, visible, energy, k, f"{turns}/{impacts}")
     ends = k[[0, -1]]
     if _is_between(panel.across, 1.0 + 0.5 * ends).all():
-        _stroke(panel.sheet, *panel.place(1.0 + 0.5 * ends, ends), dashed=True)
+        _stroke(panel.sheet, panel.place(1.0 + 0.5 * ends, ends), dashed=True)
 
 
-def name_curve(panel, visible, energy, k, text):
+def name_curve(
+    panel: Panel, visible: np.ndarray, energy: np.ndarray, k: np.ndarray, text: str
+) -> None:
     """Name a curve where its visible part leaves the frame at the top or at the left."""
     if visible.any():
         last = int(np.flatnonzero(visible)[-1])
@@ -196,23 +215,24 @@ def name_curve(panel, visible, energy, k, text):
         panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
-def _stroke(sheet, x, y, dashed=False):
+def _stroke(sheet: Sheet, points: Sequence[Any], dashed: bool = False) -> None:
     """Draw a white line edged in black, or white dashes on a black line."""
     dashes = {"ls": (0, _DASHES)} if dashed else {}
-    sheet.draw(x, y, color=style.BLACK, lw=1.5, zorder=2.0)
-    sheet.draw(x, y, color="white", lw=0.7, zorder=2.1, **dashes)
+    sheet.draw(*points, color=style.BLACK, lw=1.5, zorder=2.0)
+    sheet.draw(*points, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
-def _energy_axis(values):
+def _energy_axis(values: Sequence[float]) -> Axis:
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
     name = r"$E/g^2$"
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        return linear(*raster.edges(values)[[0, -1]], 5, name)
-    axis = decades(raster.edges(log10(values))[[0, -1]].tolist(), name)
+        first, last = raster.outer_edges(values)
+        return linear(first, last, 5, name)
+    axis = decades(raster.outer_edges(log10(values)), name)
     return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
 
 
-def _is_between(axis, values):
+def _is_between(axis: Axis, values: np.ndarray) -> np.ndarray:
     """Return whether each value lies within the limits of an axis."""
     fractions = axis.fraction(values)
     return (fractions >= 0.0) & (fractions <= 1.0)

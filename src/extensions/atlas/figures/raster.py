@@ -1,12 +1,15 @@
 """Coloured cells between axes, and their colour scale."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import matplotlib
 import numpy as np
 
 from pseudorigid.figures.axes.limits import ticks
-from pseudorigid.figures.axes.panel import log10
+from pseudorigid.figures.axes.panel import Panel, log10
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
@@ -14,7 +17,7 @@ GREYS = "greys"
 _LIGHTEST, _DARKEST = 250, 130  # of GREYS
 
 
-def cells(panel, sweep, shades, table):
+def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -> None:
     """Draw a rectangle for each cell, coloured by shades (k, energy) from 0 to 1, grey if NaN.
 
     The cells are an image of whole pixels: a PNG has the exact colours, and vector files are small.
@@ -30,7 +33,7 @@ def cells(panel, sweep, shades, table):
     _paste(panel.sheet, left, bottom, image)
 
 
-def scale(sheet, frame, largest, table):
+def scale(sheet: Sheet, frame: Sequence[int], largest: float, table: str) -> None:
     """Draw the colour scale beside a frame, from 0 to `largest`."""
     left, right = frame[2] + 25, frame[2] + 55
     bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), frame[3] - frame[1])
@@ -43,7 +46,7 @@ def scale(sheet, frame, largest, table):
         sheet.text(right + 4 * POINT, y, text, size=_SIZE)
 
 
-def palette(name):
+def palette(name: str) -> np.ndarray:
     """Return colours, shape (64, 3): red, green and blue up to 255.
 
     `name` is that of a table of matplotlib, or GREYS, which leaves room for coloured lines.
@@ -51,26 +54,32 @@ def palette(name):
     if name == GREYS:
         levels = _LIGHTEST + (_DARKEST - _LIGHTEST) * np.arange(_COLOURS) // (_COLOURS - 1)
         return np.repeat(levels[:, None], 3, axis=1).astype(np.uint8)
-    table = np.array(matplotlib.colormaps[name].colors)
-    rows = table[(2 * np.arange(_COLOURS) + 1) * len(table) // (2 * _COLOURS)]
-    return (rows * 255 + 0.5).astype(np.uint8)
+    table = matplotlib.colormaps[name]
+    rows = table((2 * np.arange(_COLOURS) + 1) * table.N // (2 * _COLOURS))
+    return (rows[:, :3] * 255 + 0.5).astype(np.uint8)
 
 
-def _paste(sheet, left, bottom, image):
+def _paste(sheet: Sheet, left: int, bottom: int, image: np.ndarray) -> None:
     """Draw an image (height, width, 3), lowest row first, pixel for pixel."""
     sheet.figure.figimage(image, xo=left, yo=bottom, origin="lower", zorder=0.6)
 
 
-def _pixels(values, limits, size):
+def _pixels(values: np.ndarray, limits: Sequence[float], size: int) -> list[int]:
     """Return whole pixels of values, 0 at the lower limit and `size` at the upper one."""
     low, high = limits
     return [int((value - low) / (high - low) * size + 0.5) for value in values]
 
 
-def edges(values):
+def edges(values: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the borders of cells, halfway between their values; a single cell is a unit wide."""
     values = np.asarray(values)
     if values.size == 1:
         return np.array([values[0] - 0.5, values[0] + 0.5])
     middle = 0.5 * (values[1:] + values[:-1])
     return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
+
+
+def outer_edges(values: Sequence[float] | np.ndarray) -> tuple[float, float]:
+    """Return the first and the last border of cells."""
+    first, *_, last = edges(values).tolist()
+    return first, last

@@ -1,6 +1,10 @@
 """The chart of how often orbits are classified wrongly."""
 
+from typing import Any
+
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, letters, log10, title
 from pseudorigid.figures.canvas import style
@@ -17,7 +21,7 @@ _METHODS = {
 
 
 @style.pinned()
-def draw(scene, data):
+def draw(scene: dict[str, Any], data: xr.Dataset) -> Figure:
     """Draw the share of wrong verdicts, with a standard error, against impacts an orbit."""
     sheet, top = chart_sheet(1275)
     ticks = log10(data["length"].values).tolist()
