@@ -93,9 +93,9 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     curves = []
     for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
         growth = rotation["exponent"].values[row, : island(rotation, row)]
-        keep = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
-        start = rotation["place"].values[row, keep] - float(rotation["fixed_place"].values[row])
-        change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
+        starts = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
+        start = rotation["place"].values[row, starts] - float(rotation["fixed_place"].values[row])
+        change = rotation["rotation"].values[row, starts] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), start, change))
     up = _departure_axis([change for _, _, change in curves])
     within = [inside([up.limits], [change]) for _, _, change in curves]
