@@ -133,14 +133,14 @@ def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Con
 
 def _explorer_page(root: Path, config: Config) -> Contents:
     """Return the page of the explorer, if there is that extension."""
-    if "explorer" not in extensions():
-        return {}
-    from extensions.explorer import page
+    if "explorer" in extensions():
+        from extensions.explorer import page
 
-    try:
-        return {EXPLORER: page.render(config, root).encode()}
-    except ValueError as error:
-        raise ArchiveError(str(error)) from None
+        try:
+            return {EXPLORER: page.render(config, root).encode()}
+        except ValueError as error:
+            raise ArchiveError(str(error)) from None
+    return {}
 
 
 def _sources(root: Path) -> list[str]:

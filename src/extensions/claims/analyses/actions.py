@@ -165,10 +165,10 @@ def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, Primary]:
 
 
 def _lobe_between(
-    saddle: Saddle, sign: int, nearer: int, first_crossing: Crossing, second_crossing: Crossing
+    saddle: Saddle, sign: int, nearer: int, near_crossing: Crossing, far_crossing: Crossing
 ) -> tuple[arb, Primary]:
     """Return the results of `lobe` for its two crossings."""
-    (near, near_impacts), (far, far_impacts) = first_crossing, second_crossing
+    (near, near_impacts), (far, far_impacts) = near_crossing, far_crossing
     ratio, period = float(saddle.multiplier), saddle.period
     while far >= near:  # the crossing before that of the first orbit
         far, far_impacts = far / ratio, far_impacts + period
