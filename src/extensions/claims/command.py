@@ -18,25 +18,25 @@ from .ledger.schema import Verdict
 
 def run(args: Arguments) -> int:
     """Compute missing data, draw the pictures and write the verdicts."""
-    checked = args.config
+    config = args.config
     with locked():
-        files = figures.drawings_of(checked, "claims")
-        data = [*dataset_paths(checked, claims.required_datasets()).values()]
-        data += theorem_paths(checked, claims.required_theorems()).values()
-        status = figures.make(checked, "claims", files, args, data)
+        files = figures.drawings_of(config, "claims")
+        data = [*dataset_paths(config, claims.required_datasets()).values()]
+        data += theorem_paths(config, claims.required_theorems()).values()
+        status = figures.make(config, "claims", files, args, data)
         if status or args.makes_nothing:
             return status
         with interruptible():
-            verdicts = write(checked)
+            verdicts = write(config)
     counts = Counter(verdict.verdict for verdict in verdicts)
     print(f"\n{claims.FILE}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
     return 0
 
 
-def dataset_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
+def dataset_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
     known = {}
-    for (variant, scene, stage), path in paths.artifact_paths(checked.variants).items():
+    for (variant, scene, stage), path in paths.artifact_paths(config.variants).items():
         own = variant in (PAPER, "claims")
         known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
         if stage == "sweep":
@@ -51,9 +51,9 @@ def dataset_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
     return {name: known[name] for name in names}
 
 
-def theorem_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
+def theorem_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of the verdicts on theorems; raises UsageError for a missing one."""
-    artifact_paths = paths.artifact_paths(checked.variants)
+    artifact_paths = paths.artifact_paths(config.variants)
     known = {
         scene: path for (_, scene, stage), path in artifact_paths.items() if stage == "theorem"
     }
@@ -63,20 +63,20 @@ def theorem_paths(checked: Config, names: Sequence[str]) -> dict[str, str]:
     return {name: known[name] for name in names}
 
 
-def write(checked: Config) -> list[Verdict]:
+def write(config: Config) -> list[Verdict]:
     """Judge all claims, and write CLAIMS.json and then CLAIMS.md.
 
     A sweep's dataset gets the g of its block, if there is one, as an attribute.
     """
     datasets = {}
-    for name, path in dataset_paths(checked, claims.required_datasets()).items():
+    for name, path in dataset_paths(config, claims.required_datasets()).items():
         folder, _, sweep = name.partition("/")
-        block = checked.variants["atlas"][sweep].as_mapping() if folder == "atlas" else {}
+        block = config.variants["atlas"][sweep].as_mapping() if folder == "atlas" else {}
         more = {"g": block["g"]} if "g" in block else {}
         datasets[name] = artifacts.load(ROOT / path).assign_attrs(more)
     proofs = {
         name: artifacts.load(ROOT / path).attrs["verdict"]
-        for name, path in theorem_paths(checked, claims.required_theorems()).items()
+        for name, path in theorem_paths(config, claims.required_theorems()).items()
     }
     data = claims.to_json(claims.judge_claims(datasets, proofs))
     verdicts = claims.read_json(data)

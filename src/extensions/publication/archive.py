@@ -12,6 +12,7 @@ import json
 import os
 import tarfile
 import tempfile
+from collections import Counter
 from collections.abc import Collection, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -41,18 +42,9 @@ _INPUTS = (
     *("src/extensions/*/scenes.yaml", "src/extensions/*/rules.smk"),
     "src/extensions/*/certificates/*.toml",
 )
+# README.txt, and what it says of packages.
 _ABOUT_TEXT = Path(__file__).with_suffix(".txt")
-
-_WITH_PACKAGES = f"""\
-Draw all figures again here, without a network (src/extensions/publication/rebuild.md says how to do
-it by hand):
-
-    ./reproduce
-
-The packages in {PACKAGES}/ are those of requirements/, for the machine and the version of Python
-that the name of the archive has.
-
-"""
+_ABOUT_PACKAGES = Path(__file__).with_name("archive_packages.txt")
 
 Contents = dict[str, bytes]  # path of a file -> its bytes
 
@@ -61,7 +53,7 @@ class ArchiveError(ValueError):
     """An archive cannot be made or read. The message is one line."""
 
 
-def write(root: Path, checked: Config, path: Path | str, packages: Collection[Path] = ()) -> str:
+def write(root: Path, config: Config, path: Path | str, packages: Collection[Path] = ()) -> str:
     """Write the archive of the tree at `root`, whole or not at all, and return its sha256.
 
     With `packages`, files of the locked packages, it also has these and the tree's sources. Raises
@@ -73,9 +65,9 @@ def write(root: Path, checked: Config, path: Path | str, packages: Collection[Pa
         raise ArchiveError(f"{path} is a folder")
     if os.path.exists(path):  # another archive may be replaced, anything else is the user's
         read(path)
-    left_out = refuse_unpublished(root, checked)
+    left_out = refuse_unpublished(root, config)
     print(*left_out, sep="\n", end="\n" * bool(left_out))
-    archived = contents(root, checked, packages)
+    archived = contents(root, config, packages)
     with files.replacing(path) as part, tarfile.open(part, "w", format=tarfile.USTAR_FORMAT) as tar:
         for name, data in archived.items():
             entry = tarfile.TarInfo(f"{TOP}/{name}")
@@ -84,14 +76,14 @@ def write(root: Path, checked: Config, path: Path | str, packages: Collection[Pa
     return str(file_hash(path))
 
 
-def refuse_unpublished(root: Path, checked: Config) -> list[str]:
+def refuse_unpublished(root: Path, config: Config) -> list[str]:
     """Raise ArchiveError for a result that is not current, or a file that is not the committed one.
 
     Figures and data of sets that are made on request may be missing. Returns a line for each scene
     that cannot be made.
     """
     left_out = []
-    for findings in verify.verify(root, checked):
+    for findings in verify.verify(root, config):
         published_set = findings.published_set
         if problem := findings.not_published(root, partial=published_set.on_request):
             raise ArchiveError(f"{problem}: run {published_set.command}")
@@ -111,40 +103,44 @@ def _uncommitted(findings: verify.Findings) -> Iterator[str]:
             yield f"{findings.published_set.folder}/{name} is not the committed one: {words}"
 
 
-def contents(root: Path, checked: Config, packages: Collection[Path] = ()) -> Contents:
+def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Contents:
     """Return the files that an archive of this tree has, as far as they exist."""
     archived = {f"{PACKAGES}/{_short(file.name)}": read_bytes(file) for file in packages}
-    datasets: list[str] = []
-    paths = _sources(root) if archived else []
-    for pattern in _INPUTS:
-        paths += [str(file.relative_to(root)) for file in root.glob(pattern)]
-    for published_set in published_sets.committed_sets(checked):
+    paths = _sources(root) if packages else []
+    paths += [str(file.relative_to(root)) for pattern in _INPUTS for file in root.glob(pattern)]
+    counts = []  # of datasets, in words
+    for published_set in published_sets.committed_sets(config):
         paths += published_set.text_files
         if not manifest.is_present(root, published_set):
             continue
         names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]
-        data = sorted({path for stages in published_set.data.values() for path in stages.values()})
-        present = [path for path in data if (root / path).is_file()]
-        datasets += [f"{len(present)} of {len(data)} datasets of {published_set.command}"]
+        data = {path for stages in published_set.data.values() for path in stages.values()}
+        present = sorted(path for path in data if (root / path).is_file())
         paths += present
-        for path in (*present, *published_set.drawn.values()):
-            if (root / path).is_file():
-                archived[record_path(path)] = _public_record(root, path)
+        counts.append(f"{len(present)} of {len(data)} datasets of {published_set.command}")
+        drawn = [path for path in published_set.drawn.values() if (root / path).is_file()]
+        archived |= {record_path(path): _public_record(root, path) for path in present + drawn}
     archived |= {path: read_bytes(root / path) for path in paths if (root / path).is_file()}
+    archived |= _explorer_page(root, config)
+    about_packages = _ABOUT_PACKAGES.read_text(encoding="utf-8") if packages else ""
+    about = _ABOUT_TEXT.read_text(encoding="utf-8")
+    archived[ABOUT] = about.format(sets=", ".join(counts), packages=about_packages).encode()
+    archived = dict(sorted(archived.items()))
+    sums = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
+    return archived | {SUMS: format_sums(sums).encode()}
+
+
+def _explorer_page(root: Path, config: Config) -> Contents:
+    """Return the page of the explorer, if there is that extension."""
     if "explorer" in extensions():
         from extensions.explorer import page
 
         try:
-            archived[EXPLORER] = page.render(checked, root).encode()
+            return {EXPLORER: page.render(config, root).encode()}
         except ValueError as error:
             raise ArchiveError(str(error)) from None
-    more, about = _WITH_PACKAGES if packages else "", _ABOUT_TEXT.read_text(encoding="utf-8")
-    about = about.format(sets=", ".join(datasets), packages=more)
-    archived[ABOUT] = about.encode()
-    archived = dict(sorted(archived.items()))
-    sums = {path: hashlib.sha256(data).hexdigest() for path, data in archived.items()}
-    return archived | {SUMS: format_sums(sums).encode()}
+    return {}
 
 
 def _sources(root: Path) -> list[str]:
@@ -214,11 +210,11 @@ def _parsed(sums: bytes) -> dict[str, str]:
     return {line[1]: line[0] for line in lines if len(line) == 2}
 
 
-def _read_folder(folder: Path, checked: Config) -> Contents:
+def _read_folder(folder: Path, config: Config) -> Contents:
     """Return the files of another tree, or of an unpacked archive, that an archive would have."""
     try:
         manifest.read(folder, PUBLISHED[PAPER])
-        archived = contents(folder, checked)
+        archived = contents(folder, config)
         if (folder / EXPLORER).is_file():  # otherwise the page of its config and its manifest
             archived[EXPLORER] = read_bytes(folder / EXPLORER)
         # An archive may have files that this tree's config does not name.
@@ -232,40 +228,45 @@ def _read_folder(folder: Path, checked: Config) -> Contents:
     return archived
 
 
-def compare(root: Path, checked: Config, path: Path) -> int:
+def compare(root: Path, config: Config, other: Path) -> int:
     """Compare this tree with an archive, an unpacked one, or another tree; print a line a file.
 
-    Returns 0 if both have the same files with the same bytes. Raises ArchiveError if `path` is none
-    of these.
+    Returns 0 if both have the same files with the same bytes. Raises ArchiveError if `other` is
+    none of these.
     """
-    theirs = _read_folder(path, checked) if path.is_dir() else read(path)
-    absent = f"not in the {'folder' if path.is_dir() else 'archive'}"
-    ours = contents(root, checked)
+    theirs = _read_folder(other, config) if other.is_dir() else read(other)
+    ours = contents(root, config)
     if any(name.startswith(f"{PACKAGES}/") for name in theirs):  # it has the sources too
         ours |= {name: read_bytes(root / name) for name in _sources(root)}
-    for name in [name for name in theirs if name.startswith(f"{PACKAGES}/")]:
-        del theirs[name]  # their hashes are in requirements/
-    for name in (SUMS, ABOUT):  # these list the datasets that exist
-        ours.pop(name, None)
-        theirs.pop(name, None)
-    names = sorted({*ours, *theirs})
-    counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
-    width, sets = max(map(len, names)), published_sets.committed_sets(checked)
-    with tempfile.TemporaryDirectory() as folder:
-        for name in ours.keys() & theirs.keys():  # `_layers` compares files
-            if ours[name] != theirs[name] or name.endswith(f"/{published_sets.MANIFEST}"):
+    absent = f"not in the {'folder' if other.is_dir() else 'archive'}"
+    states = {}
+    for name in sorted({*ours, *theirs}):
+        # SUMS and ABOUT list the datasets that exist; requirements/ has the hashes of packages.
+        if name in (SUMS, ABOUT) or name.startswith(f"{PACKAGES}/"):
+            continue
+        states[name] = "identical" if ours.get(name) == theirs.get(name) else "differs"
+        if name not in ours or name not in theirs:
+            states[name] = "missing here" if name in theirs else absent
+    _print_states(root, config, states, theirs)
+    counts = Counter(states.values())
+    found = [state for state in ("identical", "differs", "missing here", absent) if counts[state]]
+    print("", ", ".join(f"{counts[state]} {state}" for state in found), sep="\n")
+    return int(counts["identical"] < len(states))
+
+
+def _print_states(root: Path, config: Config, states: dict[str, str], theirs: Contents) -> None:
+    """Print a line for each file, and one for each layer in which it differs from `theirs`."""
+    width, sets = max(map(len, states)), published_sets.committed_sets(config)
+    with tempfile.TemporaryDirectory() as folder:  # `_layers` compares files
+        for name, state in states.items():
+            manifests = name.endswith(f"/{published_sets.MANIFEST}") and name in theirs
+            if state == "differs" or manifests:
                 files.write_whole(Path(folder, name), theirs[name])
-        for name in names:
-            state = "identical" if ours.get(name) == theirs.get(name) else "differs"
-            if name not in theirs or name not in ours:
-                state = absent if name not in theirs else "missing here"
-            counts[state] += 1
+        for name, state in states.items():
             print(f"{name:{width}}  {state}")
-            if state == "differs":
-                for layer, words in _layers(root, sets, name, Path(folder)).items():
-                    print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
-    print("", ", ".join(f"{n} {state}" for state, n in counts.items() if n), sep="\n")
-    return int(counts["identical"] < len(names))
+            layers = _layers(root, sets, name, Path(folder)) if state == "differs" else {}
+            for layer, words in layers.items():
+                print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
 
 
 def _largest_difference(ours: xr.Dataset, theirs: xr.Dataset) -> float:
@@ -280,24 +281,40 @@ def _largest_difference(ours: xr.Dataset, theirs: xr.Dataset) -> float:
 
 def _layers(root: Path, sets: list[PublishedSet], path: str, other: Path) -> dict[str, str]:
     """Return layer -> how a file of this tree differs from its copy in the folder `other`."""
-    layers: dict[str, str] = {}
-    layer = "data" if path.endswith(".nc") else "drawing"
+    if path.endswith(".nc"):
+        return {"data": _data_difference(root, path, other)}
+    folder, name = os.path.split(path)
+    for published_set in sets:
+        if folder == published_set.folder and name in published_set.drawn:
+            return _drawing_differences(root, published_set, name, other)
+    return {}
+
+
+def _data_difference(root: Path, path: str, other: Path) -> str:
+    """Return how a dataset of this tree differs from its copy."""
     try:
-        if layer == "data":
-            ours, theirs = load(root / path), load(other / path)
-            words = dataset_difference(root, path, manifest.describe_data(theirs))
-            size = f"numbers differ by at most {_largest_difference(ours, theirs):.3g}"
-            return {"data": f"{words}; {size}" if words else "the same in other bytes"}
-        folder, name = os.path.split(path)
-        for published_set in sets:
-            if folder == published_set.folder and name in published_set.drawn:
-                with suppress(ChecksumError):
-                    committed = manifest.read(other, folder)
-                    layers = Comparison(root, published_set, committed).layers(name) or {}
-                image = root / published_set.results / "differences" / name
-                if "file" not in layers:
-                    words = picture_difference(root / path, other / path, image)[0]
-                    layers["drawing"] = f"{path}: {words}"
+        ours, theirs = load(root / path), load(other / path)
+        words = dataset_difference(root, path, manifest.describe_data(theirs))
+    except (ArtifactError, FileError) as error:
+        return str(error)
+    size = f"numbers differ by at most {_largest_difference(ours, theirs):.3g}"
+    return f"{words}; {size}" if words else "the same in other bytes"
+
+
+def _drawing_differences(
+    root: Path, published_set: PublishedSet, name: str, other: Path
+) -> dict[str, str]:
+    """Return layer -> how a published picture differs from its copy."""
+    path = f"{published_set.folder}/{name}"
+    image = root / published_set.results / "differences" / name
+    layers: dict[str, str] = {}
+    try:
+        with suppress(ChecksumError):
+            committed = manifest.read(other, published_set.folder)
+            layers = Comparison(root, published_set, committed).layers(name) or {}
+        if "file" not in layers:
+            words = picture_difference(root / path, other / path, image)[0]
+            layers["drawing"] = f"{path}: {words}"
     except (ArtifactError, PictureError, FileError) as error:
-        layers[layer] = str(error)
+        layers["drawing"] = str(error)
     return layers

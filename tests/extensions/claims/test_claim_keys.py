@@ -22,24 +22,27 @@ from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.figures.canvas import style
 
 
-def test_the_critical_residue_lies_within_its_axis():
-    small = np.array([[1e-3, 1e-5], [1e-6, -1e-9]])
-    orbit = np.random.default_rng(1).uniform(-1, 1, (2, 2, 9))
-    data = xr.Dataset(
-        {
-            "rotation": ("noble", [0.17, 0.18]),
-            "period": (("noble", "convergent"), [[23.0, 40.0], [17.0, 29.0]]),
-            "residue": (("noble", "convergent"), small),
-            "x": (("noble", "point"), orbit[0]),
-            "y": (("noble", "point"), orbit[1]),
-        }
+def residues(values):
+    """A dataset of residues of two convergents of two numbers."""
+    x, y = np.random.default_rng(1).uniform(-1, 1, (2, 2, 9))
+    by_convergent = {"period": [[23.0, 40.0], [17.0, 29.0]], "residue": values}
+    return xr.Dataset(
+        {"rotation": ("noble", [0.17, 0.18])}
+        | {name: (("noble", "convergent"), array) for name, array in by_convergent.items()}
+        | {name: (("noble", "point"), array) for name, array in (("x", x), ("y", y))}
     )
-    figure = last_curve_figure.draw(SCENE, data)
+
+
+def test_the_critical_residue_lies_within_its_axis():
+    figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, 1e-9]]))
     (critical,) = (line for line in figure.artists if line.get_linestyle() == "--")
-    top = 1425 / style.DPI
-    assert critical.get_ydata()[0] < top - 0.05
-    positive = data.assign(residue=abs(data["residue"]))
-    assert "hollow: negative" not in texts(last_curve_figure.draw(SCENE, positive))
+    assert critical.get_ydata()[0] < 1425 / style.DPI - 0.05
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_hollow_residues_are_explained_if_there_are_any(sign):
+    figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, sign * 1e-9]]))
+    assert ("hollow: negative" in texts(figure)) == (sign < 0.0)
 
 
 def test_a_start_under_regular_that_is_chaotic_is_no_island():
@@ -53,10 +56,13 @@ def test_a_start_under_regular_that_is_chaotic_is_no_island():
     assert "Largest exponent in the islands" in texts(calm) and style.SEA not in colors(calm)
 
 
-def test_rotation_and_control_at_low_energy_have_no_chaos_in_their_keys():
+def test_rotation_at_low_energy_has_no_chaos_in_its_key():
     data = rotation(BALL, -0.003, [-0.0035], 20, 200, (0.1, 0.2), 200)
     figure = rotation_figure.draw(SCENE | {"energy": -0.003}, data)
     assert not {"chaotic", "islands"} & set(texts(figure)) and "regular" in texts(figure)
+
+
+def test_the_control_at_low_energy_has_no_chaos_in_its_key():
     data = control(BALL, -0.003, [0.05], 10, 400, 5, [0.1], 0.05, 400, 10, 1)
     figure = control_figure.draw(SCENE | {"energy": -0.003}, data)
     assert "chaotic" not in texts(figure) and "regular" in texts(figure)
@@ -83,28 +89,16 @@ def test_a_comparison_says_if_axes_cannot_be_the_same():
 
 def test_rotation_names_the_energies_that_are_drawn_beside_their_lines():
     """The curves fall at once to where the key stands otherwise."""
-    energies, starts = np.array([0.01, 0.02, 0.03]), 40
-    place = np.tile(np.linspace(-0.8, 0.9, starts), (3, 1))
+    place = np.tile(np.linspace(-0.8, 0.9, 40), (3, 1))
     growth = np.where(place < -0.6, 0.0, 1.0)
     growth[2] = 1.0
     growth[2, 0] = 0.0  # one regular start is no line
     turns = 0.3 - 0.02 * np.minimum(1.0, 20.0 * (place + 0.8))
-    orbits = {
-        name: ("start", value[0])
-        for name, value in (
-            ("detail_place", place),
-            ("detail_rotation", turns),
-            ("detail_exponent", growth),
-        )
-    }
-    for name, value in (("place", place), ("rotation", turns), ("exponent", growth)):
-        orbits[name] = ("energy", "start"), value
-    orbits |= {
-        "energy": ("energy", energies),
-        "fixed_place": ("energy", [-0.8] * 3),
-        "fixed_rotation": ("energy", [0.3] * 3),
-    }
-    data = xr.Dataset(orbits, attrs={"impacts": 1000, "detail_impacts": 1000})
+    data = {"energy": [0.01, 0.02, 0.03], "fixed_place": [-0.8] * 3, "fixed_rotation": [0.3] * 3}
+    data = {name: ("energy", values) for name, values in data.items()}
+    for name, values in (("place", place), ("rotation", turns), ("exponent", growth)):
+        data |= {name: (("energy", "start"), values), f"detail_{name}": ("start", values[0])}
+    data = xr.Dataset(data, attrs={"impacts": 1000, "detail_impacts": 1000})
     figure = rotation_figure.draw(SCENE, data)
     names = {text.get_text(): text.get_position() for text in figure.texts}
     assert {"$E$ = 0.01", "$E$ = 0.02"} <= names.keys() and "$E$ = 0.03" not in names
@@ -118,22 +112,16 @@ def test_rotation_names_the_energies_that_are_drawn_beside_their_lines():
 
 @pytest.mark.parametrize("cuts", [[0.3, 0.5, 0.8, 1.2], [0.4, 0.5, 0.6, 0.65]])
 def test_the_text_of_clusters_stands_beside_its_cut_and_off_the_marks(cuts):
-    shape = ("cut", "lag", "a", "b")
-    high = np.full((4, 1, 2, 2), 0.97)
-    ends = {
-        f"correlation{end}": (shape, high + shift)
-        for end, shift in (("", 0), ("_low", -0.01), ("_high", 0.01))
-    }
-    ends |= {
-        f"dependence{end}": (shape[:3], high[..., 0] + shift)
-        for end, shift in (("", 0), ("_low", -0.01), ("_high", 0.01))
-    }
-    ends |= {
+    shape, high = ("cut", "lag", "a", "b"), np.full((4, 1, 2, 2), 0.97)
+    data = {
         "bin_edge": ("edge", np.linspace(0, 4, 41)),
         "flights": ("bin", np.arange(40.0)),
         "period": ("cut", 40.0 + np.arange(4)),
     }
-    data = xr.Dataset(ends, coords={"cut": cuts, "lag": [1]})
+    for end, shift in (("", 0), ("_low", -0.01), ("_high", 0.01)):
+        data[f"correlation{end}"] = shape, high + shift
+        data[f"dependence{end}"] = shape[:3], high[..., 0] + shift
+    data = xr.Dataset(data, coords={"cut": cuts, "lag": [1]})
     figure = clusters_figure.draw(SCENE, data)
     assert_text_is_whole_and_apart(figure)
     words = [text for text in figure.texts if text.get_text().startswith("95 %")]

@@ -1,4 +1,4 @@
-"""Perturbed maps: their closed formulas, areas, reversors, spirals and classes."""
+"""The control experiment: closed formulas of its maps, areas, reversors, spirals and classes."""
 
 import math
 
@@ -67,21 +67,8 @@ def determinant(matrix):
     return matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
 
 
-def keeps_disk(function, z):
-    """Whether points of the disk stay in it, and points of the rim on the rim."""
-    image = np.abs(function(z))
-    rim = np.abs(np.abs(z) - 1.0) < 1e-12
-    return bool(np.all(image <= 1.0 + 1e-12) and np.all(np.abs(image[rim] - 1.0) < 1e-12))
-
-
-def has_no_symmetry(function, inverse, z):
-    """Whether R T R is neither T nor its inverse, by a tenth of the strength somewhere."""
-    mirrored = np.conj(function(np.conj(z)))
-    return all(np.max(np.abs(mirrored - f(z))) > 0.1 * EPS for f in (function, inverse))
-
-
 @pytest.mark.parametrize(("form", "keeps"), CHANGES)
-def test_changes_are_their_formulas_and_start_from_the_identity(form, keeps):
+def test_changes_and_their_jacobians_are_those_of_the_formulas(form, keeps):
     z = disk(400)
     image, jacobian = applied(form, keeps, z)
     assert np.max(np.abs(image - formula(form, keeps, z))) < 1e-14
@@ -90,6 +77,11 @@ def test_changes_are_their_formulas_and_start_from_the_identity(form, keeps):
     numeric = derivatives(lambda p: formula(form, keeps, p), z[inside])
     assert np.max(np.abs(jacobian[:, :, inside] - numeric)) < 1e-7
     assert (np.max(np.abs(determinant(jacobian) - 1.0)) < 1e-12) == keeps
+
+
+@pytest.mark.parametrize(("form", "keeps"), CHANGES)
+def test_a_change_of_strength_0_is_the_identity(form, keeps):
+    z = disk(400)
     image, jacobian = applied(form, keeps, z, 0.0)
     assert np.array_equal(image, z)
     assert np.array_equal(jacobian, np.broadcast_to(np.eye(2)[:, :, None], jacobian.shape))
@@ -98,14 +90,15 @@ def test_changes_are_their_formulas_and_start_from_the_identity(form, keeps):
 @pytest.mark.parametrize(("form", "keeps"), CHANGES)
 def test_changes_map_the_disk_onto_itself_and_have_no_symmetry(form, keeps):
     z = disk(400)
-    function, inverse = (
-        lambda p, back=back: formula(form, keeps, p, inverse=back) for back in (False, True)
-    )
-    assert keeps_disk(function, z) and keeps_disk(inverse, z)
-    assert np.max(np.abs(inverse(function(z)) - z)) < 1e-13
-    assert has_no_symmetry(function, inverse, z)
-    mirrored = np.conj(inverse(np.conj(z)))
-    assert np.max(np.abs(applied(form, keeps, z, mirrored=True)[0] - mirrored)) < 1e-13
+    image, inverse = (formula(form, keeps, z, inverse=back) for back in (False, True))
+    rim = np.abs(np.abs(z) - 1.0) < 1e-12
+    for radius in (np.abs(image), np.abs(inverse)):
+        assert np.all(radius <= 1.0 + 1e-12) and np.all(np.abs(radius[rim] - 1.0) < 1e-12)
+    assert np.max(np.abs(formula(form, keeps, image, inverse=True) - z)) < 1e-13
+    # R T R is neither T nor its inverse
+    mirrored, other = (np.conj(formula(form, keeps, np.conj(z), inverse=b)) for b in (False, True))
+    assert min(np.max(np.abs(mirrored - f)) for f in (image, inverse)) > 0.1 * EPS
+    assert np.max(np.abs(applied(form, keeps, z, mirrored=True)[0] - other)) < 1e-13
 
 
 def points(count=200):
@@ -117,7 +110,7 @@ def reversor_error(perturbed):
     """Median distance of R F R F from the identity."""
     image = points()
     for _ in range(2):
-        image = control.images(perturbed, image)
+        image = perturbed.images(image)
         image[1] = -image[1]
     return float(np.median(np.hypot(*(image - points()))))
 
@@ -125,7 +118,7 @@ def reversor_error(perturbed):
 @pytest.mark.parametrize("name", MAPS)
 def test_maps_keep_what_they_say(name):
     perturbed = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS)
-    error, least = reversor_error(perturbed), control._defect(perturbed)
+    error, least = reversor_error(perturbed), control._reversor_defect(perturbed)
     _, keeps_area, reversible = MAPS[name]
     if reversible:
         assert max(error, least) < 1e-13
@@ -149,7 +142,7 @@ def test_a_perturbed_map_is_t_after_p_after_its_mirror(name):
     state = BALL.state_xy(centre + radius * z.real, high * z.imag, ENERGY)
     x, v, w, _ = BALL.impact(*state)
     z = formula(form, keeps, (x - centre) / radius + 1j * (v - BALL.k * w) / high)
-    image = control.images(perturbed_map.perturbed_map(BALL, ENERGY, name, EPS), points())
+    image = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS).images(points())
     # a flight near a jump of the map turns a rounding into another impact
     assert np.quantile(np.abs(image[0] + 1j * image[1] - z), 0.95) < 1e-11
 
@@ -158,16 +151,15 @@ def test_a_perturbed_map_is_t_after_p_after_its_mirror(name):
 def test_jacobians_are_those_of_differences_and_areas_their_determinants(name):
     perturbed = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS)
     step, at = 1e-6, np.array([[-0.5], [0.3]])
-    _, jacobian = control._jacobian(perturbed, at, 2)
+    _, jacobian = perturbed.jacobian(at, 2)
     moved = at + step * np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
-    image = control.images(perturbed, moved, 2)
+    image = perturbed.images(moved, 2)
     assert np.max(np.abs((image[:, ::2] - image[:, 1::2]) / (2 * step) - jacobian)) < 1e-7
     out = np.empty((2, 1, 2))
     windows, sums = np.array([[1, 1]]), np.zeros((2, 1, 1))
-    rows = control._begin(at)
-    perturbed_map.propagate(rows, *perturbed, 2, windows, *sums, out)
+    perturbed_map.propagate(perturbed_map.orbit_rows(at), *perturbed, 2, windows, sums, out)
     assert sums[1, 0, 0] == pytest.approx(math.log(determinant(jacobian)), abs=1e-12)
-    assert np.array_equal(out[:, :, -1], control.images(perturbed, at, 2))
+    assert np.array_equal(out[:, :, -1], perturbed.images(at, 2))
 
 
 def test_without_a_change_classes_are_those_of_the_rotation_numbers_stage():
@@ -188,24 +180,35 @@ def test_an_orbit_is_chaotic_or_a_spiral_or_regular():
         assert control._wilson(count, 500) == pytest.approx(wilson(count, 500), abs=1e-12)
 
 
-def test_what_becomes_of_the_islands():
+@pytest.fixture(scope="module")
+def controlled():
+    """A small control experiment, and the shares done that it told."""
     told = []
     fields = [0.03], 150, 4000, 6, [0.1], 0.03, 20, 40, 1
     data = control.control(BALL, ENERGY, *fields, progress=lambda share, _: told.append(share))
-    assert told == [i / 20 for i in (0, *range(1, 20, 2))]
+    return data, told
+
+
+def test_the_share_of_maps_done_is_told(controlled):
+    assert controlled[1] == [i / 20 for i in (0, *range(1, 20, 2))]
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_regular_orbits_remain_if_a_property_is_kept(controlled, name):
+    data, (_, keeps_area, reversible) = controlled[0], MAPS[name]
     share = data["class_share"].isel(length=-1)
     assert np.max(np.abs(share.sum("class").values - 1.0)) < 1e-12
-    kept = share.sel({"class": "regular"})
-    itself = float(kept[0, 0])
-    for name, (_, keeps_area, reversible) in MAPS.items():
-        changed = float(kept.sel(map=name, strength=0.03))
-        assert (changed > 0.8 * itself) if keeps_area or reversible else (changed < 0.2 * itself)
-        # with the reversor all regular orbits are on curves around symmetric points
-        symmetric = float(data["symmetric"].sel(map=name, strength=0.03))
-        assert (
-            symmetric == pytest.approx(changed, abs=0.01) if reversible else math.isnan(symmetric)
-        )
-    # the fixed point attracts or repels as the determinants say, and not if one property is kept
+    regular = share.sel({"class": "regular"})
+    itself, changed = float(regular[0, 0]), float(regular.sel(map=name, strength=0.03))
+    assert (changed > 0.8 * itself) if keeps_area or reversible else (changed < 0.2 * itself)
+    # with the reversor all regular orbits are on curves around symmetric points
+    symmetric = float(data["symmetric"].sel(map=name, strength=0.03))
+    assert symmetric == pytest.approx(changed, abs=0.01) if reversible else math.isnan(symmetric)
+
+
+def test_the_fixed_point_attracts_or_repels_as_the_determinants_say(controlled):
+    """It does neither if one property is kept."""
+    data, _ = controlled
     rate = data["rate"].values
     linear = np.log(data["island_determinant"].values) / (2.0 * data["island"].values)
     found = np.isfinite(rate)
@@ -213,11 +216,12 @@ def test_what_becomes_of_the_islands():
     assert np.max(np.abs(rate - linear)[found]) < 2e-4
     alone = np.array([any(has) for _, *has in MAPS.values()])
     assert np.nanmax(np.abs(linear[alone, :, 0])) < 1e-9
-    assert np.all(
-        linear[[list(MAPS).index(f"{form} neither") for form in ("twist", "stir")], 1, 0] < 0.0
-    )
+    neither = [list(MAPS).index(f"{form} neither") for form in ("twist", "stir")]
+    assert np.all(linear[neither, 1, 0] < 0.0)
     assert float(data["attraction"].sel(map="shift reversor", strength=0.03)) < -0.1
-    # areas along chaotic orbits wander if none is kept, and not at all if the area is
-    wander = data["wander"].sel(strength=0.03)
+
+
+def test_areas_along_chaotic_orbits_wander_only_if_no_area_is_kept(controlled):
+    wander = controlled[0]["wander"].sel(strength=0.03)
     assert np.all(wander.sel(map=["twist area", "stir both"]).values < 1e-12)
     assert np.all(wander.sel(map=["twist reversor", "stir reversor"]).values[:, -1] > 0.01)

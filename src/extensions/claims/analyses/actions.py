@@ -7,17 +7,19 @@ ends, of the differences of S (MacKay, Meiss and Percival, Physica D 13, 1984). 
 cancel; they are therefore computed in ball arithmetic, whose radii enclose every rounding.
 """
 
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from flint import arb
 
-from extensions.proofs.checks.certificate import NotProvedError
 from extensions.proofs.search.horseshoe import directions
 from extensions.proofs.search.periodic import polished
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import Surface
 
@@ -52,8 +54,9 @@ def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
 
     Raises ValueError for an orbit that is not proved to be hyperbolic.
     """
-    surface = Surface(*(repr(float(a)) for a in (ball.k, ball.g, energy)))
-    points = polished(surface, chart(ball.k, *states_of(orbit)).T.tolist(), _SADDLE_STEPS)
+    k, g, exact_energy = (Fraction(repr(float(a))) for a in (ball.k, ball.g, energy))
+    surface, doubles = Surface(k, g, exact_energy), chart(ball.k, *states_of(orbit)).T.tolist()
+    points: list[Sequence[arb]] = [*polished(surface, doubles, _SADDLE_STEPS)]
     try:
         rho, vectors = directions(surface, points, 1)
     except NotProvedError as error:
@@ -74,13 +77,14 @@ def flight(surface: Surface, x: Jet, y: Jet) -> tuple[Jet, Jet, arb]:
     """
     k, g, _ = surface.constants()
     image = surface.impact(x, y)
-    x, y, tau = (jet.constant for jet in (x, y, image.tau))
-    s = surface.speed(x, y)
-    b, c = (y - k * s) / (1 + k), -(y + s) / (1 + k)
+    assert isinstance(image.x, Jet) and isinstance(image.y, Jet) and isinstance(image.tau, Jet)
+    depth, y_before, tau = (jet.coefficients[0] for jet in (x, y, image.tau))
+    s = surface.speed(depth, y_before)
+    b, c = (y_before - k * s) / (1 + k), -(y_before + s) / (1 + k)
     sine, cosine = tau.sin_cos()
     mixed = sine * cosine
     action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
-        (x * x * (tau - mixed) + c * c * (tau + mixed)) / 2 + x * c * sine * sine
+        (depth * depth * (tau - mixed) + c * c * (tau + mixed)) / 2 + depth * c * sine * sine
     )
     return image.x, image.y, action
 
@@ -98,7 +102,7 @@ class Heteroclinic:
     def __init__(self, saddle: Saddle, sign: int, parameter: arb, impacts: int):
         small = arb(2) ** -_CROSSING_BITS
         for _ in range(_NEWTON_STEPS):
-            self._follow(saddle, sign, parameter, impacts)
+            self._propagate(saddle, sign, parameter, impacts)
             step = (self.points[-1][1] / self.tangent[1]).mid()
             parameter = (parameter - step).mid()
             if abs(step) < abs(parameter) * small:
@@ -107,19 +111,20 @@ class Heteroclinic:
             if not abs(self.points[-1][1] / self.tangent[1]).rad() < abs(parameter) * small:
                 raise ArithmeticError("the crossing is not enclosed: more bits are needed")
             raise ValueError("Newton's method does not find the crossing with y = 0")
-        self._follow(saddle, sign, parameter, impacts)
+        self._propagate(saddle, sign, parameter, impacts)
         self.impacts = impacts
 
-    def _follow(self, saddle, sign, parameter, impacts):
+    def _propagate(self, saddle: Saddle, sign: int, parameter: arb, impacts: int) -> None:
         """Set the points, actions and tangent of the orbit that starts at a parameter."""
         x, y = (
             Jet(_TANGENT, [a + parameter * (sign * e), sign * e])
             for a, e in zip(saddle.point, saddle.direction, strict=True)
         )
-        self.points, self.actions = [(x.constant, y.constant)], []
+        self.points = [(x.coefficients[0], y.coefficients[0])]
+        self.actions: list[arb] = []
         for _ in range(impacts):
             x, y, action = flight(saddle.surface, x, y)
-            self.points.append((x.constant, y.constant))
+            self.points.append((x.coefficients[0], y.coefficients[0]))
             self.actions.append(action)
         self.tangent = x.coefficients[1], y.coefficients[1]
 
@@ -133,8 +138,13 @@ class Heteroclinic:
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
-def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclinic, Heteroclinic]]:
-    """Return the area between neighbouring crossings of two branches, and the two primary orbits.
+# A crossing of a branch with y = 0: the parameter of its start, and the impacts from there.
+Crossing = tuple[float, int]
+Primary = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring crossings
+
+
+def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, Primary]:
+    """Return the area between neighbouring crossings of two branches, and the orbits there.
 
     The unstable branch on the side `sign` of a saddle of even period must lead to the mirror image
     of the saddle, so that it meets y = 0 on the way, and so must its image half a period later. The
@@ -143,49 +153,52 @@ def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, tuple[Heteroclini
     saddle, which the ball does not contain. Raises ValueError or ArithmeticError as Heteroclinic
     does, and where the branch is not seen to meet y = 0.
     """
-    crossings = [first_crossing(saddle, sign, offset) for offset in (0, saddle.period // 2)]
-    if None in crossings:
+    first = first_crossing(saddle, sign, 0)
+    second = first_crossing(saddle, sign, saddle.period // 2)
+    if first is None or second is None:
         raise ValueError("the branch does not meet y = 0")
     try:
-        return _lobe_between(saddle, sign, nearer, crossings)
+        return _lobe_between(saddle, sign, nearer, first, second)
     except ValueError:  # the branch bends strongly: Newton's method needs a better start
-        refined = [_refined(saddle, sign, *crossing) for crossing in crossings]
-        return _lobe_between(saddle, sign, nearer, refined)
+        refined = [_refined(saddle, sign, *crossing) for crossing in (first, second)]
+        return _lobe_between(saddle, sign, nearer, *refined)
 
 
-def _lobe_between(saddle, sign, nearer, crossings):
-    """Compute the lobe between two crossings, each a parameter and a number of impacts."""
+def _lobe_between(
+    saddle: Saddle, sign: int, nearer: int, near_crossing: Crossing, far_crossing: Crossing
+) -> tuple[arb, Primary]:
+    """Return the results of `lobe` for its two crossings."""
+    (near, near_impacts), (far, far_impacts) = near_crossing, far_crossing
     ratio, period = float(saddle.multiplier), saddle.period
-    (near, impacts), (far, far_impacts) = crossings
     while far >= near:  # the crossing before that of the first orbit
         far, far_impacts = far / ratio, far_impacts + period
     while far * ratio < near:
         far, far_impacts = far * ratio, far_impacts - period
     shrink = saddle.multiplier**nearer
     first, second = (
-        Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), count + nearer * period)
-        for parameter, count in ((near, impacts), (far, far_impacts))
+        Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), impacts + nearer * period)
+        for parameter, impacts in ((near, near_impacts), (far, far_impacts))
     )
     # y dx around the lobe: along the unstable arc one way, along the stable one back
     flights = 2 * min(first.impacts, second.impacts)
     area = _area_under_line(first.points[0], second.points[0])
-    for flight in range(flights):
-        area += second.action(flight) - first.action(flight)
+    for index in range(flights):
+        area += second.action(index) - first.action(index)
     # both orbits are near the other saddle now, at the mirror images of points at the start
-    last = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
-    return abs(area + _area_under_line(*last)), (first, second)
+    begin, end = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
+    return abs(area + _area_under_line(begin, end)), (first, second)
 
 
 def _area_under_line(begin: Vector, end: Vector) -> arb:
-    """Integral of y dx along a straight line."""
+    """Return the integral of y dx along a straight line."""
     return (begin[1] + end[1]) / 2 * (end[0] - begin[0])
 
 
-def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int] | None:
+def first_crossing(saddle: Saddle, sign: int, impacts: int) -> Crossing | None:
     """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
 
-    Returns the parameter of its start, in the last segment before _SCAN_END from the saddle, and
-    the impacts from there; None without a crossing in _MOST_IMAGES images.
+    It starts in the last segment before _SCAN_END from the saddle. Returns None if the branch has
+    no crossing in _MOST_IMAGES images.
     """
     ball, parameters = saddle.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameters, impacts)
@@ -199,19 +212,19 @@ def first_crossing(saddle: Saddle, sign: int, impacts: int) -> tuple[float, int]
 
 
 def _crossings(ball: Ball, states: np.ndarray) -> np.ndarray:
-    """Indices of the states after which y changes its sign."""
+    """Return the indices of the states after which y changes its sign."""
     _, y = chart(ball.k, *states)
     return np.flatnonzero(y[1:] * y[:-1] <= 0.0)
 
 
 def _scan_parameters(saddle: Saddle) -> np.ndarray:
-    """Parameters of the last fundamental segment before _SCAN_END."""
+    """Return the parameters of the last fundamental segment before _SCAN_END."""
     ratio = 1.0 / float(saddle.multiplier)
     return _SCAN_END * (ratio + (1.0 - ratio) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS)
 
 
 def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> np.ndarray:
-    """States, in doubles, some impacts after the points of the branch's tangent."""
+    """Return the states, in doubles, some impacts after the points of the branch's tangent."""
     ball = saddle.ball
     x, y = (
         float(a) + sign * parameters * float(e)
@@ -220,7 +233,7 @@ def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> 
     return ball.after(ball.state_xy(x, y, float(saddle.surface.energy)), impacts)[:3]
 
 
-def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> tuple[float, int]:
+def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> Crossing:
     """Refine a crossing of `first_crossing` to a millionth of the distance scanned."""
     scanned = _scan_parameters(saddle)
     low, high = parameter, parameter + (scanned[1] - scanned[0])

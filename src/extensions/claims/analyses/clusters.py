@@ -10,10 +10,12 @@ whole orbits.
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import ENERGY, TIME, chart, described, of_rows
 from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.arithmetic import sincos
@@ -46,7 +48,10 @@ _OF_CUTS = {
 }
 
 
-def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed) -> xr.Dataset:
+def clusters(
+    ball: Ball, energy: float, between: tuple[float, float], orbits: int, impacts: int,
+    cuts: Sequence[float], lags: int, resamples: int, seed: int,
+) -> xr.Dataset:  # fmt: skip
     """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
     A cluster is compared with the next ones, up to `lags` later. Means of clusters are over all
@@ -84,7 +89,7 @@ def clusters(ball, energy, between, orbits, impacts, cuts, lags, resamples, seed
 
 
 @jit
-def _strains(out, k, g):
+def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
     """Return time, mean x, mean strain energy, least and largest strain: (5, orbits)."""
     coefficients = kernel.impact_coefficients(k)
     result = np.empty((5, out.shape[0]))
@@ -119,7 +124,9 @@ def _strains(out, k, g):
     return result
 
 
-def _row(out, k, cut, lags, resampled) -> tuple:
+def _row(
+    out: np.ndarray, k: float, cut: float, lags: int, resampled: np.ndarray
+) -> tuple[Any, ...]:
     """Return the values of _OF_CUTS for one cut."""
     begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
     fewest = min(impacts.size for impacts in begun)
@@ -157,7 +164,9 @@ def _memory(
     return np.stack(correlations, axis=1), np.stack(dependences, axis=1)
 
 
-def _interval(measure: Callable, sums: np.ndarray, resampled: np.ndarray) -> np.ndarray:
+def _interval(
+    measure: Callable[[np.ndarray], np.ndarray], sums: np.ndarray, resampled: np.ndarray
+) -> np.ndarray:
     """Return the value, and the ends of the 95 % interval, of a measure of the orbits' sums."""
     drawn = np.sort([measure(sums[orbits].sum(axis=0)) for orbits in resampled], axis=0)
     cut = len(drawn) // 40

@@ -7,10 +7,12 @@ Transport in Hamiltonian systems, Physica D 13, 1984).
 """
 
 import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from flint import ctx
+from flint import arb, ctx
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.manifolds import trace_manifold
@@ -18,9 +20,9 @@ from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 
-from .actions import Heteroclinic, first_crossing, lobe, saddles_of
+from .actions import Primary, first_crossing, lobe, saddles_of
 from .polygon import Polygon
-from .sea import half_axes, sea_states
+from .sea import as_array, half_axes, sea_states
 
 SIDES = ("inner", "outer")
 # The area of a lobe is computed twice, with these bits and so many images nearer to the saddle, to
@@ -33,7 +35,7 @@ _MAX_SIDE = 0.02  # side of a region's polygon, section radii
 _HALVINGS = 30  # of a side; a side that is longer after them crosses a jump of the map
 _BEND = 5.0  # degrees between the sides of traced lines
 _DECIMAL = 2.302585092994046  # ln 10
-_VARIABLES = {
+_VARIABLES: dict[str, tuple[Any, ...]] = {
     "side": ("side", "which branch"),
     "area": ("side", "area of a lobe, by differences of action", AREA),
     "area_error": ("side", "its error", AREA),
@@ -55,7 +57,10 @@ _VARIABLES = {
 }
 
 
-def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=SIDES) -> xr.Dataset:
+def flux(
+    ball: Ball, energy: float, period: int, distance: float, grid: int,
+    between: tuple[float, float], orbits: int, impacts: int, sides: Sequence[str] = SIDES,
+) -> xr.Dataset:  # fmt: skip
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
     Areas are those of (x, y = xdot - k udot), which the map keeps, eq. (42). `digits` are those
@@ -74,18 +79,19 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=S
     if period % 2:
         raise ValueError(f"period = {period} is not allowed: an even number")
     saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
+    branches = _Branches(ball, energy, saddles, distance)
     states = sea_states(ball, energy, between, orbits)
     path = chart(ball.k, *states_of(orbit(ball, states, impacts)))
     rows, missing = [], {}
     for side in sides:
         try:
-            rows.append(_row(ball, energy, saddles, side, distance, grid, path))
+            rows.append(_row(branches, side, grid, path))
         except ValueError as error:
             missing[side] = str(error)
             rows.append(_missing_row(side))
     if len(missing) == len(sides):
         raise ValueError("; ".join(f"no {side} lobes: {why}" for side, why in missing.items()))
-    attributes = {
+    attributes: dict[str, float | str] = {
         "section": math.pi * math.prod(half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
     }
@@ -93,26 +99,36 @@ def flux(ball, energy, period, distance, grid, between, orbits, impacts, sides=S
     return xr.Dataset(of_rows(_VARIABLES, rows), attrs=attributes)
 
 
-def _missing_row(side: str) -> tuple:
+class _Branches(NamedTuple):
+    """The branches of a hyperbolic orbit, traced with points at most `distance` radii apart."""
+
+    ball: Ball
+    energy: float
+    saddles: xr.Dataset
+    distance: float
+
+
+def _missing_row(side: str) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for a side without lobes."""
     sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
-    row = {
-        name: math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan)
-        for name, (dims, *_) in _VARIABLES.items()
-    }
-    return (*(row | {"side": side, "digits": "", "saddle": -1, "target": -1}).values(),)
+    row: dict[str, Any] = {"side": side, "digits": "", "saddle": -1, "target": -1}
+    for name, (dims, *_) in _VARIABLES.items():
+        row.setdefault(name, math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan))
+    return tuple(row[name] for name in _VARIABLES)
 
 
-def _row(ball, energy, saddles, side, distance, grid, path) -> tuple:
+def _row(branches: _Branches, side: str, grid: int, path: np.ndarray) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one side."""
-    saddle, sign = _primary_branch(ball, energy, saddles, side)
+    ball, energy, saddles, _ = branches
+    saddle, sign = _primary_branch(branches, side)
     (rough, _), (area, primary) = (
-        _lobe(ball, energy, saddles, saddle, sign, nearer, bits)
+        _lobe(branches, saddle, sign, nearer, bits)
         for bits, nearer in zip(_BITS, _NEARER, strict=True)
     )
     error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / _DECIMAL))))
-    lobe_polygon, region, branch = _polygons(ball, energy, saddles, saddle, side, distance, primary)
+    traced = _traced_lobe(branches, saddle, side, primary)
+    region = _region(branches, traced)
     counted = (math.nan,) * 5
     if not np.isnan(region[0, 0]):
         polygon = Polygon(region)
@@ -121,21 +137,24 @@ def _row(ball, energy, saddles, side, distance, grid, path) -> tuple:
         counted = polygon.area(), *_carried(ball, energy, polygon, grid), inside.mean(), left
     x, y = chart(ball.k, *states_of(saddles))
     target = int(np.argmin((x - x[saddle]) ** 2 + (y + y[saddle]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), lobe_polygon
+    areas = float(area), float(error), area.str(digits, radius=False), traced.area()
     crossings = [(float(each.points[-1][0]), float(each.sine())) for each in primary]
-    lines = *_thinned(region, _CORNERS), *_thinned(branch, _VERTICES)
+    lines = *_thinned(region, _CORNERS), *_thinned(traced.branch(), _VERTICES)
     return side, *areas, *counted, saddle, target, *np.transpose(crossings), *lines
 
 
-def _lobe(ball, energy, saddles, saddle, sign, nearer, bits):
+def _lobe(
+    branches: _Branches, saddle: int, sign: int, nearer: int, bits: int
+) -> tuple[arb, Primary]:
     """Return `lobe` of the branch that leaves one of the saddles, with more bits if needed."""
+    ball, energy, saddles, _ = branches
     for factor in _PRECISION_FACTORS:
         with ctx.workprec(factor * bits):
             try:
                 return lobe(saddles_of(ball, energy, saddles)[saddle], sign, nearer)
             except ArithmeticError as error:
-                reason = error
-    raise ValueError(f"{reason}")
+                reason = str(error)
+    raise ValueError(reason)
 
 
 def _thinned(line: np.ndarray, count: int) -> np.ndarray:
@@ -143,12 +162,13 @@ def _thinned(line: np.ndarray, count: int) -> np.ndarray:
     return line[:, np.arange(count) * (line.shape[1] - 1) // (count - 1)]
 
 
-def _primary_branch(ball: Ball, energy: float, saddles: xr.Dataset, side: str) -> tuple[int, int]:
+def _primary_branch(branches: _Branches, side: str) -> tuple[int, int]:
     """Return (saddle, sign) of the branch that meets y = 0 soonest after it leaves a saddle."""
+    ball, energy, saddles, _ = branches
     points = chart(ball.k, *states_of(saddles))
     outwards = points - points.mean(axis=1)[:, None]
     weight = np.array([1.0, 1.0 / (ball.k * (1.0 + ball.k))])  # makes the section a circle
-    branches = []
+    candidates = []
     with ctx.workprec(128):
         for index, saddle in enumerate(saddles_of(ball, energy, saddles)):
             along = np.array([float(a) for a in saddle.direction])
@@ -158,26 +178,38 @@ def _primary_branch(ball: Ball, energy: float, saddles: xr.Dataset, side: str) -
             if crossing is not None:
                 parameter, impacts = crossing
                 grown = [float(saddle.multiplier)] * (impacts // saddle.period)
-                branches.append((math.prod(grown, start=parameter), index, sign))
-    if not branches:
+                candidates.append((math.prod(grown, start=parameter), index, sign))
+    if not candidates:
         raise ValueError("no such branch meets y = 0")
-    return min(branches)[1:]
+    return min(candidates)[1:]
 
 
-def _polygons(ball, energy, saddles, saddle, side, distance, primary):
-    """Return the lobe's area between the traced lines, the region and the lobe's branch (2, n)."""
-    ends = _lobe_ends(*primary)
-    line, at, states = _traced_lobe(ball, energy, saddles, saddle, side, distance, ends)
-    # the stable arc is the mirror image of the unstable one from ends[0] to ends[2]
-    area = _integral(line, at[0], at[1], ends[0], ends[1])
-    area += _integral(line, at[0], at[2], ends[0], ends[2])
-    arc = np.append(states[:, : at[0]], np.array(ball.state_xy(*ends[0], energy))[:, None], axis=1)
-    region = _region(ball, energy, arc[:, ~np.isnan(arc[0])], saddles.sizes["point"])
-    return abs(area), region, line[:, min(at) : max(at) + 1]
+class _TracedLobe(NamedTuple):
+    """A branch that passes the ends of a lobe, and the mirror image of its second end.
+
+    `line` are its points (2, n), `states` its states (3, n), `ends` those three points, and `at`
+    the indices of the points of the line next to them.
+    """
+
+    line: np.ndarray
+    states: np.ndarray
+    ends: list[np.ndarray]
+    at: list[int]
+
+    def area(self) -> float:
+        """Return the lobe's area between the traced lines."""
+        first, *others = zip(self.at, self.ends, strict=True)
+        # the stable arc is the mirror image of the unstable one from the first end to the last
+        return abs(sum(_integral(self.line, *first, *other) for other in others))
+
+    def branch(self) -> np.ndarray:
+        """Return the part of the branch between the outermost ends, (2, n)."""
+        return self.line[:, min(self.at) : max(self.at) + 1]
 
 
-def _lobe_ends(first: Heteroclinic, second: Heteroclinic) -> list[np.ndarray]:
+def _lobe_ends(primary: Primary) -> list[np.ndarray]:
     """Return the lobe's two ends, and the mirror image of its second end, as points (x, y)."""
+    first, second = primary
     steps = 2 * second.impacts - first.impacts
     ends = first.points[-1], second.points[min(first.impacts, steps)]
     start, stop = (np.array([float(a) for a in end]) for end in ends)
@@ -186,9 +218,10 @@ def _lobe_ends(first: Heteroclinic, second: Heteroclinic) -> list[np.ndarray]:
     return [start, stop, stop * np.array([1.0, -1.0])]
 
 
-def _traced_lobe(ball, energy, saddles, saddle, side, distance, ends):
-    """Trace the branch until it passes the lobe's ends: points, indices of the ends, states."""
-    length = 0.25
+def _traced_lobe(branches: _Branches, saddle: int, side: str, primary: Primary) -> _TracedLobe:
+    """Trace the branch until it passes the ends of the lobe between the primary orbits."""
+    ball, energy, saddles, distance = branches
+    ends, length = _lobe_ends(primary), 0.25
     while True:
         traced = trace_manifold(
             ball, energy, saddles, saddle, side=side, length=length, distance=distance, bend=_BEND
@@ -200,7 +233,7 @@ def _traced_lobe(ball, energy, saddles, saddle, side, distance, ends):
         at = [int(np.argmin(np.sum((whole - end[:, None]) ** 2, axis=0))) for end in ends]
         gaps = [np.max(np.abs(whole[:, i] - end)) for i, end in zip(at, ends, strict=True)]
         if max(at) < whole.shape[1] - 1 and max(gaps) < 2.0 * distance * ball.section(energy)[1]:
-            return line, at, states
+            return _TracedLobe(line, states, ends, at)
         if cuts.size:
             raise ValueError("a jump of the map cuts the branch before it closes a lobe")
         length *= 2.0
@@ -208,9 +241,14 @@ def _traced_lobe(ball, energy, saddles, saddle, side, distance, ends):
             raise ValueError(f"the branch closes no lobe within {_MAX_BRANCH:g} section radii")
 
 
-def _region(ball: Ball, energy: float, arc: np.ndarray, points: int) -> np.ndarray:
-    """Return the region's edge (2, n) from an unstable arc (3, m), NaN if a jump cuts it."""
-    mirrored = np.stack(ball.reflect(*arc[:, ::-1]))
+def _region(branches: _Branches, lobe: _TracedLobe) -> np.ndarray:
+    """Return the edge (2, n) of the region that a branch closes in, NaN if a jump cuts it."""
+    ball, energy, points = branches.ball, branches.energy, branches.saddles.sizes["point"]
+    x, y = lobe.ends[0]
+    first = as_array(ball.state_xy(x, y, energy))
+    arc = np.append(lobe.states[:, : lobe.at[0]], first, axis=1)
+    arc = arc[:, ~np.isnan(arc[0])]
+    mirrored = as_array(ball.reflect(*arc[:, ::-1]))
     states = np.concatenate([arc, mirrored[:, 1:]], axis=1)
     longest = _MAX_SIDE * ball.section(energy)[1]
     arcs = _images(ball, states, points)
@@ -218,8 +256,8 @@ def _region(ball: Ball, energy: float, arc: np.ndarray, points: int) -> np.ndarr
         long = np.max(np.abs(np.diff(arcs)), axis=(0, 1)) > longest
         if not long.any():
             return _closed(arcs)
-        middle = 0.5 * (arcs[0][:, :-1] + arcs[0][:, 1:])[:, long]
-        inserted = np.stack(ball.state_xy(*middle, energy))
+        x, y = 0.5 * (arcs[0][:, :-1] + arcs[0][:, 1:])[:, long]
+        inserted = as_array(ball.state_xy(x, y, energy))
         states = np.insert(states, np.flatnonzero(long) + 1, inserted, axis=1)
         arcs = _images(ball, states, points)
     return np.full((2, _CORNERS), math.nan)
@@ -234,16 +272,16 @@ def _images(ball: Ball, states: np.ndarray, count: int) -> list[np.ndarray]:
     return points
 
 
-def _integral(line: np.ndarray, start: int, end: int, first, last) -> float:
+def _integral(line: np.ndarray, start: int, first: np.ndarray, end: int, last: np.ndarray) -> float:
     """Return the integral of y dx along a line (2, n) between points next to two vertices."""
     if end < start:
-        return -_integral(line, end, start, last, first)
+        return -_integral(line, end, last, start, first)
     x, y = np.column_stack([first, line[:, start + 1 : end], last])
     return float(np.sum(0.5 * (y[1:] + y[:-1]) * (x[1:] - x[:-1])))
 
 
 def _closed(arcs: list[np.ndarray]) -> np.ndarray:
-    """Join arcs (2, n) from saddle to saddle, each next to the nearest end, to a closed line."""
+    """Join arcs (2, n) from saddle to saddle to a closed line, each to the nearest end."""
     first, *rest = arcs
     loop = [first]
     while rest:

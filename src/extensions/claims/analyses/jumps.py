@@ -7,12 +7,12 @@ exchanges the two curves. The arc exists for E > g^2 (1 + k/2), where the rim re
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, Rows
 from pseudorigid.dynamics.periodic import symmetric_flights
 from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
 
@@ -28,7 +28,7 @@ _LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
 _HALVED = "by how much it differs from what half as many sides give"
 
 
-def jumps(ball, energy, energies, sides) -> xr.Dataset:
+def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> xr.Dataset:
     """Compute the curves where the map jumps at several energies, and a symmetry line at the first.
 
     On (energy, point), NaN where there is none, are the arc of the rim and its image under the map,
@@ -46,8 +46,11 @@ def jumps(ball, energy, energies, sides) -> xr.Dataset:
     if sides % 4:
         raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
     levels = [float(energy), *map(float, energies)]
-    arcs, gaps = zip(*(_arc(ball, level, sides + 1) for level in levels), strict=True)
-    curves, gaps = np.stack(arcs, axis=1), np.array(gaps)
+    arcs = [_arc(ball, level, sides + 1) for level in levels]
+    curves, gaps = (
+        np.stack([curve for curve, _ in arcs], axis=1),
+        np.array([gap for _, gap in arcs]),
+    )
     fine, middle, coarse = (_lengths(curves[2:], gaps, step) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _MARGIN * length
@@ -80,8 +83,8 @@ def jumps(ball, energy, energies, sides) -> xr.Dataset:
 def _lengths(curves: np.ndarray, gaps: np.ndarray, every: int) -> np.ndarray:
     """Return lengths of polylines (2, n, points) of every so many points, without their gaps."""
     steps = np.diff(curves[:, :, ::every], axis=2)
-    gaps = gaps.reshape(gaps.shape[0], -1, every).any(axis=2)
-    return np.nansum(np.where(gaps, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
+    gap = gaps.reshape(gaps.shape[0], -1, every).max(axis=2)
+    return np.nansum(np.where(gap, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
 
 
 def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray]:
@@ -96,20 +99,18 @@ def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray
     end = math.sqrt((1.0 - depth) / (1.0 + depth))
     t = end * (1.0 - _MARGIN) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
 
-    def rim(t):
-        return (
-            centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t)),
-            high * (2.0 * t / (1.0 + t * t)),
-        )
+    def rim(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        x = centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t))
+        return x, high * (2.0 * t / (1.0 + t * t))
 
-    def image(t):
+    def image(t: np.ndarray) -> np.ndarray:
         x, y = rim(t)
-        return np.stack(chart(k, *ball.impact(x, y / (1.0 + k), -y / (1.0 + k))[:3]))
+        return chart(k, *ball.after((x, y / (1.0 + k), -y / (1.0 + k)))[:3])
 
     return np.stack([*rim(t), *image(t)]), _gaps(image, t)
 
 
-def _gaps(image: Callable, parameters: np.ndarray) -> np.ndarray:
+def _gaps(image: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray) -> np.ndarray:
     """Return across which sides of the curve `image` of parameters (n,) the map jumps."""
     low, high = parameters[:-1], parameters[1:]
     start, end = image(low), image(high)
@@ -149,10 +150,15 @@ def _derivatives(ball: Ball, energy: float, curve: np.ndarray) -> np.ndarray:
             except ValueError:  # outside the section
                 derivatives.append(math.nan)
                 continue
-            (a, b), (c, d) = ball.chart_jacobian(*state)
-            square, det = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
-            root = math.sqrt(max(square * square - det * det, 0.0))
-            derivatives.append(math.sqrt(square + root))  # the largest singular value
-            tau = ball.time_to_impact(*state)
+            derivatives.append(_largest_singular_value(ball.chart_jacobian(*state)))
+            tau = float(ball.time_to_impact(*state))
         rows.append((tau, derivatives))
     return np.array([derivatives for _, derivatives in sorted(rows)])
+
+
+def _largest_singular_value(matrix: Rows) -> float:
+    """Return the largest singular value of a matrix (2, 2), without LAPACK."""
+    (a, b), (c, d) = matrix
+    square, determinant = 0.5 * (a * a + b * b + c * c + d * d), a * d - b * c
+    root = math.sqrt(max(square * square - determinant * determinant, 0.0))
+    return math.sqrt(square + root)

@@ -54,6 +54,9 @@ _LEAST = 1e-30  # of 1 - a^2 - b^2, where a point is on the rim to rounding
 # was divided, the logarithm of the determinant of the map's iterates, the mirror image of the start
 # under R, and the square of the orbit's least distance from it.
 A, B, DA, DB, GROWN, AREA, MIRROR_A, MIRROR_B, NEAREST, KEPT = range(10)
+# Rows of a group's data during an impact: state and tangent vector, and the change's determinant.
+_X, _V, _W, _DX, _DV, _DW, _DETERMINANT = range(7)
+NO_POINTS = np.empty((2, 0, 0))  # for `propagate`, which then keeps no points
 # Form of a change -> (p, m) of its twists, of which a shift has none.
 FORMS = {
     "twist": [(-0.2, 0.15, 4.0)],
@@ -76,6 +79,10 @@ MAPS = {
 }
 
 
+Frame = tuple[float, float, float]  # k, and the section's centre and radius in x
+Slopes = tuple[float, float, float, float]  # a Jacobian (2, 2) by rows
+
+
 class PerturbedMap(NamedTuple):
     """The map T P S of one ball and energy, with g = 1, for changes S before P and T after it.
 
@@ -83,10 +90,33 @@ class PerturbedMap(NamedTuple):
     zeros for the identity. `changes` holds S and T.
     """
 
-    k: float
-    centre: float
-    radius: float
+    frame: Frame
     changes: np.ndarray
+
+    def images(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:
+        """Return the images of points (2, n) after some impacts."""
+        return self._after(orbit_rows(points), impacts)[:2]
+
+    def jacobian(self, point: np.ndarray, impacts: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the image (2, 1) of a point after some impacts, and the Jacobian (2, 2)."""
+        rows = orbit_rows(np.repeat(point, 2, axis=1))
+        rows[DA], rows[DB] = (1.0, 0.0), (0.0, 1.0)
+        self._after(rows, impacts)
+        return rows[:2, :1], rows[[DA, DB]]
+
+    def _after(self, rows: np.ndarray, impacts: int) -> np.ndarray:
+        """Propagate orbits in place without normalizing tangent vectors, and return them."""
+        no_windows = np.empty((0, 2), dtype=np.int64), np.empty((2, 0, rows.shape[1]))
+        propagate(rows, *self, impacts, *no_windows, NO_POINTS)
+        return rows
+
+
+def orbit_rows(points: np.ndarray) -> np.ndarray:
+    """Return the data of orbits for `propagate`, (KEPT, n), from their starts (2, n)."""
+    rows = np.zeros((KEPT, points.shape[1]))
+    rows[:2], rows[DA], rows[DB], rows[NEAREST] = points, 0.5, 0.5, math.inf
+    rows[MIRROR_A : MIRROR_A + 2] = points[0], -points[1]
+    return rows
 
 
 def change(form: str, keeps_area: bool, strength: float, mirrored: bool = False) -> np.ndarray:
@@ -110,11 +140,13 @@ def perturbed_map(ball: Ball, energy: float, name: str, strength: float) -> Pert
     form, keeps_area, reversible = MAPS[name]
     before = change(form, keeps_area, strength if reversible else 0.0, mirrored=True)
     changes = np.stack([before, change(form, keeps_area, strength)])
-    return PerturbedMap(ball.k, centre, radius, changes)
+    return PerturbedMap((ball.k, centre, radius), changes)
 
 
 @jit
-def _twist(first, second, turn, a, b):
+def _twist(
+    first: float, second: float, turn: float, a: float, b: float
+) -> tuple[float, float, Slopes]:
     """Return the image of (a, b) under A with p and m eps, and its derivatives by rows."""
     u, v = a - first, b - second
     rest = 1.0 - (u * u + v * v) / (_RADIUS * _RADIUS)
@@ -133,7 +165,7 @@ def _twist(first, second, turn, a, b):
 
 
 @jit
-def _moebius(first, second, a, b):
+def _moebius(first: float, second: float, a: float, b: float) -> tuple[float, float, Slopes]:
     """Return the image of (a, b) under M, and its derivatives by rows."""
     if first == 0.0 == second:
         return a, b, (1.0, 0.0, 0.0, 1.0)
@@ -148,14 +180,14 @@ def _moebius(first, second, a, b):
 
 
 @jit
-def _product(m, n):
+def _product(m: Slopes, n: Slopes) -> Slopes:
     """Return the product of two matrices (2, 2), given by rows."""
     first = m[0] * n[0] + m[1] * n[2], m[0] * n[1] + m[1] * n[3]
     return first[0], first[1], m[2] * n[0] + m[3] * n[2], m[2] * n[1] + m[3] * n[3]
 
 
 @jit
-def apply(change, a, b):
+def apply(change: np.ndarray, a: float, b: float) -> tuple[float, ...]:
     """Return the image of (a, b) under a change, and its four derivatives by rows."""
     slopes = 1.0, 0.0, 0.0, 1.0
     for i in range(4):
@@ -169,34 +201,40 @@ def apply(change, a, b):
 
 
 @jit
-def _before(rows, first, n, k, centre, radius, change, x, v, w, tangents):
-    """Apply the change before P, and write states, tangent vectors and determinants."""
+def _before(
+    rows: np.ndarray, first: int, n: int, frame: Frame, change: np.ndarray, group: np.ndarray
+) -> None:
+    """Apply the change before P to n orbits, and write states, tangent vectors and determinants."""
+    k, centre, radius = frame
     high, speed = math.sqrt(k * (1.0 + k)) * radius, math.sqrt(1.0 + k) * radius
     for i in range(n):
         j = first + i
         a, b, aa, ab, ba, bb = apply(change, rows[A, j], rows[B, j])
         da, db = aa * rows[DA, j] + ab * rows[DB, j], ba * rows[DA, j] + bb * rows[DB, j]
-        tangents[3, i] = aa * bb - ab * ba
+        group[_DETERMINANT, i] = aa * bb - ab * ba
         root = math.sqrt(max((1.0 - a * a) - b * b, _LEAST))
         y, s = high * b, speed * root
         dy, ds = high * db, -speed * (a * da + b * db) / root
-        x[i] = centre + radius * a
-        v[i], w[i] = (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
-        w[i] = max(w[i], -v[i])
-        tangents[0, i] = radius * da
-        tangents[1, i], tangents[2, i] = (dy + k * ds) / (1.0 + k), (ds - dy) / (1.0 + k)
+        group[_X, i] = centre + radius * a
+        group[_V, i] = (y + k * s) / (1.0 + k)
+        group[_W, i] = max((s - y) / (1.0 + k), -group[_V, i])
+        group[_DX, i] = radius * da
+        group[_DV, i], group[_DW, i] = (dy + k * ds) / (1.0 + k), (ds - dy) / (1.0 + k)
 
 
 @jit
-def _after(rows, first, n, k, centre, radius, change, states, flights, tangents):
-    """Carry tangent vectors over the flight, and apply the change after P."""
+def _after(
+    rows: np.ndarray, first: int, n: int, frame: Frame, change: np.ndarray,
+    flown: tuple[np.ndarray, np.ndarray], group: np.ndarray,
+) -> None:  # fmt: skip
+    """Carry tangent vectors over flights, `flown`, and apply the change after P to n orbits."""
+    (k, centre, radius), (states, flights) = frame, flown
     high = math.sqrt(k * (1.0 + k)) * radius
     coefficients = impact_coefficients(k)
     for i in range(n):
         j, at = first + i, GROUP + i
-        dx, dv, dw = push_tangent(
-            tangents[0, i], tangents[1, i], tangents[2, i], k, 1.0, coefficients, states, flights, i
-        )
+        vector = group[_DX, i], group[_DV, i], group[_DW, i]
+        dx, dv, dw = push_tangent(*vector, k, 1.0, coefficients, states, flights, i)
         a = (states[X + at] - centre) / radius
         b = (states[V + at] - k * states[W + at]) / high
         da, db = dx / radius, (dv - k * dw) / high
@@ -205,45 +243,48 @@ def _after(rows, first, n, k, centre, radius, change, states, flights, tangents)
         u, v = a - rows[MIRROR_A, j], b - rows[MIRROR_B, j]
         rows[NEAREST, j] = min(rows[NEAREST, j], u * u + v * v)
         rows[DA, j], rows[DB, j] = aa * da + ab * db, ba * da + bb * db
-        tangents[3, i] *= aa * bb - ab * ba
+        group[_DETERMINANT, i] *= aa * bb - ab * ba
 
 
 @jit
-def _normalize(rows, first, n, tangents):
+def _normalize(rows: np.ndarray, first: int, n: int, determinants: np.ndarray) -> None:
     """Divide tangent vectors by their length, and add up logarithms."""
     first = max(first, 0)  # LLVM vectorises the loop only if no index can be negative
     for i in range(n):
         j = first + i
         da, db = rows[DA, j], rows[DB, j]
         size = abs(da) + abs(db)
-        grown, area = rows[GROWN, j] + narrow_log(size), rows[AREA, j] + narrow_log(tangents[3, i])
+        grown, area = rows[GROWN, j] + narrow_log(size), rows[AREA, j] + narrow_log(determinants[i])
         rows[DA, j], rows[DB, j], rows[GROWN, j], rows[AREA, j] = da / size, db / size, grown, area
 
 
 @jit
-def propagate(rows, k, centre, radius, changes, impacts, windows, grown, area, out):
+def propagate(
+    rows: np.ndarray, frame: Frame, changes: np.ndarray, impacts: int, windows: np.ndarray,
+    sums: np.ndarray, out: np.ndarray,
+) -> None:  # fmt: skip
     """Propagate orbits (KEPT, n) in place by `impacts` of a perturbed map.
 
     The logarithms of the tangent vectors' length and of the determinant are summed over `windows`
-    (first impact, length) into `grown` and `area` (windows, n). `out` (2, n, impacts) receives a
-    and b after each impact, unless it is empty. Without windows no vector is normalized.
+    (first impact, length) into `sums` (2, windows, n). `out` (2, n, impacts) receives a and b after
+    each impact, unless it is empty. Without windows no vector is normalized.
     """
-    states, flights = allocate_buffers()
-    tangents = np.empty((4, GROUP))
-    x, v, w = np.empty(GROUP), np.empty(GROUP), np.empty(GROUP)
+    flown = states, flights = allocate_buffers()
+    group = np.empty((7, GROUP))
     for first in range(0, rows.shape[1], GROUP):
         n = min(GROUP, rows.shape[1] - first)
+        last = first + n
         for impact in range(impacts):
-            _before(rows, first, n, k, centre, radius, changes[0], x, v, w, tangents)
-            advance_chunk(x[:n], v[:n], w[:n], k, 1.0, 1, states, flights, None)
-            _after(rows, first, n, k, centre, radius, changes[1], states, flights, tangents)
+            _before(rows, first, n, frame, changes[0], group)
+            x, v, w = group[_X, :n], group[_V, :n], group[_W, :n]
+            advance_chunk(x, v, w, frame[0], 1.0, 1, states, flights, None)
+            _after(rows, first, n, frame, changes[1], flown, group)
             if len(windows) > 0:
-                _normalize(rows, first, n, tangents)
+                _normalize(rows, first, n, group[_DETERMINANT])
             for m in range(len(windows)):
                 if windows[m, 0] <= impact < windows[m, 0] + windows[m, 1]:
-                    for j in range(first, first + n):
-                        grown[m, j] += rows[GROWN, j]
-                        area[m, j] += rows[AREA, j]
+                    sums[0, m, first:last] += rows[GROWN, first:last]
+                    sums[1, m, first:last] += rows[AREA, first:last]
             if out.size > 0:
-                out[0, first : first + n, impact] = rows[A, first : first + n]
-                out[1, first : first + n, impact] = rows[B, first : first + n]
+                out[0, first:last, impact] = rows[A, first:last]
+                out[1, first:last, impact] = rows[B, first:last]

@@ -24,30 +24,37 @@ class Polygon:
         self.begin = np.searchsorted(slabs[order], np.arange(_SLABS + 1))
 
     def _slab(self, y: np.ndarray) -> np.ndarray:
+        """Return the number of the slab that holds each y, or of the nearest one."""
         slab = (y - self.bottom) / (self.top - self.bottom) * _SLABS
         return np.clip(slab.astype(np.int64), 0, _SLABS - 1)
 
     def area(self) -> float:
-        """Area inside the polygon."""
+        """Return the area inside the polygon."""
         return abs(0.5 * float(np.sum(self.x * self.next_y - self.next_x * self.y)))
 
     def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which points are inside; x, y and the result have one shape."""
         inside = np.zeros(np.shape(x), dtype=np.bool_)
-        slabs = self._slab(y).ravel()
-        shape = self.x, self.y, self.next_x, self.next_y, self.sides, self.begin
-        _count_crossings(np.ravel(x), np.ravel(y), slabs, *shape, inside.reshape(-1))
+        points = np.ravel(x), np.ravel(y), self._slab(y).ravel()
+        sides = self.x, self.y, self.next_x, self.next_y
+        _count_crossings(points, sides, self.sides, self.begin, inside.reshape(-1))
         return inside
 
 
 @jit
-def _count_crossings(x, y, slabs, x0, y0, x1, y1, sides, begin, inside):
+def _count_crossings(
+    points: tuple[np.ndarray, ...],
+    ends: tuple[np.ndarray, ...],
+    sides: np.ndarray,
+    begin: np.ndarray,
+    inside: np.ndarray,
+) -> None:
+    """Set which points (x, y, slab) are inside, from the sides in each slab and their ends."""
+    (x, y, slabs), (x0, y0, x1, y1) = points, ends
     for i in range(x.size):
         for j in range(begin[slabs[i]], begin[slabs[i] + 1]):
             side = sides[j]
             if (y0[side] > y[i]) != (y1[side] > y[i]):
-                across = x0[side] + (y[i] - y0[side]) / (y1[side] - y0[side]) * (
-                    x1[side] - x0[side]
-                )
-                if x[i] < across:
+                share = (y[i] - y0[side]) / (y1[side] - y0[side])
+                if x[i] < x0[side] + share * (x1[side] - x0[side]):
                     inside[i] = not inside[i]

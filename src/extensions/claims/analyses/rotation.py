@@ -1,8 +1,11 @@
 """Rotation number and exponent of orbits against their start along y = 0, at several energies."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 
+from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import ENERGY, RADIUS, described, variables
@@ -15,7 +18,10 @@ _ORBITS = {
 }
 
 
-def rotation(ball, energy, energies, starts, impacts, detail, detail_impacts) -> xr.Dataset:
+def rotation(
+    ball: Ball, energy: float, energies: Sequence[float], starts: int, impacts: int,
+    detail: tuple[float, float], detail_impacts: int,
+) -> xr.Dataset:  # fmt: skip
     """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
 
     At each energy the starts go evenly from the fixed point to the section's rim. At the first

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, State
 
 _PLASTIC_NUMBER = 1.324717957244746  # the real root of p^3 = p + 1, to the nearest double
 _MAX_SQUARED_RADIUS = 1.0 - 2.0**-40  # closer to the rim, rounding may leave the disk
@@ -32,15 +32,19 @@ def half_axes(ball: Ball, energy: float) -> tuple[float, float]:
     return radius, math.sqrt(ball.k * (1.0 + ball.k)) * radius
 
 
-def sea_states(
-    ball: Ball, energy: float, between: tuple[float, float], orbits: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return states (x, xdot, udot) just before an impact, evenly over a part of y = 0.
+def sea_states(ball: Ball, energy: float, between: tuple[float, float], orbits: int) -> np.ndarray:
+    """Return states just before an impact, (3, orbits), evenly over a part of y = 0.
 
-    `between` has the part's ends in section radii. Raises ValueError unless -1 <= from < to <= 1.
+    Rows are x, xdot, udot. `between` has the part's ends in section radii. Raises ValueError unless
+    -1 <= from < to <= 1.
     """
     low, high = between
     if not -1.0 <= low < high <= 1.0:
         raise ValueError(f"between = {between!r} is not allowed: -1 <= from < to <= 1")
     start = low + (high - low) * (np.arange(orbits) + 0.5) / orbits
-    return ball.start(start, energy)
+    return as_array(ball.start(start, energy))
+
+
+def as_array(state: State) -> np.ndarray:
+    """Return a state, or states, as an array (3, n)."""
+    return np.stack([np.atleast_1d(a) for a in state])

@@ -5,19 +5,26 @@ The dataset holds means over blocks, from which means over longer stretches foll
 the long-run value, its error, and the distribution of the short runs that it consists of.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
+from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.regularity import regular_bound
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
 
-from .sea import half_axes, section_points
+from .sea import as_array, half_axes, section_points
 
 _CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 
 
-def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells, visits):
+def spread(
+    ball: Ball, energy: float, orbits: int, length: int, blocks: int, regular: Sequence[float],
+    regular_impacts: int, cells: int, visits: int,
+) -> xr.Dataset:  # fmt: skip
     """Compute the exponents of many orbits by blocks, and the cells that chaotic orbits enter.
 
     The exponents so far of the regular orbits are kept after `regular_impacts` and its halves. The
@@ -34,7 +41,7 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
     if length % blocks:
         raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
     x, y = section_points(ball, energy, orbits)
-    states = ball.state_xy(x, y, energy)
+    states = as_array(ball.state_xy(x, y, energy))
     so_far = lyapunov_spectrum(ball, states, length, blocks)["exponent"].values
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
@@ -47,16 +54,16 @@ def spread(ball, energy, orbits, length, blocks, regular, regular_impacts, cells
         )
     lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
     islands = ball.start(starts, energy)
-    regular = [lyapunov_spectrum(ball, islands, int(n), 1)["exponent"].values[0] for n in lengths]
+    calm = [lyapunov_spectrum(ball, islands, n, 1)["exponent"].values[0] for n in lengths]
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
         "length": ("length", lengths, "number of impacts"),
         "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
-        "regular_exponent": (("length", "island", "index"), regular, "exponent of a regular orbit"),
+        "regular_exponent": (("length", "island", "index"), calm, "exponent of a regular orbit"),
     }
-    data |= _entered_cells(ball, energy, [a[chaotic] for a in states], cells, visits)
+    data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
     return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
 
 
@@ -66,17 +73,19 @@ def in_sea(dataset: xr.Dataset) -> np.ndarray:
     return dataset["exponent"].values.mean(axis=0).max(axis=-1) > regular_bound(length)
 
 
-def _halves(number: int) -> np.ndarray:
+def _halves(number: int) -> list[int]:
     """Return number, number/2, ... above 0, in rising order."""
-    return np.array([number >> i for i in reversed(range(int(number).bit_length()))])
+    return [number >> i for i in reversed(range(number.bit_length()))]
 
 
-def _entered_cells(ball, energy, states, cells, visits):
+def _entered_cells(
+    ball: Ball, energy: float, states: np.ndarray, cells: int, visits: int
+) -> dict[str, tuple[Any, ...]]:
     """Count the cells of the chart that orbits enter, at `visits` impacts and its halves."""
     centre, (radius, high) = ball.section(energy)[0], half_axes(ball, energy)
-    entered = np.zeros((states[0].size, cells * cells), dtype=bool)
+    entered = np.zeros((states.shape[1], cells * cells), dtype=bool)
     lengths, done, counts = _halves(visits), 0, []
-    for length in lengths.tolist():
+    for length in lengths:
         while done < length:
             out = ball.history(states, min(_CHUNK, length - done))
             states = out[:, -1, :3].T

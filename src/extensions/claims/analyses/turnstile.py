@@ -8,9 +8,6 @@ from pseudorigid.dynamics.quantities import require_default_map
 
 from .flux import SIDES, flux
 
-# The polygons and counts that `flux` adds to the area of a lobe, as small as it takes them.
-_COARSE = {"distance": 0.1, "grid": 2, "between": (0.0, 0.1), "orbits": 1, "impacts": 2}
-
 
 def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") -> xr.Dataset:
     """Area that one impact carries through the broken separatrix of a hyperbolic orbit.
@@ -54,7 +51,10 @@ def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") 
     energy = number("energy", energy)
     period = int(number("period", period, "an even number", lambda v: v >= 2.0 and v % 2.0 == 0.0))
     one_of("side", side, SIDES[::-1])
-    lobes = flux(ball, energy, period, **_COARSE, sides=(side,))
+    # The polygons and counts that `flux` adds to the areas are as small as it takes them.
+    lobes = flux(
+        ball, energy, period, 0.1, grid=2, between=(0.0, 0.1), orbits=1, impacts=2, sides=(side,)
+    )
     names = ["area", "area_error", "digits", "saddle", "target", "crossing_x"]
     lobe: xr.Dataset = lobes[names].sel(side=side)
     return lobe.assign_attrs(k=ball.k, g=ball.g, energy=energy, period=period)

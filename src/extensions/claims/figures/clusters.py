@@ -3,11 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.figures.axes.limits import linear, ticks
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
+
+from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _COLUMNS = (1, 135, 540), (0, 600, 1005)  # index in _NAMES, left and right of a column of panels
@@ -19,7 +22,7 @@ _LABEL = 0.07  # room of a cut's label, in units of the longest flight
 
 
 @style.pinned()
-def draw(scene, clusters):
+def draw(scene: Scene, clusters: xr.Dataset) -> Figure:
     """Draw flight times, and the correlation and dependence between clusters against their lag."""
     sheet = Sheet(style.COLUMN, 1650)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
@@ -50,7 +53,7 @@ def draw(scene, clusters):
     return sheet.figure
 
 
-def _flights(sheet, frame, clusters):
+def _flights(sheet: Sheet, frame: Frame, clusters: xr.Dataset) -> None:
     """Draw the histogram of flight times with the cuts."""
     edges = clusters["bin_edge"].values
     share = clusters["flights"].values / clusters["flights"].values.sum()
@@ -72,7 +75,7 @@ def _flights(sheet, frame, clusters):
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
-def _panel_by_lag(sheet, frame, clusters, up):
+def _panel_by_lag(sheet: Sheet, frame: Frame, clusters: xr.Dataset, up: Axis) -> Panel:
     """Return a panel against the lag, labelled at the left and at the bottom of the sheet only."""
     last = int(clusters["lag"].values[-1])
     if frame[0] != _LEFT:
@@ -82,7 +85,7 @@ def _panel_by_lag(sheet, frame, clusters, up):
     return Panel(sheet, frame, across if frame[1] == _LOWER else across.blank(), up)
 
 
-def _marks(panel, clusters, estimates):
+def _marks(panel: Panel, clusters: xr.Dataset, estimates: list[np.ndarray]) -> None:
     """Draw a mark with its interval for each cut and lag, from (value, low, high)."""
     value, low, high = estimates
     lags, cuts = clusters["lag"].values, clusters["cut"].values

@@ -1,11 +1,14 @@
-"""Regular orbits of maps that keep area, are reversible, both, or neither."""
+"""The control experiment: regular orbits of maps that keep area, the reversor, both, or neither."""
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import Axis, Window, key, letters, log10, title
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
+
+from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
 _CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.BACKDROP))
@@ -26,7 +29,7 @@ _SIDE, _APART = 282, 346  # pixels: the side of a portrait, and from one to the 
 
 
 @style.pinned()
-def draw(scene, control):
+def draw(scene: Scene, control: xr.Dataset) -> Figure:
     """Draw portraits of maps, and shares and rates of all maps against the strength."""
     sheet = Sheet(style.COLUMN, 2175)
     drawn = set(control["kind"].values.ravel().tolist())
@@ -45,7 +48,7 @@ def draw(scene, control):
     return sheet.figure
 
 
-def _portraits(sheet, control):
+def _portraits(sheet: Sheet, control: xr.Dataset) -> Frame:
     """Draw the orbits of each panel, chaotic ones first; return the first frame."""
     from pseudorigid.kernel.arithmetic import sincos_each
 
@@ -76,68 +79,56 @@ def _portraits(sheet, control):
     return first
 
 
-def _charts(sheet, control):
-    """Draw shares and rates; return the frames."""
+def _charts(sheet: Sheet, control: xr.Dataset) -> list[Frame]:
+    """Draw shares and rates against the strength, and shares against the length; return frames."""
     strength = control["strength"].values[1:]
+    across = _strength_axis(strength)
+    spans = (_LEFT, _LEFT + _HALF), (_RIGHT - _HALF, _RIGHT)
+    frames: list[Frame] = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in spans]
+    last = control.isel(length=-1)
+    shares = [
+        ("regular", "Regular share", None),
+        ("spiral", "Share of spirals", linear(0.0, 1.0, 5)),
+    ]
+    for frame, (kind, text, up) in zip(frames[:2], shares, strict=True):
+        share = _class_shares(last, kind)
+        panel = _chart(sheet, frame, across, up or _share_axis(share[2]), text)
+        panel.line([1e-9, 1.0], [share[0][0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
+        _maps(panel, control, strength, share[:, :, 1:])
+    _rates(sheet, frames[2], across, control)
+    _lengths(sheet, frames[3], control)
+    return frames
+
+
+def _strength_axis(strength: np.ndarray) -> Axis:
+    """Return a logarithmic axis with two ticks or more."""
     logs = log10(strength)
     low, high = float(logs.min()), float(logs.max())
     room = max(0.08 * (high - low), 0.15)
     if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
         low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
-    across = decades((low - room, high + room), r"Strength $\epsilon$")
-    left, right = ((at, at + _HALF) for at in (_LEFT, _RIGHT - _HALF))
-    frames = [(a, bottom, b, bottom + _HIGH) for bottom in _ROWS for a, b in (left, right)]
-    last = control.isel(length=-1)
-    regular, spiral = (
-        [last[f"class_{name}"].sel({"class": kind}).values for name in ("share", "low", "high")]
-        for kind in ("regular", "spiral")
-    )
-    for frame, up, text, estimate in (
-        (frames[0], _share_axis(regular[2]), "Regular share", regular),
-        (frames[1], linear(0.0, 1.0, 5), "Share of spirals", spiral),
-    ):
-        panel = _chart(sheet, frame, across, up, text)
-        panel.line([1e-9, 1.0], [estimate[0][0, 0]] * 2, color=style.BACKDROP, lw=1.2, ls="--")
-        _maps(panel, control, strength, [part[:, 1:] for part in estimate])
-    rate = [control[f"rate{end}"].values[:, 1:, 0] / strength for end in ("", "_low", "_high")]
-    finite = np.abs(rate[0][np.isfinite(rate[0])])
-    most = 1.15 * float(finite.max()) if finite.size else 1.0
-    up = linear(-most, most, 5)
-    panel = _chart(sheet, frames[2], across, up, r"Rate at the fixed point, / $\epsilon$")
+    return decades((low - room, high + room), r"Strength $\epsilon$")
+
+
+def _class_shares(control: xr.Dataset, kind: str) -> np.ndarray:
+    """Return the share of a class and the ends of its interval: (3, map, ...)."""
+    of_class = control.sel({"class": kind})
+    return np.stack([of_class[f"class_{name}"].values for name in ("share", "low", "high")])
+
+
+def _rates(sheet: Sheet, frame: Frame, across: Axis, control: xr.Dataset) -> None:
+    """Draw the growth rate of the distance from the fixed point, divided by the strength."""
+    strength = control["strength"].values[1:]
+    rate = np.stack([control[f"rate{end}"].values[:, 1:, 0] for end in ("", "_low", "_high")])
+    rate = rate / strength
+    most = 1.15 * float(np.nanmax(np.abs(rate[0]))) if np.isfinite(rate[0]).any() else 1.0
+    text = r"Rate at the fixed point, / $\epsilon$"
+    panel = _chart(sheet, frame, across, linear(-most, most, 5), text)
     panel.line([1e-9, 1.0], [0.0, 0.0], color=style.FRAME, lw=0.4)
     _maps(panel, control, strength, rate, joined=False)
-    _lengths(sheet, frames[3], control)
-    return frames
 
 
-def _chart(sheet, frame, across, up, text, minor_across=True):
-    """Return a chart with its title above it."""
-    panel = Window(sheet, frame, across, up)
-    panel.minor(minor_across)
-    title(sheet, frame, text)
-    return panel
-
-
-def _share_axis(values):
-    """Return an axis from 0 to above the largest share."""
-    return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
-
-
-def _maps(panel, control, at, estimate, apart=1.04, joined=True):
-    """Draw the changed maps' values with intervals, (map, abscissa), side by side."""
-    for i, name in enumerate(control["map"].values.tolist()):
-        form, _, kept = name.partition(" ")
-        _, hue, hollow = _KEPT[kept]
-        beside = at * apart ** (i - 4.5)
-        value, low, high = (part[i] for part in estimate)
-        if joined:
-            panel.line(beside, value, color=style.pale(hue), lw=0.8)
-        panel.bars(beside, low, high, color=hue, lw=0.7)
-        shown = np.isfinite(value)
-        panel.dots(beside[shown], value[shown], hue, 3.0, hollow, _FORMS[form])
-
-
-def _lengths(sheet, frame, control):
+def _lengths(sheet: Sheet, frame: Frame, control: xr.Dataset) -> None:
     """Draw the regular share against the number of impacts at the strength that is shown."""
     lengths = control["length"].values.astype(float)
     logs = log10(lengths)
@@ -147,9 +138,42 @@ def _lengths(sheet, frame, control):
     limits = float(logs[0]) - 0.1, float(logs[-1]) + 0.1
     across = Axis(limits, logs.tolist(), "Number of impacts", True, texts)
     at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
-    kind = control.sel({"class": "regular"})
-    estimate = [kind[f"class_{name}"].values[:, at] for name in ("share", "low", "high")]
+    share = _class_shares(control.isel(strength=at), "regular")
     text = rf"Regular share, $\epsilon$ = {style.number(control.attrs['shown'])}"
-    up = _share_axis(estimate[2])
-    panel = _chart(sheet, frame, across, up, text, minor_across=False)
-    _maps(panel, control, lengths, estimate, 1.02)
+    panel = _chart(sheet, frame, across, _share_axis(share[2]), text, minor_across=False)
+    _maps(panel, control, lengths, share, 1.02)
+
+
+def _chart(
+    sheet: Sheet, frame: Frame, across: Axis, up: Axis, text: str, minor_across: bool = True
+) -> Window:
+    """Return a chart with its title above it."""
+    panel = Window(sheet, frame, across, up)
+    panel.minor(minor_across)
+    title(sheet, frame, text)
+    return panel
+
+
+def _share_axis(values: np.ndarray) -> Axis:
+    """Return an axis from 0 to above the largest share."""
+    return linear(-0.01, min(1.03, 1.1 * float(values.max()) + 0.02), 5)
+
+
+def _maps(
+    panel: Window, control: xr.Dataset, at: np.ndarray, estimates: np.ndarray,
+    apart: float = 1.04, joined: bool = True,
+) -> None:  # fmt: skip
+    """Draw values with intervals, (3, map, abscissa), of the changed maps side by side.
+
+    Marks of neighbouring maps are apart by a factor, and joined by lines from abscissa to abscissa.
+    """
+    for i, name in enumerate(control["map"].values.tolist()):
+        form, _, kept = name.partition(" ")
+        _, hue, hollow = _KEPT[kept]
+        beside = at * apart ** (i - 4.5)
+        value, low, high = estimates[:, i]
+        if joined:
+            panel.line(beside, value, color=style.pale(hue), lw=0.8)
+        panel.bars(beside, low, high, color=hue, lw=0.7)
+        shown = np.isfinite(value)
+        panel.dots(beside[shown], value[shown], hue, 3.0, hollow, _FORMS[form])

@@ -1,8 +1,10 @@
 """The regions that the branches of a hyperbolic orbit enclose, and the lobes between branches."""
 
 import textwrap
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.limits import around, linear
@@ -11,6 +13,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
 
 from ..analyses.flux import SIDES
+from . import Figure, Frame, Scene
 
 _SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index in SIDES, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
@@ -18,12 +21,12 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 
 
 @style.pinned()
-def draw(scene, flux):
+def draw(scene: Scene, flux: xr.Dataset) -> Figure:
     """Draw regions and lobes of the inner and the outer branches, and both crossings."""
     sheet = Sheet(style.COLUMN, 1725)
     frame = _regions(sheet, scene, flux)
     corner(sheet, frame, style.setting(scene))
-    entries = [
+    entries: list[tuple[Any, ...]] = [
         (_edge_name(flux, side), hue if _has_edge(flux, side) else "white", "", False, wide)
         for side, hue, wide in reversed(_SIDES)  # white: the text alone
     ]
@@ -39,12 +42,12 @@ def draw(scene, flux):
     return sheet.figure
 
 
-def _has_edge(flux, side):
+def _has_edge(flux: xr.Dataset, side: int) -> bool:
     """Return whether a region has an edge that can be drawn."""
     return bool(np.isfinite(flux["region"].values[side]))
 
 
-def _edge_name(flux, side):
+def _edge_name(flux: xr.Dataset, side: int) -> str:
     """Return the name of a region's edge, or why there is none."""
     name = SIDES[side]
     if np.isnan(flux["area"].values[side]):
@@ -54,7 +57,7 @@ def _edge_name(flux, side):
     return f"edge of the {name} region"
 
 
-def _regions(sheet, scene, flux):
+def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
     """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
     panel = section.at_top(sheet, scene)
     panel.rim(zorder=2)
@@ -84,7 +87,7 @@ def _regions(sheet, scene, flux):
     return panel.frame
 
 
-def _lobe(sheet, frame, side, flux):
+def _lobe(sheet: Sheet, frame: Frame, side: int, flux: xr.Dataset) -> str:
     """Draw two branches at their crossing, or the distance between them, and return a title."""
     x, y = (flux[f"branch_{name}"].values[side] for name in "xy")
     if np.isnan(x[0]):
@@ -101,7 +104,7 @@ def _lobe(sheet, frame, side, flux):
     return f"{SIDES[side].title()} branches at the crossing"
 
 
-def _difference(sheet, frame, x, y):
+def _difference(sheet: Sheet, frame: Frame, x: np.ndarray, y: np.ndarray) -> None:
     """Draw the distance in x of the unstable branch from the stable one, its mirror image."""
     y, order = np.unique(y, return_index=True)
     x = x[order]

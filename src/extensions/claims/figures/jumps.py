@@ -1,17 +1,21 @@
 """The section in the chart (x, y): jumps of the map, orbits, symmetry lines, grazing rim."""
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.panel import key, letters, title, vacant
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import Sheet
+
+from . import Figure, Frame, Scene
 
 _SMALL, _LEFTS = 215, (125, 465, 805)  # pixels: side and lefts of the small panels
 MAP, INVERSE = style.VERMILION, style.BLUE
 
 
 @style.pinned()
-def draw(scene, jumps, orbits):
+def draw(scene: Scene, jumps: xr.Dataset, orbits: xr.Dataset) -> Figure:
     """Draw the section with the jumps of the map and its inverse, and further energies below."""
     panel, regular, chaotic = section.over_orbits(scene, orbits, high=1500)
     dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
@@ -34,22 +38,22 @@ def draw(scene, jumps, orbits):
     return panel.sheet.figure
 
 
-def _curves(panel, jumps, row):
+def _curves(panel: section.Section, jumps: xr.Dataset, row: int) -> None:
+    """Draw the curves where the map and its inverse jump at one energy."""
     x, y = jumps["x"].values[row], jumps["y"].values[row]
     for sign, hue in ((1.0, INVERSE), (-1.0, MAP)):
         panel.line(x, sign * y, color=hue, lw=1.2, zorder=5)
 
 
-def _births(sheet, jumps):
+def _births(sheet: Sheet, jumps: xr.Dataset) -> list[Frame]:
     """Draw sections at energies above that of the birth, each on its own scale; return frames."""
     energies = jumps["energy"].values
     born = jumps["length"].values > 0.0
     rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
     if not rising:
         text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
-        frame = section.LEFT, 60, section.LEFT + section.SIDE, 60 + _SMALL
-        vacant(sheet, frame, text)
-    frames = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(rising)]]
+        vacant(sheet, (section.LEFT, 60, section.LEFT + section.SIDE, 60 + _SMALL), text)
+    frames: list[Frame] = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(rising)]]
     for frame, row in zip(frames, rising, strict=False):
         radius = float(jumps["radius"].values[row])
         panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 4, ("", ""))

@@ -1,6 +1,9 @@
 """Greene's residues on either side of the last curve of the main island, and orbits there."""
 
+from collections.abc import Sequence
+
 import numpy as np
+import xarray as xr
 
 from pseudorigid.figures.axes.limits import around, decades
 from pseudorigid.figures.axes.panel import Panel, corner, key, letters, log10
@@ -8,12 +11,14 @@ from pseudorigid.figures.axes.section import NAME
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
+from . import Figure, Frame, Scene
+
 _LEFT, _RIGHT = 150, 1005  # pixels
 _CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
 
 
 @style.pinned()
-def draw(scene, last_curve):
+def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
     """Draw residues of convergents against their period, and, below, orbits in the plane (x, y)."""
     rows = -(-last_curve.sizes["noble"] // 2)  # of a key
     extra = 75 * -(-48 * (rows - 1) // 75)
@@ -34,12 +39,14 @@ def draw(scene, last_curve):
     return sheet.figure
 
 
-def _key(sheet, names, top, hues):
+def _key(sheet: Sheet, names: list[str], top: float, hues: Sequence[str]) -> None:
+    """Draw a key of dots in two columns from `top` down."""
     entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=False)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
-def _residues(sheet, frame, last_curve):
+def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset) -> None:
+    """Draw the modulus of the residues of each number's convergents against their period."""
     periods, residues = last_curve["period"].values, last_curve["residue"].values
     size = np.abs(residues)
     ends = log10([periods.min(), periods.max()]) + np.array([-0.1, 0.1])
@@ -60,7 +67,8 @@ def _residues(sheet, frame, last_curve):
         corner(sheet, frame, "hollow: negative")
 
 
-def _orbits(sheet, frame, last_curve, hues):
+def _orbits(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str]) -> None:
+    """Draw the orbits in the plane (x, y), the first ones on top."""
     x, y = last_curve["x"].values, last_curve["y"].values
     panel = Panel(sheet, frame, around(x, 0.04, 6, "$x$"), around(y, 0.04, 6, NAME), grid=False)
     for i in reversed(range(x.shape[0])):

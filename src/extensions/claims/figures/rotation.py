@@ -1,6 +1,7 @@
 """Rotation number and exponent against the start on y = 0."""
 
 import numpy as np
+import xarray as xr
 
 from extensions.claims.analyses.rotation import island, plateaus
 from pseudorigid.dynamics.regularity import regular
@@ -9,13 +10,15 @@ from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, va
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
+from . import Figure, Frame, Scene
+
 _LEFT, _RIGHT = 135, 1005  # pixels
 _STARTS = "Start on $y=0$, section radii from the centre"
 _FAR = 4.0  # a curve longer than this times the median does not set the lowest axis
 
 
 @style.pinned()
-def draw(scene, rotation):
+def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
     sheet = Sheet(style.COLUMN, 2100)
     good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
@@ -28,7 +31,7 @@ def draw(scene, rotation):
     ]
     key(sheet, [*filter(None, entries)], sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
     spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
-    frames = [(_LEFT, low, _RIGHT, high) for low, high in spans]
+    frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in spans]
     letters(sheet, *frames)
     _first_energy(sheet, frames[:2], scene, rotation)
     _detail(sheet, frames[2], rotation)
@@ -36,7 +39,7 @@ def draw(scene, rotation):
     return sheet.figure
 
 
-def _first_energy(sheet, frames, scene, rotation):
+def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.Dataset) -> None:
     """Draw rotation numbers up to the last regular start, and exponents, at the first energy."""
     start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
     good = regular(growth, rotation.attrs["impacts"])
@@ -58,7 +61,7 @@ def _first_energy(sheet, frames, scene, rotation):
     panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 
 
-def _regular_detail(rotation):
+def _regular_detail(rotation: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Return the regular starts of the detail and their rotation numbers."""
     names = ("place", "rotation", "exponent")
     start, turns, growth = (rotation[f"detail_{name}"].values for name in names)
@@ -66,7 +69,7 @@ def _regular_detail(rotation):
     return start[good], turns[good]
 
 
-def _detail(sheet, frame, rotation):
+def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     """Draw the rotation numbers of regular starts at higher resolution, with their plateaus."""
     place = rotation["detail_place"].values
     start, turns = _regular_detail(rotation)
@@ -85,14 +88,14 @@ def _detail(sheet, frame, rotation):
         panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **side)
 
 
-def _energies(sheet, frame, rotation):
+def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     """Draw the departure from the fixed point's rotation number against the start, by energy."""
     curves = []
     for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
         growth = rotation["exponent"].values[row, : island(rotation, row)]
-        keep = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
-        start = rotation["place"].values[row, keep] - float(rotation["fixed_place"].values[row])
-        change = rotation["rotation"].values[row, keep] - rotation["fixed_rotation"].values[row]
+        starts = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
+        start = rotation["place"].values[row, starts] - float(rotation["fixed_place"].values[row])
+        change = rotation["rotation"].values[row, starts] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), start, change))
     up = _departure_axis([change for _, _, change in curves])
     within = [inside([up.limits], [change]) for _, _, change in curves]
@@ -121,16 +124,16 @@ def _energies(sheet, frame, rotation):
     x, y = np.hstack(drawn)
     left, right, low, top = _LEFT + 20, _RIGHT - 350, frame[1] + high - 21, frame[3] - 60
     corners = [(left, low), (right, low), (right, top), (left, top)]
-    left, top = min(corners, key=lambda at: _taken(x - at[0], at[1] - y, high))
+    left, top = min(corners, key=lambda at: _points_behind(x - at[0], at[1] - y, high))
     key(sheet, entries, top, 2, left, 370, 6.5)
 
 
-def _taken(x, down, high):
+def _points_behind(x: np.ndarray, down: np.ndarray, high: float) -> int:
     """Return the number of points, from the first line of a key, that lie behind the key."""
-    return np.sum((x > -20) & (x < 330) & (down > -15) & (down < high))
+    return int(np.sum((x > -20) & (x < 330) & (down > -15) & (down < high)))
 
 
-def _departure_axis(curves):
+def _departure_axis(curves: list[np.ndarray]) -> Axis:
     """Return an axis for all curves but those far longer than the median."""
     sizes = [float(np.abs(curve).max()) for curve in curves if curve.size] or [0.0]
     most = max(sizes) if max(sizes) <= _FAR * np.median(sizes) else float(np.median(sizes))

@@ -1,6 +1,7 @@
 """Lyapunov exponents of many orbits: how they spread with length, and where the paper's lies."""
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
 from pseudorigid.dynamics.regularity import regular_bound
@@ -11,6 +12,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 from ..analyses.spread import stretches
+from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _BAR = 0.001  # width of a bar of the histogram in the paper's case
@@ -19,12 +21,14 @@ _LN10 = 2.302585092994046
 
 
 @style.pinned()
-def draw(scene, spread, lyapunov):
+def draw(scene: Scene, spread: xr.Dataset, lyapunov: xr.Dataset) -> Figure:
     """Draw exponents against length, the distribution of short runs, and regular orbits."""
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
-    frames = [(_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))]
+    frames: list[Frame] = [
+        (_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))
+    ]
     letters(sheet, *frames)
     _lengths(sheet, frames[0], spread, paper)
     _short_runs(sheet, frames[1], spread, lyapunov, paper)
@@ -32,7 +36,7 @@ def draw(scene, spread, lyapunov):
     return sheet.figure
 
 
-def _lengths(sheet, frame, spread, paper):
+def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset, paper: bool) -> None:
     """Draw range, quartiles and mean against the length; a triangle if the range is cut off."""
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
@@ -56,7 +60,9 @@ def _lengths(sheet, frame, spread, paper):
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
-def _short_runs(sheet, frame, spread, lyapunov, paper):
+def _short_runs(
+    sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dataset, paper: bool
+) -> None:
     """Draw the histogram of short runs, with their mean and the marked orbits."""
     marked = final_exponents(lyapunov)[:, 0]
     block, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
@@ -89,10 +95,10 @@ def _short_runs(sheet, frame, spread, lyapunov, paper):
     corner(sheet, frame, f"{runs.size:,} runs; dots: {orbits}")
 
 
-def _regular(sheet, frame, spread):
+def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     """Draw the exponents of the orbits that should be regular against their length."""
-    keep = spread["length"].values >= 16
-    n, values = spread["length"].values[keep], spread["regular_exponent"].values[keep]
+    long = spread["length"].values >= 16
+    n, values = spread["length"].values[long], spread["regular_exponent"].values[long]
     across = decades((1, len(str(int(n[-1])))), "Length in impacts")
     largest = values.max(axis=-1)
     chaotic = largest[-1] > regular_bound(int(n[-1]))

@@ -15,7 +15,7 @@ from pydantic import TypeAdapter
 from . import chaos, model, periodic, schema
 from .schema import UNCHECKED, Verdict
 
-FILE, DATA = "CLAIMS.md", "CLAIMS.json"  # the second is rendered as the first
+FILE, DATA = "CLAIMS.md", "CLAIMS.json"  # the page is rendered from the data
 # MODULE.FUNCTION -> each public function of the modules with checks.
 CHECKS = {
     f"{module.__name__.rpartition('.')[2]}.{name}": function
@@ -87,5 +87,6 @@ def render(verdicts: list[Verdict]) -> str:
 
 
 def _row(row: Verdict) -> str:
+    """Return a verdict as a row of a Markdown table."""
     cells = (str(row.number), row.place, row.statement, row.value, row.error, row.evidence)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

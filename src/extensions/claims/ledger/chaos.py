@@ -84,7 +84,7 @@ def _orbits(spread: xr.Dataset) -> dict[str, int]:
     return {"chaotic": int(in_sea(spread).sum()), "orbits": spread.sizes["orbit"]}
 
 
-def sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def one_chaotic_sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the cells of the sea that each chaotic orbit enters, beside the horseshoes."""
     word, numbers, _ = connected(spread)
     crossings = {"crossings": proved["horseshoe-inner"] and proved["horseshoe-outer"]}
@@ -92,7 +92,7 @@ def sea(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return Outcome(FALSE if word == FALSE else UNDECIDED, known)
 
 
-def vanish(spread: xr.Dataset) -> Outcome:
+def regular_exponents(spread: xr.Dataset) -> Outcome:
     """Compare the exponents of regular orbits with the bound for their length."""
     length = int(spread["length"].values[-1])
     largest = np.abs(spread["regular_exponent"].values[-1]).max()
@@ -106,7 +106,7 @@ def _largest_exponents(spread: xr.Dataset) -> np.ndarray:
     return np.asarray(block.mean(axis=0).max(axis=-1))
 
 
-def independent(spread: xr.Dataset) -> Outcome:
+def independent_of_start(spread: xr.Dataset) -> Outcome:
     """Compare the spread of the exponents of chaotic orbits with that within orbits."""
     block = spread["exponent"].values[:, in_sea(spread)]
     means = _largest_exponents(spread)
@@ -139,7 +139,7 @@ def figure_7(lyapunov: xr.Dataset) -> Outcome:
     return outcome_of(holds, orbits=orbits, impacts=impacts, ends=Series(ends))
 
 
-def long_run(spread: xr.Dataset) -> Outcome:
+def long_run_exponent(spread: xr.Dataset) -> Outcome:
     """Compare the printed exponent with the mean of long runs and the spread of short ones."""
     means = _largest_exponents(spread)
     mean, error = means.mean(), means.std(ddof=1) / np.sqrt(means.size)
@@ -152,7 +152,7 @@ def long_run(spread: xr.Dataset) -> Outcome:
     return Outcome(word, numbers)
 
 
-def opposite(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
+def opposite_exponents(algebra: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Find how far exponents are from vanishing in pairs, beside the algebra of determinants."""
     means, impacts = spread["exponent"].values.mean(axis=0), _impacts(spread)
     drift = max(np.abs(means[:, 0] + means[:, 2]).max(), np.abs(means[:, 1]).max())
@@ -184,7 +184,7 @@ def depends_on_energy(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return outcome_of(least < 0.5 * most, **numbers, width=_widest(line))
 
 
-def destroyed(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def destroyed_with_energy(line: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Find where the regular share rises with the energy by more than its intervals."""
     share, low, high = (line[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
     falls, rises = share[-1] < 0.5 * share[0], _rises(share, low, high)
@@ -234,7 +234,7 @@ def discontinuous(rotation: xr.Dataset) -> Outcome:
     return outcome_of(switches.min() >= 3, **numbers)
 
 
-def mixture(plane: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def mixed_shares(plane: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Count the pairs of k and E/g^2 whose regular share is neither near 0 nor near 1."""
     chaotic = [name for name in proved if name != "twist-one-zero" and proved[name]]
     low, high = (plane[f"regular_{end}"].values for end in ("low", "high"))
@@ -252,7 +252,7 @@ def mixture(plane: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     )
 
 
-def material(plane: xr.Dataset) -> Outcome:
+def dependence_on_material(plane: xr.Dataset) -> Outcome:
     """Compare the least and the largest regular share over k at the energy of Figure 2."""
     energy = FIGURES["fig2"]["energy"] / BALL["g"] ** 2
     share = plane["regular"].sel(energy=energy, method="nearest").values

@@ -56,7 +56,7 @@ def homogeneous(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
     return Outcome(word, {"solid": solid})
 
 
-def after_impacts(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
+def flights_after_impacts(algebra: xr.Dataset, orbits: xr.Dataset) -> Outcome:
     """Follow post-impact states by (26), beside the algebra of (25), its own inverse."""
     k, g = (float(orbits.attrs[name]) for name in ("k", "g"))
     x, v, w = states_of(orbits)
@@ -118,13 +118,13 @@ def energy_surface(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     return outcome_of(kept, True, bound=bool(small), rounding=ENERGY_ROUNDING, error=error)
 
 
-def half_of_it(*portraits: xr.Dataset) -> Outcome:
+def contact_speeds(*portraits: xr.Dataset) -> Outcome:
     """Find the least contact speed of the orbits of two portraits."""
     speeds = np.concatenate([portrait["xdot"] + portrait["udot"] for portrait in portraits])
     return outcome_of(speeds.min() >= 0.0, least=speeds.min(), count=speeds.size)
 
 
-def never_inside_out(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
+def least_strain(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     """Find the least strain of the sea, beside the bound that algebra gives."""
     least = clusters["least_strain"].values.min()
     return outcome_of(formula(algebra, "bound_in_flight")[0] and least > -1.0, True, least=least)

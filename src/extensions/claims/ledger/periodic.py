@@ -74,7 +74,7 @@ def period_six(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return Outcome(word, numbers)
 
 
-def in_between(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def alternating_points(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask whether elliptic and hyperbolic points alternate around their middle."""
     types = orbits["type"].values.tolist()
     alternate = {"elliptic", "hyperbolic"} <= {*types}
@@ -87,7 +87,7 @@ def in_between(orbits: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return outcome_of(alternate, do=alternate, curves=proved["twist-six"])
 
 
-def dense(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def widest_gap(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Find the widest gap of the rotation number between the curves around the fixed point."""
     place, turns = rotation["detail_place"].values, rotation["detail_rotation"].values
     good = regular(rotation["detail_exponent"].values, rotation.attrs["detail_impacts"])
@@ -111,7 +111,7 @@ def motions(*datasets: xr.Dataset) -> Outcome:
     return outcome_of(elliptic and as_printed, one=one, six=six)
 
 
-def differences(orbits: xr.Dataset) -> Outcome:
+def finite_differences(orbits: xr.Dataset) -> Outcome:
     """Compare traces by forward differences, at their best step, with those of the Jacobian."""
     ball = Ball(orbits.attrs["k"], orbits.attrs["g"])
     points, period = states_of(orbits)[:, :, 0].T, orbits.sizes["point"]
@@ -131,7 +131,7 @@ def transversal(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return outcome_of(crossed, known, known=known, inner=inner, outer=outer)
 
 
-def oscillations(flux: xr.Dataset) -> Outcome:
+def lobe_areas(flux: xr.Dataset) -> Outcome:
     """Compare the areas of the lobes of the inner and the outer branches."""
     inner_area, outer_area = flux["area"].values
     # Twelve digits are shown, with the exponent.
@@ -174,7 +174,7 @@ def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     return Outcome(HOLDS, ends | {"period": period, "curves": enclosed(proved)})
 
 
-def window(manifolds: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+def point_in_window(manifolds: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     """Ask whether the hyperbolic point lies in the window of Figure 6."""
     point = {name: manifolds.attrs[f"point_{name}"] for name in WINDOW}
     inside = all(low < point[name] < high for name, (low, high) in WINDOW.items())

@@ -61,6 +61,7 @@ class Verdict:
 
 
 def _hint(name: str, known: Iterable[str]) -> str:
+    """Return a message on an unknown name, with the nearest known one or all."""
     hint = suggestion(name, known) or f"known are {', '.join(known)}"
     return f"{name!r} is not known: {hint}"
 
@@ -69,13 +70,13 @@ def _one_of(known: Iterable[str]) -> AfterValidator:
     """Return a validator of names. In the name of a dataset, only the stage counts."""
     names = [*known]
 
-    def checked(name: str) -> str:
+    def known_name(name: str) -> str:
         folder, _, own = name.rpartition("/")
         if own not in names and folder != "atlas":
             raise ValueError(_hint(own, names))
         return name
 
-    return AfterValidator(checked)
+    return AfterValidator(known_name)
 
 
 _Dataset = Annotated[str, _one_of(STAGES)]
@@ -183,11 +184,11 @@ def _check_function(claim: Claim, place: str, checks: Mapping[str, Callable[...,
     """Raise ValueError if a claim's check does not exist or takes other arguments."""
     if claim.function is None:
         raise ValueError(f"{place}: {_hint(claim.check, checks)}")
-    given = [*claim.data, *(["a mapping of theorems"] if claim.theorems else [])]
+    arguments = [*claim.data, *(["a mapping of theorems"] if claim.theorems else [])]
     try:
-        signature(claim.function).bind(*given)
+        signature(claim.function).bind(*arguments)
     except TypeError:
-        takes = f"{claim.check} does not take {len(given)} arguments: {', '.join(given)}"
+        takes = f"{claim.check} does not take {len(arguments)} arguments: {', '.join(arguments)}"
         raise ValueError(f"{place}: {takes}") from None
 
 

@@ -29,15 +29,15 @@ PRINTED_TICKS: dict[str, dict[str, list[float]]] = tomllib.loads(
 )
 
 
-def numbers_of(root: Path, checked: Config) -> str:
+def numbers_of(root: Path, config: Config) -> str:
     """Return the JSON text for a tree whose results are current and as committed.
 
     Raises ValueError, which names the file, if a manifest is missing or broken.
     """
-    facts = citation.read()
+    cff = citation.read()
     verdicts = claims.read_json(read_text(root / claims.DATA))
     counts = Counter(row.verdict for row in verdicts)
-    sets = published_sets.committed_sets(checked)
+    sets = published_sets.committed_sets(config)
     try:
         committed = {each.folder: manifest.read(root, each.folder) for each in sets}
     except published_sets.ChecksumError as error:
@@ -48,16 +48,16 @@ def numbers_of(root: Path, checked: Config) -> str:
             name = f"{each.group}-{scene}" if scene in figures else scene
             figures[name] = _figure(root, each, scene, entry, committed[each.folder]["data"])
     for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
-        figures[scene] |= {"rows": _rows(root, checked, scene), "settings": entry["config"]}
+        figures[scene] |= {"rows": _rows(root, config, scene), "settings": entry["config"]}
     return json.dumps(
         {
-            "title": citation.title(facts),
-            "authors": [_author(author) for author in facts["authors"]],
-            "missing": citation.missing(facts),
-            "date": str(facts.get("date-released", "")),
-            "addresses": citation.addresses(facts),
-            "keywords": facts["keywords"],
-            "version": facts["version"],
+            "title": citation.title(cff),
+            "authors": [_author(author) for author in cff["authors"]],
+            "missing": citation.missing(cff),
+            "date": str(cff.get("date-released", "")),
+            "addresses": citation.addresses(cff),
+            "keywords": cff["keywords"],
+            "version": cff["version"],
             "claims": [asdict(row) for row in verdicts],
             "counts": {word: counts[word] for word in VERDICT_WORDS},
             "statements": claims.checkable(verdicts),
@@ -73,7 +73,8 @@ def numbers_of(root: Path, checked: Config) -> str:
     )
 
 
-def _author(author: citation.Facts) -> Table:
+def _author(author: Table) -> Table:
+    """Return name and ORCID of an author of CITATION.cff."""
     return {"name": citation.name_of(author), "orcid": author.get("orcid", "")}
 
 
@@ -86,11 +87,11 @@ def _source_lines(root: Path) -> dict[str, int]:
     }
 
 
-def _rows(root: Path, checked: Config, scene: str) -> Table:
+def _rows(root: Path, config: Config, scene: str) -> Table:
     """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
-    values = measured(root, checked.variants, PAPER, scene)
+    values = measured(root, config.variants, PAPER, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
-    axes = checked.scenes[scene].given_axes()
+    axes = config.scenes[scene].given_axes()
     return rows | {
         f"ticks, {axis}": {"paper": _listed(ticks), "ours": _listed(axes[axis].ticks)}
         for axis, ticks in PRINTED_TICKS[scene].items()
@@ -98,6 +99,7 @@ def _rows(root: Path, checked: Config, scene: str) -> Table:
 
 
 def _listed(ticks: list[float]) -> str:
+    """Return the labels of ticks with commas between them."""
     return ", ".join(f"{tick:g}" for tick in ticks)
 
 

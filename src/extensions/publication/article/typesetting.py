@@ -37,6 +37,7 @@ def web_page(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
 
 
 def _compiled(root: Path, numbers: Path, source: Path, **options: Any) -> bytes:
+    """Return the document that typst compiles; raises TypesettingError for errors and warnings."""
     import typst
 
     try:

@@ -17,23 +17,7 @@ SITE = "results/site"
 # Name in the menu of the report -> the file beside it.
 _BESIDE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
 # A web server shows this page for the folder itself.
-_INDEX = """\
-<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="refresh" content="0; url=report.html">
-<title>Dynamics of a pseudo-rigid ball: report, article and explorer</title>
-</head>
-<body>
-<ul>
-<li><a href="report.html">Report</a></li>
-<li><a href="article.html">Article</a> (<a href="article.pdf">PDF</a>)</li>
-<li><a href="explorer.html">Explorer</a></li>
-</ul>
-</body>
-</html>
-"""
+_INDEX = Path(__file__).with_name("site_index.html")
 # In the explorer, which also exists alone and then has no links.
 _LINKS = (
     '<nav><a href="report.html">Report</a> · <a href="article.html">Article</a></nav>\n</header>'
@@ -87,7 +71,7 @@ def _write(folder: Path, args: Arguments) -> None:
     numbers_file = folder / "numbers.json"
     numbers_file.write_text(numbers.numbers_of(ROOT, args.config), encoding="utf-8")
     files = {
-        "index.html": _INDEX.encode(),
+        "index.html": _INDEX.read_bytes(),
         "report.html": page.render(ROOT, args.config, _BESIDE).encode(),
         "explorer.html": explorer.render(args.config).replace("</header>", _LINKS, 1).encode(),
         "article.pdf": typesetting.typeset(ROOT, numbers_file),
