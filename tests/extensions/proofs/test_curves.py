@@ -192,9 +192,9 @@ def test_the_curve_run_through_twice_is_refused():
         single[0][0] *= 2
         double = tuple([c for a in waves for c in (a, acb(0))] for waves in single)
         centre = [arb(a) for a in numbers(TEXT, "points")[0]]
-        curve._check_winding(single, centre, 128)
+        curve._check_winding(single, curve._real_cells(single, 128), centre)
         with pytest.raises(NotProvedError, match="turns -2"):
-            curve._check_winding(double, centre, 256)
+            curve._check_winding(double, curve._real_cells(double, 256), centre)
     # as a certificate: omega/2 has other partial quotients, which do not end in ones
     twice = [row for pair in ((a, ["0.0", "0.0"]) for a in rows) for row in pair]
     text = with_field(with_rows(TEXT, "coefficients", twice), "quotients", "[11, 5, 13]")

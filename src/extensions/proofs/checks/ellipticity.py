@@ -8,10 +8,11 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, lowest
 from .periodic import BITS, CLOSE
 
 _MOST_BANDS = 10_000

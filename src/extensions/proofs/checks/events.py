@@ -10,30 +10,27 @@ from functools import partial
 
 from flint import arb, ctx
 
-from study.enclosure.flight import Flight, UndecidedError, launch
+from study.enclosure.flight import Flight, NotProvedError, UndecidedError, launch
 from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import Surface, ball_of, fraction_of
+from study.enclosure.surface import Surface, ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.newton import System, enclose_zero, solve
-from . import periodic
 from .birkhoff import normal_form
 from .certificate import (
     Certificate,
     Finding,
-    NotProvedError,
+    Range,
     box,
     check_stated,
     holds_throughout,
     lowest,
 )
 from .ellipticity import theta_ends
-from .periodic import BITS, CLOSE
+from .periodic import BITS, CLOSE, check_distinct, prove_fixed_point_over
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor
-_RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved at a resonance
 
-Range = tuple[Fraction, Fraction]
 Half = tuple[int, str]  # flights of a half orbit, and where it ends: "impact" or "apex"
 
 
@@ -64,10 +61,7 @@ def check_resonance(
             raise NotProvedError("the energies go beyond theta = pi/2, up to where the trace falls")
         check_stated("event", [energy], certificate.row("event", 1), CLOSE)
         _check_within("energy", energy, energies)
-        bottom = fraction_of(energy.lower()) - CLOSE
-        band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
-        x = gravity / inertia * theta * theta.cot()
-        orbit = periodic.prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
+        band, orbit = prove_fixed_point_over(k, g, energy, theta)
         form = normal_form(band, orbit)
         (twist,) = form.twists
         if not twist > 0:
@@ -104,7 +98,7 @@ def check_doubling(
         _check_within("energy", energy, energies)
         _check_within("position", x, positions)
         ends = (_end(k, g, (energy, x), n, order=1) for n in range(1, period // 2 + 1))
-        periodic.check_distinct([(x, arb(0)), *((a.constant, b.constant) for a, b in ends)])
+        check_distinct([(x, arb(0)), *((a.coefficients[0], b.coefficients[0]) for a, b in ends)])
         slope = _trace_slope(k, g, (energy, x), period)
         if not slope < 0:
             raise NotProvedError("the trace is not proved to fall through -2")

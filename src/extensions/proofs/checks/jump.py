@@ -10,25 +10,17 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.enclosure.flight import UndecidedError, flight_from_rim
+from study.enclosure.flight import NotProvedError, UndecidedError, flight_from_rim
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Impact, Surface, ball_of
 
-from .certificate import (
-    Certificate,
-    Finding,
-    NotProvedError,
-    check_stated,
-    holds_throughout,
-    lowest,
-)
+from .certificate import Certificate, Finding, check_stated, holds_throughout, lowest
 from .hsets import HSet
+from .periodic import Point
 
 BITS = 192  # twice what points to 1e-28 need
 _SHORT_FLIGHTS = 0.95  # of the largest xdot: beyond it flights from the rim are short
 _CROSSING_PARTS = 64  # of the part of S+ that crosses an h-set
-
-Point = tuple[arb, arb]
 
 
 def check(
@@ -52,7 +44,7 @@ def check(
         excess = _polygon(surface) - ball_of(length)
         if not excess > 0:
             raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
-        digits = {}
+        digits: dict[str, arb] = {}
         for name, point in points.items():
             check_stated(name, point, certificate.row(name.replace(" ", "_"), 2), size)
             digits |= {f"{name} x": point[0], f"{name} y": point[1]}
@@ -185,7 +177,7 @@ def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     """
     steps = [low + (high - low) * i / _CROSSING_PARTS for i in range(_CROSSING_PARTS + 1)]
 
-    def touching(speed):
+    def touching(speed: arb) -> Point:
         """Return (p, q) of the point of S+ whose flight touches the floor with this xdot."""
         return hset.coordinates(*_mirrored(_flight_from_rim(surface, speed)))
 
@@ -212,10 +204,10 @@ def check_landings(surface: Surface) -> None:
     if not (xdot > 0 and beyond < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt())):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
 
-    def lands(angle):
+    def lands(angle: arb) -> bool:
         """Whether all flights from the rim at these angles are proved to land with s > 0."""
         try:
-            return _flight(surface, angle).s > 0
+            return bool(_flight(surface, angle).s > 0)
         except UndecidedError:
             return False
 

@@ -5,20 +5,23 @@ enclosure shows that the first root of each flight is simple. tau_1 depends cont
 energy, so it has a zero between two energies at which its signs differ.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from flint import ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
 from . import periodic
 from .birkhoff import NormalForm, normal_form
-from .certificate import Certificate, Finding, NotProvedError, check_stated, lowest
+from .certificate import Certificate, Finding, check_stated, lowest
 
 CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
 
-def check(text: str, surface: Surface, **bounds) -> Finding:
+def check(text: str, surface: Surface, **bounds: Any) -> Finding:
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
     The bounds are those of `periodic.prove_stated`. The twist is in radians per unit of the action
@@ -69,8 +72,10 @@ def check_zero(
         return Finding({"energy": between.constants()[2], "second twist": second}, margins)
 
 
-def falling_twist(band: Surface, centres, radius: Fraction, order: int) -> list[NormalForm]:
-    """Prove that a fixed point's twist is positive at the lower end of a band, negative at the end.
+def falling_twist(
+    band: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction, order: int
+) -> list[NormalForm]:
+    """Prove that a fixed point's twist is positive at a band's lower end, negative at its upper.
 
     Returns the normal forms at the two ends and over the whole band, so that the twist is
     continuous there. Raises NotProvedError.

@@ -110,7 +110,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
         except (NotProvedError, ValueError, ArithmeticError) as error:
             raise ValueError(f"no twist is proved at {surface}: leave it out: {error}") from None
     zeros = (
-        _zero(*surfaces[i : i + 2], points[i])
+        _zero(surfaces[i], surfaces[i + 1], points[i])
         for i, (low, high) in enumerate(pairwise(twists))
         if low > 0.0 >= high
     )
@@ -129,8 +129,8 @@ def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None
     """Return the energy between two surfaces at which the twist is proved to be zero, or None."""
     with ctx.workprec(BITS):
         try:
-            band, point = bisect_zero(low.k, low.g, low.energy, high.energy, point)
-            centre = [tuple(Fraction(float(a)) for a in z) for z in point]
+            band, middle = bisect_zero(low.k, low.g, low.energy, high.energy, point)
+            centre = [tuple(Fraction(float(a)) for a in z) for z in middle]
             falling_twist(band, centre, _RADIUS, order=3)
         except (NotProvedError, ArithmeticError):
             return None
@@ -241,7 +241,8 @@ def scene_graph(ball: Ball, energy: float) -> xr.Dataset:
 
 def _surface_of(ball: Ball, energy: float) -> Surface:
     """Return the Surface whose k, g and energy are the decimals that the numbers print as."""
-    return Surface(*(str(value) for value in (ball.k, ball.g, energy)))
+    k, g, exact_energy = (Fraction(str(value)) for value in (ball.k, ball.g, energy))
+    return Surface(k, g, exact_energy)
 
 
 def theorems_at(surface: Surface, checker: Callable) -> list[Theorem]:
