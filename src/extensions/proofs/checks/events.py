@@ -17,15 +17,7 @@ from study.enclosure.surface import Surface, ball_of
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.newton import System, enclose_zero, solve
 from .birkhoff import normal_form
-from .certificate import (
-    Certificate,
-    Finding,
-    Range,
-    box,
-    check_stated,
-    holds_throughout,
-    lowest,
-)
+from .certificate import Certificate, Finding, Range, box, check_stated, holds_throughout, lowest
 from .ellipticity import theta_ends
 from .periodic import BITS, CLOSE, check_distinct, prove_fixed_point_over
 

@@ -62,9 +62,7 @@ def check(text: str, surface: Surface, *, entropy: Fraction) -> Finding:
         margins = [prove_connection(surface, graph.sets, it) for it in graph.connections]
         beyond, room = map(min, zip(*margins, strict=True))
         return Finding(
-            {"entropy": bound},
-            {"beyond": beyond, "room": room, "apart": apart},
-            {"graph": graph},
+            {"entropy": bound}, {"beyond": beyond, "room": room, "apart": apart}, {"graph": graph}
         )
 
 

@@ -57,13 +57,7 @@ class OverBand(NamedTuple):
 
 
 def check(
-    text: str,
-    k: Fraction,
-    g: Fraction,
-    *,
-    energy: Fraction,
-    zero: Range,
-    resonance: Range,
+    text: str, k: Fraction, g: Fraction, *, energy: Fraction, zero: Range, resonance: Range
 ) -> Finding:
     """Prove that the fixed point's twist has one zero between the least energy and a given one.
 

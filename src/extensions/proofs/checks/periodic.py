@@ -96,11 +96,7 @@ def prove_stated(
 
 
 def prove_saddles(
-    certificate: Certificate,
-    surface: Surface,
-    period: int,
-    radius: Fraction,
-    window: Window | None,
+    certificate: Certificate, surface: Surface, period: int, radius: Fraction, window: Window | None
 ) -> Orbit:
     """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
     with ctx.workprec(BITS):
