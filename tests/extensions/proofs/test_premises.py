@@ -53,7 +53,7 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
             jump.prove_crossing(surface, across, arb("-0.13835"), arb("-0.13670"))
         for xdot in ("-0.13835", "-0.1172", "0.1172", "nan", "-inf", "[-0.117 +/- 0.001]"):
             with pytest.raises(NotProvedError, match="rim point with x < -g"):
-                jump._flight_from_rim(surface, arb(xdot))
+                jump._landing_from_rim(surface, arb(xdot))
     for touches in (
         ("-0.13835", "-0.13670"), ("-0.13835", "-0.0723"), ("-0.0741", "0.1172"), ("-9", "9")
     ):  # fmt: skip
@@ -161,7 +161,7 @@ OUTSIDE = {
     "set: parallel": lambda: HSet("N", (arb(0),) * 2, (arb(1),) * 2, (arb(2),) * 2),
     "set: perhaps": lambda: HSet("N", (arb(0),) * 2, (arb(1), arb(0)), (arb(1), arb(0, 1e-9))),
     "set: a point": lambda: hsets.hset("N", [Fraction(0)] * 6),
-    "touch: no x < -g": lambda: jump._touch(Surface(K, G, "1/1000"), arb(1)),
+    "touch: no x < -g": lambda: jump._rim_point(Surface(K, G, "1/1000"), arb(1)),
     "landings: no x < -g": lambda: jump.check_landings(Surface(K, G, "1/1000")),
     "orbit: radius": lambda: periodic.prove(PAPER, [[Fraction(0), Fraction(0)]], Fraction(-1)),
     "growth: below 1": lambda: graph.check_growth(None, Fraction(1, 2), []),

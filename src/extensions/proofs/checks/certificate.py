@@ -169,7 +169,7 @@ def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
     return [arb(ball_of(c).mid(), (half + ball_of(c).rad()).upper()) for c in centre]
 
 
-def lowest(value: arb) -> float:
+def lower_bound(value: arb) -> float:
     """Return a lower bound of a ball, rounded down."""
     low = float(value.lower())
     return low if arb(low) <= value.lower() else float(arb(low) - abs(low) * 2.0**-52)

@@ -19,7 +19,7 @@ from study.enclosure.surface import Surface, ball_of
 
 from ..enclosure import complex_flight
 from . import periodic
-from .certificate import Certificate, Finding, Range, Window, lowest
+from .certificate import Certificate, Finding, Range, Window, lower_bound
 from .circle import Cells, derivative, evaluate, noble, real_values, rotated, transform, values
 from .periodic import Point
 
@@ -27,10 +27,12 @@ BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
 CELL_BITS = 80
 NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
 MOST_CELLS, MOST_MODES = 4096, 4096
-_FINER = 4  # cells of the strip's edge, and points for the twist's mean, for each column
-_SHRUNK = Fraction(1, 1000)  # relative distance of the polygon from the curve
-_DEPTH = 14  # of the subdivision of the disc inside
-_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
+_EDGE_CELLS_PER_COLUMN = (
+    4  # cells of the strip's edge, and points for the twist's mean, for each column
+)
+_POLYGON_INSET = Fraction(1, 1000)  # relative distance of the polygon from the curve
+_MOST_HALVINGS = 14  # of the subdivision of the disc inside
+_DISC_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
 _COLUMNS_OF_PIECE = 8  # of the first pieces of the disc, around the curve
 
 Curve = tuple[list[acb], list[acb]]  # Fourier coefficients of x and of y
@@ -84,7 +86,7 @@ class Claim(NamedTuple):
     error: arb
     share: arb
     plan: Plan
-    first: Curve
+    curve: Curve
 
 
 class Cell(NamedTuple):
@@ -125,7 +127,7 @@ def check(
         margins, distance, slope = _theorem(
             claim.error, bounds, claim.divisors, period, claim.plan.loss
         )
-        area = _inflated(_area(claim.first), distance * (2 * bounds.tangent + slope))
+        area = _inflated(_area(claim.curve), distance * (2 * bounds.tangent + slope))
         part = area / surface.area()
         if not part > claim.share:
             raise NotProvedError(
@@ -136,7 +138,7 @@ def check(
     digits = {
         "rotation number": claim.omega, "area": area, "share": part, "distance": distance.upper(),
     }  # fmt: skip
-    return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": claim.first})
+    return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": claim.curve})
 
 
 def _read(
@@ -160,12 +162,12 @@ def _read(
 
 def _prove_error(surface: Surface, claim: Claim, period: int) -> tuple[list[Curve], Bounds]:
     """Prove that the curve's error is the stated one, and return all curves and the bounds."""
-    plan, modes = claim.plan, len(claim.first[0])
+    plan, modes = claim.plan, len(claim.curve[0])
     with ctx.workprec(64):  # beyond `most` coefficients are far below the error in the strip
         digits = 10 - float(claim.error.log())
         most = max(modes, int(digits / float(2 * arb.pi() * (plan.wide - plan.strip))))
     count = 1 << (2 * most + 2).bit_length()
-    curves, errors = _curves(surface, claim.first, period, claim.omega, count)
+    curves, errors = _curves(surface, claim.curve, period, claim.omega, count)
     with ctx.workprec(CELL_BITS):
         bounds = _bounds(surface, curves, claim)
     size = _size_of_error(errors, most, count, bounds.image, plan)
@@ -272,7 +274,7 @@ def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, p
             bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
             total += bound if q == 0 else 2 * bound
         sizes.append(total.upper())
-    return _most(sizes)
+    return _largest(sizes)
 
 
 def _theorem(
@@ -300,7 +302,7 @@ def _theorem(
             raise NotProvedError(f"{name}: {float(value.upper()):.3g} is not below {float(most):g}")
     margins = {"contraction": 1 / (2 * contraction), "distance": NEAR / distance}
     margins |= {"torsion": b.torsion}
-    return {name: lowest(value) for name, value in margins.items()}, distance, slope
+    return {name: lower_bound(value) for name, value in margins.items()}, distance, slope
 
 
 def _bounds(surface: Surface, curves: list[Curve], claim: Claim) -> Bounds:
@@ -321,15 +323,15 @@ def _bounds(surface: Surface, curves: list[Curve], claim: Claim) -> Bounds:
         for cell in top:
             wide += [*cell.point, *surface.impact(*cell.point, cell.root)[:2]]
     *sizes, areas = zip(*edge, strict=True)
-    tangent, normal, twist, first, second, length = map(_most, sizes)
-    count = _FINER * plan.columns
+    tangent, normal, twist, first, second, length = map(_largest, sizes)
+    count = _EDGE_CELLS_PER_COLUMN * plan.columns
     ratio = (-2 * arb.pi() * plan.strip * count).exp()
     aliasing = 2 * twist * ratio / (1 - ratio)  # of the mean over `count` points
     change = _change_of_twist(tangent, normal, first, second, length, reduce(arb.min, areas))
     torsion = (abs(_torsion(surface, circle, count)) - aliasing - change).lower()
     if not torsion > 0:
         raise NotProvedError("the twist's mean along the curve may be zero")
-    image = _most(a.abs_upper() for a in wide)
+    image = _largest(a.abs_upper() for a in wide)
     return Bounds(tangent, normal, twist, torsion, first, second, image)
 
 
@@ -359,12 +361,12 @@ def _over_edge(
     `here` is a curve and `there` the one that its image is close to; `below` are the cells below
     the edge.
     """
-    count, bounds = _FINER * plan.columns, []
+    count, bounds = _EDGE_CELLS_PER_COLUMN * plan.columns, []
     points, slopes = _inflated_cells(here[0], count, plan.strip)
     images, image_slopes = _inflated_cells(there[0], count, plan.strip)
     x_middles, y_middles = (values(row, count, arb(0.5), plan.strip) for row in here[0])
     for j, middle in enumerate(zip(x_middles, y_middles, strict=True)):
-        cell = below[j // _FINER]
+        cell = below[j // _EDGE_CELLS_PER_COLUMN]
         _check_inside(middle, points[j], cell.point)
         known = complex_flight.point_root(surface.flight(*middle), cell.root)
         root = complex_flight.unique_root(surface, *points[j], known)
@@ -375,11 +377,11 @@ def _over_edge(
         after, *_ = _normal(images[j], image_slopes[j], there[1])
         along, across = (jet[1, 0] * normal[0] + jet[0, 1] * normal[1] for jet in (right, up))
         bounds.append(EdgeBounds(
-            tangent=_most(a.abs_upper() for a in slopes[j]),
-            normal=_most(a.abs_upper() for a in normal),
+            tangent=_largest(a.abs_upper() for a in slopes[j]),
+            normal=_largest(a.abs_upper() for a in normal),
             twist=(along * after[1] - across * after[0]).abs_upper(),
-            first=_most(a + b for _, a, b, *_ in sizes),
-            second=_most(2 * (a + b + c) for *_, a, b, c in sizes),
+            first=_largest(a + b for _, a, b, *_ in sizes),
+            second=_largest(2 * (a + b + c) for *_, a, b, c in sizes),
             length=length,
             area=area,
         ))  # fmt: skip
@@ -406,7 +408,7 @@ def _normal(
     area = x * slope[1] - y * slope[0]
     if not area.abs_lower() > 0:
         raise NotProvedError("K - c and K' may be parallel in the strip")
-    return (-x / area, -y / area), _most([x.abs_upper(), y.abs_upper()]), area.abs_lower()
+    return (-x / area, -y / area), _largest([x.abs_upper(), y.abs_upper()]), area.abs_lower()
 
 
 def _change_of_twist(
@@ -522,7 +524,7 @@ def _polygon(curve: Curve, centre: Point, columns: int) -> list[list[float]]:
         [(_inflated(x, NEAR), _inflated(y, NEAR)) for x, y in _points(curve, columns, offset)]
         for offset in (arb(-0.125), arb(0.125))
     )
-    factor = 1 - ball_of(_SHRUNK)
+    factor = 1 - ball_of(_POLYGON_INSET)
     corners = [
         [float(c + factor * (value - c)) for value, c in zip(end, centre, strict=True)]
         for end in _points(curve, columns)
@@ -576,20 +578,20 @@ def _check_disc(surface: Surface, boxes: list[Point], centre: Point) -> None:
     [0, 1], which are halved where a flight is not decided.
     """
     pieces = [
-        (boxes[begin : begin + _COLUMNS_OF_PIECE], Fraction(layer, _LAYERS), 0)
+        (boxes[begin : begin + _COLUMNS_OF_PIECE], Fraction(layer, _DISC_LAYERS), 0)
         for begin in range(0, len(boxes), _COLUMNS_OF_PIECE)
-        for layer in range(_LAYERS)
+        for layer in range(_DISC_LAYERS)
     ]
     while pieces:
         part, low, depth = pieces.pop()
-        half = Fraction(1, 2 * _LAYERS << depth)
+        half = Fraction(1, 2 * _DISC_LAYERS << depth)
         length = ball_of(low).union(ball_of(low + 2 * half))
         hull = (reduce(arb.union, row) for row in zip(*part, strict=True))
         x, y = (c + (a - c) * length for a, c in zip(hull, centre, strict=True))
         try:
             surface.impact(x, y)
         except UndecidedError as reason:
-            if depth == _DEPTH:
+            if depth == _MOST_HALVINGS:
                 raise NotProvedError(f"the disc inside the curve: {reason}") from None
             middle = len(part) // 2
             halves = [part[:middle], part[middle:]] if middle else [part]
@@ -611,7 +613,7 @@ def _inflated(value: Number, radius: arb) -> Number:
     return arb(value.mid(), (value.rad() + radius).upper())
 
 
-def _most(sizes: Iterable[arb]) -> arb:
+def _largest(sizes: Iterable[arb]) -> arb:
     """Return the largest of some upper bounds, which must all be finite."""
     sizes = list(sizes)
     if not all(size < arb("inf") for size in sizes):

@@ -15,7 +15,7 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of
 
 from . import hsets
-from .certificate import Certificate, Finding, lowest
+from .certificate import Certificate, Finding, lower_bound
 from .hsets import HSet
 
 BITS = 64  # the smallest sets are 1e-6 wide, and one machine word is 1e-19 fine
@@ -68,7 +68,7 @@ def check(text: str, surface: Surface, *, entropy: Fraction) -> Finding:
 
 def read(certificate: Certificate) -> Graph:
     """Return the graph of a certificate; raises NotProvedError where it is none."""
-    sets = hsets.read(certificate, "sets", "B")
+    sets = hsets.read_sets(certificate, "sets", "B")
     rows = iter(certificate.numbers("chains", 6))
     connections = []
     for n, row in enumerate(certificate.numbers("connections", 5)):
@@ -104,7 +104,7 @@ def check_strips(graph: Graph) -> float:
         gaps += [right[0] - left[1] for left, right in pairwise(strips)]
         if not gaps[-1] > 0 or not min(gaps) > 0:
             raise NotProvedError(f"two strips of B_{source} overlap")
-    return lowest(ball_of(min(gaps)))
+    return lower_bound(ball_of(min(gaps)))
 
 
 def check_growth(graph: Graph, growth: Fraction, weights: list[Fraction]) -> None:

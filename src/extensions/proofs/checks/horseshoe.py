@@ -102,11 +102,11 @@ def _sets(certificate: Certificate) -> Sets:
         if rows[(leaves + enters - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
             raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
     steps = len(certificate.numbers("approach", 6))
-    chain = hsets.read(certificate, "approach", "M", -steps)
+    chain = hsets.read_sets(certificate, "approach", "M", -steps)
     x, ux, uy = certificate.row("middle", 3)
     middle = hsets.hset("M_0", [x, Fraction(0), ux, uy, ux, -uy])
     back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
-    saddles = hsets.read(certificate, "saddles", "S")
+    saddles = hsets.read_sets(certificate, "saddles", "S")
     return Sets(saddles, [*chain, middle, *reversed(back)], leaves, enters)
 
 

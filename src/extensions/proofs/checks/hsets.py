@@ -17,7 +17,7 @@ from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
-from .certificate import Certificate, lowest
+from .certificate import Certificate, lower_bound
 
 UNIT = arb(0, 1)  # the interval from -1 to 1
 MOST_CELLS = 600  # of a set, before its covering is given up
@@ -87,7 +87,7 @@ def hset(name: str, row: Sequence[Fraction]) -> HSet:
     return HSet(name, (x, y), (ux, uy), (sx, sy))
 
 
-def read(certificate: Certificate, field: str, name: str, first: int = 0) -> list[HSet]:
+def read_sets(certificate: Certificate, field: str, name: str, first: int = 0) -> list[HSet]:
     """Return the sets of a certificate's field, named by this letter and a number from `first`."""
     rows = certificate.numbers(field, 6)
     return [hset(f"{name}_{i}", row) for i, row in enumerate(rows, first)]
@@ -149,7 +149,7 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
     )
 
 
-def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]:
+def covering_margins(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]:
     """Prove that source covers target; raises NotProvedError.
 
     Returns how far beyond the target's edges the exit edges land, and how much room is left within
@@ -164,10 +164,10 @@ def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]
         raise NotProvedError(f"{failure}: its edges are not proved to land beyond the target")
     if not room > 0:
         raise NotProvedError(f"{failure}: its image is not proved to fit between the edges")
-    return min(lowest(-low - 1), lowest(high - 1)), lowest(room)
+    return min(lower_bound(-low - 1), lower_bound(high - 1)), lower_bound(room)
 
 
-def cones(local: LocalMap, source: HSet, target: HSet) -> float:
+def cone_margin(local: LocalMap, source: HSet, target: HSet) -> float:
     """Prove the cone condition; raises NotProvedError.
 
     Returns a lower bound of the least eigenvalue of D^T Q' D - Q, Q = p^2 - q^2, over all D in the
@@ -178,7 +178,7 @@ def cones(local: LocalMap, source: HSet, target: HSet) -> float:
     determinant = first * last - mixed * mixed
     if not (first > 0 and determinant > 0):
         raise NotProvedError(f"cone condition not proved from {source.name} to {target.name}")
-    return lowest(determinant / (first + last))
+    return lower_bound(determinant / (first + last))
 
 
 def prove_hyperbolic(
@@ -192,13 +192,13 @@ def prove_hyperbolic(
         local = local_map(surface, source, target)
     except UndecidedError as error:
         raise NotProvedError(f"{source.name}: {error}") from None
-    return covering(local, source, target), cones(local, source, target), local
+    return covering_margins(local, source, target), cone_margin(local, source, target), local
 
 
 def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
     """Prove that source covers target, on cells of the source that are halved where needed.
 
-    Returns the margins of `covering`. Raises NotProvedError.
+    Returns the margins of `covering_margins`. Raises NotProvedError.
     """
     x, y, *_ = surface.impact(*source.box(arb(1), arb(0)))
     right = target.coordinates(x, y)[0]
@@ -220,8 +220,8 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
         edges = [p * side * local.exit_edge(p) - 1 for p in at]
         left = 1 - abs(local.across()).upper()
         if left > 0 and all(edge > 0 for edge in edges):
-            beyond = min([beyond, *map(lowest, edges)])
-            room = min(room, lowest(left))
+            beyond = min([beyond, *map(lower_bound, edges)])
+            room = min(room, lower_bound(left))
         elif any(edge < 0 for edge in edges) or abs(local.centre[1]) > 1:
             break
         else:

@@ -13,7 +13,7 @@ from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from .birkhoff import complex_map, resonant_coefficients
-from .certificate import Certificate, Finding, Range, check_stated, lowest
+from .certificate import Certificate, Finding, Range, check_stated, lower_bound
 from .periodic import BITS, prove_fixed_point_over
 
 CLOSE = Fraction(1, 10**9)  # largest distance of a certificate's coefficients from the true ones
@@ -52,5 +52,5 @@ def check(text: str, k: Fraction, g: Fraction, *, energies: Range, margin: Fract
             raise NotProvedError(f"the margin is {float(least):g}, not {float(margin):g} as stated")
         if not b - a > ball_of(least):
             raise NotProvedError(f"|B| is not proved to be above |A| by {float(least):g}")
-        margins = {"slope": lowest(-slope), "|B| - |A|": lowest(b - a)}
+        margins = {"slope": lower_bound(-slope), "|B| - |A|": lower_bound(b - a)}
         return Finding({"energy": energy, "|A|": a, "|B|": b}, margins)

@@ -29,8 +29,8 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
     with ctx.workprec(BITS):
-        saddles = hsets.read(certificate, "saddles", "S")
-        chain = hsets.read(certificate, "chain", "M", first=1)
+        saddles = hsets.read_sets(certificate, "saddles", "S")
+        chain = hsets.read_sets(certificate, "chain", "M", first=1)
         hsets.check_contained(saddles, orbit.points)
         leaves = certificate.whole("leaves")
         if leaves not in range(len(saddles)):

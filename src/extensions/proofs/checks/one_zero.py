@@ -24,16 +24,16 @@ from study.enclosure.jets import Jet, algebra, algebra_with_parameter
 from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at
-from .certificate import Certificate, Finding, Range, lowest
+from .certificate import Certificate, Finding, Range, lower_bound
 
 BITS = 128
 MOST_BANDS = 1000
 _ORDER = 3  # of the map's series in xi and eta
 _PARAMETER_ORDER = 5  # of the remainder of its Taylor polynomials in theta
-_TERMS = 60  # of a power series, at arguments below 5
-_MORE = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
+_SERIES_TERMS = 60  # of a power series, at arguments below 5
+_EXTRA_ORDERS = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
 
-PLACES = {"zero": 1, "resonance": 0}  # of the functions among the fields of OverBand
+PLACES = {"zero": 1, "resonance": 0}  # of the functions among the fields of BandEnclosure
 Field = dict[tuple[int, int], Jet]  # powers of xi and eta -> coefficient, a series in theta
 
 
@@ -44,7 +44,7 @@ class Enclosed(NamedTuple):
     slope: arb
 
 
-class OverBand(NamedTuple):
+class BandEnclosure(NamedTuple):
     """Enclosures over a band; third is theta^2 (3 cot^2(omega/2) - 1)."""
 
     cosine: Enclosed  # cos(omega)
@@ -76,13 +76,15 @@ def check(
         for name, bounds in (("zero", zero), ("resonance", resonance)):
             digits[name] = _energy_of(certificate.row(name, 2), k, g, bounds, name)
         bands = [over_band(k, g, *ends) for ends in pairwise(edges)]
-        margins = {"third resonance": min(lowest(band.third) for band in bands)}
+        margins = {"third resonance": min(lower_bound(band.third) for band in bands)}
         for name in PLACES:
-            margins[name] = _falls_once([_stage(band.function(name), name) for band in bands], name)
+            margins[name] = _margin_of_one_zero(
+                [_sign_stage(band.function(name), name) for band in bands], name
+            )
         return Finding(digits, margins)
 
 
-def over_band(k: Fraction, g: Fraction, low: Fraction, high: Fraction) -> OverBand:
+def over_band(k: Fraction, g: Fraction, low: Fraction, high: Fraction) -> BandEnclosure:
     """Enclose cos(omega) and theta tau_1 over a band, each with its derivative in theta.
 
     By the mean value theorem each is its value at the middle plus the derivative over the band
@@ -106,7 +108,7 @@ def over_band(k: Fraction, g: Fraction, low: Fraction, high: Fraction) -> OverBa
             raise NotProvedError("the twist over a band is not finite")
         return Enclosed(value.intersection(at.constant + slope * (band - middle)), slope)
 
-    return OverBand(narrowed(cosine, cosine_at), narrowed(twist, twist_at), third)
+    return BandEnclosure(narrowed(cosine, cosine_at), narrowed(twist, twist_at), third)
 
 
 def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fraction) -> None:
@@ -120,18 +122,18 @@ def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fracti
         raise NotProvedError("the bands are not proved to reach the statement's energy")
 
 
-def _stage(function: Enclosed, name: str) -> tuple[int, float]:
+def _sign_stage(function: Enclosed, name: str) -> tuple[int, float]:
     """Return 0, 1 or 2 for a function that is positive, falls or is negative, and the margin."""
     if function.value > 0:
-        return 0, lowest(function.value)
+        return 0, lower_bound(function.value)
     if function.value < 0:
-        return 2, lowest(-function.value)
+        return 2, lower_bound(-function.value)
     if function.slope < 0:
-        return 1, lowest(-function.slope)
+        return 1, lower_bound(-function.slope)
     raise NotProvedError(f"the {name} is not proved to be the only one: a band is too wide")
 
 
-def _falls_once(stages: Sequence[tuple[int, float]], name: str) -> float:
+def _margin_of_one_zero(stages: Sequence[tuple[int, float]], name: str) -> float:
     """Check that a function is positive, then falls, then is negative; returns the margin.
 
     So it has one zero over all bands together, which are neighbours.
@@ -276,14 +278,14 @@ def _even_function(kind: str, value: arb, order: int) -> list[arb]:
     """
     if not abs(value) < 5:
         raise NotProvedError("the bands of theta are too wide")
-    middle, most = value.mid(), order + _MORE
+    middle, most = value.mid(), order + _EXTRA_ORDERS
     away = value - middle
     reach, powers = away.abs_upper(), [arb(1)]
-    while len(powers) <= 2 * _TERMS:
+    while len(powers) <= 2 * _SERIES_TERMS:
         powers.append(powers[-1] * middle)
-    # Of the terms C(2j, n) |z|^(2j - n)/(2j)! those with j > _TERMS are left out; as |z| < 5 and
-    # C(2j, n) <= 4^j, their sum is less than the following.
-    left_out = arb(0, arb(2 * 100**_TERMS) / factorial(2 * _TERMS))
+    # Of the terms C(2j, n) |z|^(2j - n)/(2j)! those with j > _SERIES_TERMS are left out. As |z| < 5
+    # and C(2j, n) <= 4^j, their sum is less than the following.
+    left_out = arb(0, arb(2 * 100**_SERIES_TERMS) / factorial(2 * _SERIES_TERMS))
     at_middle = [
         sum((c * powers[p] for p, c in _power_series(kind, n, ctx.prec)), left_out)
         for n in range(most + 1)
@@ -307,6 +309,6 @@ def _power_series(kind: str, n: int, bits: int) -> list[tuple[int, arb]]:
     sign, more = (-1, 3) if kind == "sine" else (1, 2)
     return [
         (2 * j - n, ball_of(Fraction(sign * (-1) ** j * comb(2 * j, n), factorial(2 * j + more))))
-        for j in range(_TERMS + 1)
+        for j in range(_SERIES_TERMS + 1)
         if 2 * j >= n
     ]

@@ -13,7 +13,7 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Impact, Surface, ball_of, fraction_of
 
 from ..enclosure.newton import enclose_zero, newton
-from .certificate import Certificate, Finding, Window, box, check_stated, lowest
+from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
@@ -50,7 +50,7 @@ def check(text: str, surface: Surface, **bounds: Any) -> Finding:
         xdot, udot = surface.velocities(x, y)
         period = sum((impact.tau for impact in orbit.impacts), arb(0))
         digits = {"x": x, "xdot": xdot, "udot": udot, "period": period, "trace": orbit.trace}
-        margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
+        margins = {"radius": float(orbit.radius), "trace": lower_bound(abs(abs(orbit.trace) - 2))}
         return Finding(digits, margins, {"orbit": orbit})
 
 
@@ -69,7 +69,7 @@ def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction
         room = 3 * arb.pi() / 2 - ball_of(theta)
         if not (room > 0 and theta * k < 2):
             raise NotProvedError("a second fixed point is not excluded")
-        margins = {"theta": lowest(room), "earlier": lowest(ball_of(2 - theta * k))}
+        margins = {"theta": lower_bound(room), "earlier": lower_bound(ball_of(2 - theta * k))}
         return Finding({"energies up to": ball_of(energy)}, margins)
 
 
@@ -89,7 +89,7 @@ def prove_stated(
     points. Raises NotProvedError.
     """
     centres, size = certificate.numbers("points", 2), certificate.radius(radius)
-    orbit = _prove_described(surface, centres, size + CLOSE, period, type, window)
+    orbit = _prove_with_properties(surface, centres, size + CLOSE, period, type, window)
     for point, centre in zip(orbit.points, centres, strict=True):
         check_stated("orbit's point", point, centre, CLOSE)
     return replace(orbit, radius=size)
@@ -101,10 +101,10 @@ def prove_saddles(
     """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
     with ctx.workprec(BITS):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
-        return _prove_described(surface, centres, radius, period, "hyperbolic", window)
+        return _prove_with_properties(surface, centres, radius, period, "hyperbolic", window)
 
 
-def _prove_described(
+def _prove_with_properties(
     surface: Surface,
     centres: Sequence[Sequence[Fraction]],
     radius: Fraction,

@@ -16,7 +16,7 @@ from study.enclosure.surface import Surface
 
 from . import periodic
 from .birkhoff import NormalForm, normal_form
-from .certificate import Certificate, Finding, check_stated, lowest
+from .certificate import Certificate, Finding, check_stated, lower_bound
 
 CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
@@ -36,7 +36,7 @@ def check(text: str, surface: Surface, **bounds: Any) -> Finding:
         check_stated("twist", [twist], [stated], CLOSE * abs(stated))
         if not abs(twist) > 0:
             raise NotProvedError("the twist may be zero")
-        margins = {"twist": lowest(abs(twist)), "nonresonance": lowest(form.nonresonance)}
+        margins = {"twist": lower_bound(abs(twist)), "nonresonance": lower_bound(form.nonresonance)}
         return Finding({"twist": twist, "trace": orbit.trace}, margins)
 
 
@@ -65,9 +65,9 @@ def check_zero(
         if not second < 0:
             raise NotProvedError("the second twist is not proved to be negative in the band")
         margins = {
-            "twist": min(lowest(forms[0].twists[0]), lowest(-forms[1].twists[0])),
-            "second twist": lowest(-second),
-            "nonresonance": lowest(forms[2].nonresonance),
+            "twist": min(lower_bound(forms[0].twists[0]), lower_bound(-forms[1].twists[0])),
+            "second twist": lower_bound(-second),
+            "nonresonance": lower_bound(forms[2].nonresonance),
         }
         return Finding({"energy": between.constants()[2], "second twist": second}, margins)
 

@@ -39,7 +39,7 @@ def _surface(energy: str) -> Surface:
     return Surface(BALL["k"], BALL["g"], Fraction(energy))
 
 
-HIGH, LOW = _surface("1/100"), _surface("1/1000")
+FIG2, FIG8 = _surface("1/100"), _surface("1/1000")
 LIMIT = BALL["k"] / 2 - BALL["g"]  # of the energy, eq. (31)
 MOST_DIGITS = 30  # of an enclosure as text: as many as certificates state
 
@@ -218,21 +218,21 @@ def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
     return _between(x_low, x_high), _between(xdot_low, xdot_high)
 
 
-_FIGURE_6 = _window(*(str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]))
+_FIG6_WINDOW = _window(*(str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]))
 _ORBITS: dict[str, dict[str, Any]] = {
     name: dict(surface=surface, period=period, type=kind, radius=Fraction(radius), window=window)
     for name, surface, period, kind, radius, window in (
-        ("fixed-point", HIGH, 1, "elliptic", "4e-3", _window("0.0212", "0.0213", "0.06", "0.0601")),
-        ("fixed-point-low", LOW, 1, "elliptic", "2e-3",
+        ("fixed-point", FIG2, 1, "elliptic", "4e-3", _window("0.0212", "0.0213", "0.06", "0.0601")),
+        ("fixed-point-low", FIG8, 1, "elliptic", "2e-3",
          _window("0.1325", "0.1326", "0.0389", "0.039")),
-        ("six-elliptic", HIGH, 6, "elliptic", "1e-4",
+        ("six-elliptic", FIG2, 6, "elliptic", "1e-4",
          _window("-0.1519", "-0.1518", "0.0232", "0.0233")),
-        ("six-hyperbolic", HIGH, 6, "hyperbolic", "1e-4", _FIGURE_6),
-        ("six-inverse", HIGH, 6, "inverse hyperbolic", "5e-4",
+        ("six-hyperbolic", FIG2, 6, "hyperbolic", "1e-4", _FIG6_WINDOW),
+        ("six-inverse", FIG2, 6, "inverse hyperbolic", "5e-4",
          _window("0.3869", "0.387", "0.0877", "0.0878")),
-        ("ten-elliptic", LOW, 10, "elliptic", "6e-6",
+        ("ten-elliptic", FIG8, 10, "elliptic", "6e-6",
          _window("0.0141", "0.0142", "0.0226", "0.0227")),
-        ("twelve-elliptic", LOW, 12, "elliptic", "6e-6",
+        ("twelve-elliptic", FIG8, 12, "elliptic", "6e-6",
          _window("-0.0059", "-0.0058", "0.0159", "0.016")),
     )
 }  # fmt: skip
@@ -295,7 +295,7 @@ _GRAZING = (
 )
 
 
-def _end(
+def _grazing(
     name: str, halves: tuple[events.Half, ...], periods: tuple[int, int], sides: tuple[int, int],
     radius: str, low: str, high: str, near: tuple[str, ...],
 ) -> Theorem:  # fmt: skip
@@ -323,14 +323,14 @@ _EVENTS = (
         ),
         {"near": ("0.010825252768", "0.305443359319")},
     ),
-    _end("six-elliptic-end", ((3, "impact"),), (6, 5), (-1, 1), "3e-5", "0.01252", "0.012521",
+    _grazing("six-elliptic-end", ((3, "impact"),), (6, 5), (-1, 1), "3e-5", "0.01252", "0.012521",
          near=("0.012520264234",)),
-    _end("six-hyperbolic-end", ((2, "apex"), (0, "apex")), (6, 4), (-1, -1), "1e-4", "0.042726",
+    _grazing("six-hyperbolic-end", ((2, "apex"), (0, "apex")), (6, 4), (-1, -1), "1e-4", "0.042726",
          "0.042727", near=("0.042726525978", "0.167175430477")),
-    _end("six-inverse-birth", ((3, "apex"),), (7, 6), (-1, 1), "1e-5", "0.009682", "0.009683",
+    _grazing("six-inverse-birth", ((3, "apex"),), (7, 6), (-1, 1), "1e-5", "0.009682", "0.009683",
          near=("0.009682501945",)),
 )  # fmt: skip
-_SADDLES = {"surface": HIGH, "period": 6, "radius": Fraction("1e-4"), "window": _FIGURE_6}
+_SADDLES = {"surface": FIG2, "period": 6, "radius": Fraction("1e-4"), "window": _FIG6_WINDOW}
 _SMOOTH_SADDLES = {
     "surface": _surface("3/2000"), "period": 14, "radius": Fraction("1e-6"),
     "window": _window("0.3821", "0.3822", "0.0384", "0.0385"),
@@ -358,7 +358,7 @@ _THEOREMS = (
     _horseshoe(_SADDLES, "inner", "inner", "0.187", "0.188", "0.0083",
                plan=(177, 1e-10, 1.12)),
     _horseshoe(_SMOOTH_SADDLES, "smooth", "outer", "0.3895", "0.3896", "0.0128"),
-    Theorem("entropy", _ENTROPY, graph.check, {"surface": HIGH, "entropy": Fraction("0.136")},
+    Theorem("entropy", _ENTROPY, graph.check, {"surface": FIG2, "entropy": Fraction("0.136")},
             {"periods": (6, 7, 8, 9), "size": 6e-3, "impacts": 12}),
     Theorem("entropy-lower", _ENTROPY, graph.check,
             {"surface": _surface("1/200"), "entropy": Fraction("0.05")},
@@ -425,7 +425,7 @@ _THEOREMS = (
         "limits are more than {jump} apart, and not a diffeomorphism; the points where it jumps "
         "are one smooth curve longer than {length} in (x, y), from the rim to an inner end",
         jump.check,
-        {"surface": HIGH, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
+        {"surface": FIG2, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
          "jump": Fraction("0.27")},
         {"speed": "0.02"},
     ),
