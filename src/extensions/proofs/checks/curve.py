@@ -190,9 +190,8 @@ def _prove_discs(
     for curve, boxes, centre in zip(curves, all_boxes, centres, strict=True):
         _check_winding(curve, boxes, centre)
         polygons.append(_polygon(curve, centre, columns))
-    _check_disjoint(all_boxes)
-    for boxes, centre in zip(all_boxes, centres, strict=True):
         _check_disc(surface, boxes, centre)
+    _check_disjoint(all_boxes)
     return polygons
 
 
