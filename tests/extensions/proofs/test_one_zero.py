@@ -142,7 +142,3 @@ def test_no_band_contains_the_resonance_of_order_three():
         at("2.14", ball)
         with pytest.raises(NotProvedError, match="third power"):
             one_zero.over_band(*ball, Fraction("2.25"), Fraction("2.27"))
-
-
-def test_a_certificate_up_to_a_lower_energy_is_refused():
-    assert "not 3/50" in refused(NAME, THEOREMS[NAME].text().replace("3/50", "1/20"))

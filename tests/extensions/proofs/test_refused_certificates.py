@@ -307,6 +307,8 @@ STRONGER = [
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
     ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
     ("twist-zero", "width", lambda width: width / 2),
+    ("unstable", "margin", lambda margin: margin + Fraction(1, 100)),
+    ("unstable", "energies", lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 20)),
     *(("twist-one-zero", name, lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 5))
       for name in ("zero", "resonance")),
 ]  # fmt: skip
