@@ -389,12 +389,14 @@ def test_a_longer_chain_is_refused_for_its_entropy(checker):
     assert "entropy" in refused(theorem.name, text, checker)
 
 
-@pytest.mark.parametrize(("checker", "name"), by_both(HORSESHOES))
-@pytest.mark.parametrize("margin", ["-1.0", "nan", "inf"])
-def test_stated_margins_that_are_not_positive_and_finite_are_refused(checker, name, margin):
-    text = THEOREMS[name].text()
+@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize(("margin", "reason"), [
+    ("-1.0", "below 0"), ("nan", "margins"), ("inf", "margins"), ("0.9", "by less than is stated"),
+])  # fmt: skip
+def test_stated_margins_that_no_covering_has_are_refused(checker, margin, reason):
+    text = THEOREMS["horseshoe-outer"].text()
     rows = [[margin, margin] for _ in numbers(text, "margins")]
-    assert "margin" in refused(name, with_rows(text, "margins", rows), checker)
+    assert reason in refused("horseshoe-outer", with_rows(text, "margins", rows), checker)
 
 
 def test_margins_that_are_not_positive_and_finite_prove_nothing():
@@ -501,6 +503,18 @@ def test_a_set_contains_what_is_proved_to_be_inside():
     assert not one.contains(arb(1.3), arb(1.7))
     assert not one.contains(arb(1.6), arb(2.6))
     assert not one.contains(arb(1.4, 0.2), arb(2.4, 0.2))
+
+
+def test_sets_are_disjoint_if_a_side_of_one_separates_them():
+    one = HSet("S", (arb(0), arb(0)), (arb(1), arb(1)), (arb(-1), arb(1)))
+    for x, y, apart in ((1.5, 1.5, True), (1.1, 1.1, False), (2.6, 0, True), (2.4, 0, False)):
+        other = HSet("T", (arb(x), arb(y)), (arb(0.5), arb(0)), (arb(0), arb(0.3)))
+        assert one.is_disjoint(other) == other.is_disjoint(one) == apart
+
+
+def test_a_horseshoe_whose_middle_set_may_meet_another_is_refused(monkeypatch):
+    monkeypatch.setattr(HSet, "is_disjoint", lambda *_: False)
+    assert "M_0 is not proved to be disjoint" in refused("horseshoe-outer")
 
 
 @pytest.mark.parametrize(
