@@ -175,12 +175,14 @@ def check_distinct(points: Sequence[Point]) -> None:
             raise NotProvedError("two points may be one: the period may be shorter")
 
 
-def enclose(surface: Surface, points: Sequence[Point], radius: Fraction = Fraction(0)) -> Orbit:
+def enclose(
+    surface: Surface, points: Sequence[Sequence[arb]], radius: Fraction = Fraction(0)
+) -> Orbit:
     """Return the Orbit through enclosed points; raises NotProvedError if its type is undecided."""
     matrix = arb_mat([[1, 0], [0, 1]])
     impacts = []
-    for point in points:
-        rows, impact = surface.jacobian(*point)
+    for x, y in points:
+        rows, impact = surface.jacobian(x, y)
         matrix = arb_mat(rows) * matrix
         impacts.append(impact)
     trace = matrix[0, 0] + matrix[1, 1]
@@ -190,7 +192,7 @@ def enclose(surface: Surface, points: Sequence[Point], radius: Fraction = Fracti
         kind = "hyperbolic" if trace > 2 else "inverse hyperbolic"
     else:
         raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
-    return Orbit(tuple(points), tuple(impacts), matrix, kind, radius)
+    return Orbit(tuple((x, y) for x, y in points), tuple(impacts), matrix, kind, radius)
 
 
 def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
