@@ -1,8 +1,8 @@
 """Proofs in ball arithmetic: theorems with certificates, and correctly rounded orbits.
 
-`enclosure` has the impact map over balls and jets. `search` proposes certificates, and `checks`
-decides about them without the searches. `theorems` has the statements, `true_orbits` the orbits of
-exact starts, and `reference_solver` proves impacts of doubles.
+`search` proposes certificates, and `checks` decides about them without the searches. Both enclose
+the impact map by `study.enclosure`. `theorems` has the statements, `true_orbits` the orbits of
+exact starts, and `proved_impacts` proves the impacts behind the figures.
 """
 
 import importlib

@@ -12,7 +12,7 @@ from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import replacing
 from pipeline.records.sources import ROOT
 
-CERTIFICATES = "src/extensions/proofs/certificates"
+from .extension import CERTIFICATES
 
 
 def run(args: Arguments) -> int:

@@ -2,7 +2,8 @@
 
 from pipeline.declaration import Extension, SceneSet, SnakemakeCommand, Stage, names, switch
 
-_SCENES, _CERTIFICATES = "extensions.proofs.theorems.scenes", "src/extensions/proofs/certificates"
+CERTIFICATES = "src/extensions/proofs/certificates"
+_SCENES = "extensions.proofs.theorems.scenes"
 EXTENSION = Extension(
     stages={
         "horseshoe": Stage(
@@ -15,7 +16,7 @@ EXTENSION = Extension(
         "theorem": Stage(
             "extensions.proofs.theorems.statements.theorem_verdict",
             "theorem",
-            reads=f"{_CERTIFICATES}/{{theorem}}.toml",
+            reads=f"{CERTIFICATES}/{{theorem}}.toml",
         ),
         "derivations": Stage("extensions.proofs.derivations.derivations"),
     },
@@ -39,7 +40,7 @@ EXTENSION = Extension(
         ),
     },
     blocks={"prove": "extensions.proofs.settings.Prove"},
-    methods={"exact": "extensions.proofs.method.Exact"},
+    methods={"exact": "extensions.proofs.settings.Exact"},
     exact={"exact": {"orbits": "extensions.proofs.true_orbits.orbit.true_scene_orbits"}},
-    reads={"src/extensions/proofs/theorems/statements.py": f"{_CERTIFICATES}/*.toml"},
+    reads={"src/extensions/proofs/theorems/statements.py": f"{CERTIFICATES}/*.toml"},
 )

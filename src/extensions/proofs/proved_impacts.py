@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -15,10 +16,20 @@ from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit, start_state
 from pseudorigid.dynamics.variables import of_type, states_of
+from study.enclosure.surface import Exact
+from study.reference_solver import impact_errors
 
-from .theorems import impacts as proofs
+from .theorems.statements import Result
 
-Impacts = tuple[np.ndarray, ...]  # states before, states after, flight times
+_LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was taken
+
+
+class Impacts(NamedTuple):
+    """States x, xdot, udot before and after impacts, (3, n), and the flight times between them."""
+
+    before: np.ndarray
+    after: np.ndarray
+    tau: np.ndarray
 
 
 def impacts(checked: Config, progress: Callable[[str], None]) -> int:
@@ -41,18 +52,43 @@ def impacts(checked: Config, progress: Callable[[str], None]) -> int:
         def data(stage: str, scene: str = scene) -> xr.Dataset:
             return load(ROOT / artifact_paths[PAPER, scene, stage])
 
-        for part, (before, after, tau) in _impacts_behind(block, data, sample):
+        for part, some in _impacts_behind(block, data, sample):
             name = f"{scene} {part}"
 
-            def report(done: int, name: str = name, total: int = tau.size) -> None:
+            def report(done: int, name: str = name, total: int = some.tau.size) -> None:
                 progress(f"{name}: {done:,} of {total:,} impacts done")
 
-            result = proofs.prove_impacts(k, g, before, after, tau, name=name, progress=report)
+            result = prove_impacts(k, g, some, name=name, progress=report)
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
             worst = max(worst, result.margins["worst error"])
     print(f"worst bound of an error: {worst:.3g}")
     return status
+
+
+def prove_impacts(
+    k: Exact,
+    g: Exact,
+    impacts: Impacts,
+    name: str = "impacts",
+    progress: Callable[[int], None] | None = None,
+) -> Result:
+    """Prove that each of many impacts is the first one, to within a small error.
+
+    `progress` is called with the number of impacts done. The Result has the margin worst error.
+    """
+    errors = impact_errors(k, g, *impacts, progress)
+    worst, reason = float(np.max(errors, initial=0.0)), ""
+    if not errors.size:
+        reason = "there are no impacts"
+    elif worst == np.inf:
+        reason = f"impact {np.argmax(errors)} grazes: which one is first is not decided"
+    elif not worst < _LARGEST_ERROR:
+        reason = f"impact {np.argmax(errors)} is off by {worst:.3g}: not the first one"
+    statement = (
+        f"each of {errors.size:,} impacts computed is the first one, to within {_LARGEST_ERROR:g}"
+    )
+    return Result(name, statement, name, reason, {}, {"worst error": worst})
 
 
 def _impacts_behind(
@@ -64,25 +100,42 @@ def _impacts_behind(
     if {"orbits", "manifolds"} <= stages.keys():
         sample //= 2
     if "orbits" in stages:
-        states = proofs.of_orbits(ball, energy, data("orbits"), block["starts"])
-        yield "orbits", _evenly(states, sample) if "manifolds" in stages else states
+        its = of_orbits(ball, energy, data("orbits"), block["starts"])
+        yield "orbits", Impacts(*_evenly(its, sample)) if "manifolds" in stages else its
     if "motion" in stages:
-        yield "orbit", proofs.of_periodic(of_type(data("periodic"), block["type"]))
+        track = of_type(data("periodic"), block["type"])
+        states = states_of(track)
+        yield "orbit", Impacts(states, np.roll(states, -1, axis=1), track["tau"].values)
     if "manifolds" in stages:
         lines = states_of(data("manifolds"))
         lines = lines[:, ~np.isnan(lines[0])]
         lines[2] = np.maximum(lines[2], -lines[1])
-        yield "manifolds", proofs.of_states(ball, *_evenly((lines,), sample))
+        (before,) = _evenly((lines,), sample)
+        x, xdot, udot, tau = ball.impact(*before)
+        yield "manifolds", Impacts(before, np.array([x, xdot, udot]), np.asarray(tau))
     if "lyapunov" in stages:
         starts = [start_state(ball, energy, start) for start in block["starts"]]
         for i, start in enumerate(starts):
             track = orbit(ball, start, sample // len(starts))
             after = states_of(track)
             before = np.concatenate([np.array(start)[:, None], after[:, :-1]], axis=1)
-            yield f"orbit {i}", (before, after, track["tau"].values)
+            yield f"orbit {i}", Impacts(before, after, track["tau"].values)
 
 
-def _evenly(arrays: Impacts, count: int) -> Impacts:
+def of_orbits(ball: Ball, energy: float, orbits: xr.Dataset, starts: list[Any]) -> Impacts:
+    """Return all impacts of a dataset of `scene_orbits`.
+
+    The starts are in the form that `starts.start_state` takes.
+    """
+    state = states_of(orbits)
+    before = np.roll(state, 1, axis=1)
+    sizes = orbits["row_size"].values
+    first = np.cumsum(sizes) - sizes
+    before[:, first] = np.array([start_state(ball, energy, start) for start in starts]).T
+    return Impacts(before, state, orbits["tau"].values)
+
+
+def _evenly(arrays: tuple[np.ndarray, ...], count: int) -> tuple[np.ndarray, ...]:
     """Take at most `count` columns of each array (..., n), evenly by index."""
     size = arrays[0].shape[-1]
     chosen = np.arange(min(count, size)) * size // min(count, size)

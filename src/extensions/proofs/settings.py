@@ -1,6 +1,8 @@
-"""The block `prove` of config.yaml."""
+"""Blocks of config.yaml: `prove`, and the method that computes true orbits."""
 
-from pipeline.config.schema.fields import LARGEST, Block, whole
+from typing import Annotated, Literal
+
+from pipeline.config.schema.fields import LARGEST, Block, allowed, whole
 
 
 class Prove(Block):
@@ -9,3 +11,11 @@ class Prove(Block):
     impacts: int = whole(1, LARGEST)
     """Number of impacts to prove in each figure whose data have millions of them. The impacts of
     the other figures are all proved."""
+
+
+class Exact(Block):
+    """a mapping with the key exact"""
+
+    exact: Annotated[Literal[True], allowed("true, or no method at all")]
+    """Compute the true orbit of each start, so that every number is a rounded true value. This
+    takes effect in portraits and in backdrops of other pictures; other stages compute as usual."""

@@ -1,7 +1,5 @@
 """The instability at the resonance 1/4, by independent code, and certificates that are refused."""
 
-from fractions import Fraction
-
 import mpmath
 import numpy as np
 import pytest
@@ -98,41 +96,28 @@ def theta(low, high):
 CHANGES = {
     # |B| < |A| forged, and coefficients that are not those of this energy
     "coefficients = [7.35932691733, 1.74978423654]": "normal form is not",
-    "coefficients = [1.74978423654, 1.7]": "normal form is not",
     "coefficients = [-1.74978423654, 7.35932691733]": "normal form is not",
     "coefficients = [1.749784239, 7.35932691733]": "normal form is not",
     "coefficients = [1.74978423654, 7.359326919]": "normal form is not",
-    "coefficients = [1.75, 7.36]": "normal form is not",
-    "coefficients = [0, 7.35932691733]": "normal form is not",
     "coefficients = [1.74978423654]": "no row of 2",
-    "coefficients = [1.7498]": "no row of 2",
     "coefficients = 7.4": "another form",
     # a margin that is not there, or too small
     "margin = 5.61": "not proved to be above |A| by 5.61",
-    "margin = 7.4": "not proved to be above |A| by 7.4",
-    "margin = 1e9": "not proved to be above |A|",
     "margin = 5.59": "the margin is 5.59, not 5.6",
-    "margin = 0": "the margin is 0, not 5.6",
     "margin = -5.6": "the margin is -5.6, not 5.6",
     "margin = nan": "not an exact number",
     # bands that miss the resonance
     theta(LOW - 1, LOW): "hold the resonance",
     theta(HIGH, HIGH + 1): "hold the resonance",
-    theta(LOW - 10**9, LOW - 10**8): "hold the resonance",
-    theta(HIGH + 10**12, HIGH + 2 * 10**12): "hold the resonance",
-    "theta = [1.38415537, 1.38415538]": "hold the resonance",
     "theta = [1e-9, 2e-9]": "hold the resonance",
     # other bands that hold it
     theta(LOW - 10**5, HIGH): "statement's energies",
     theta(LOW, HIGH + 10**5): "statement's energies",
-    "theta = [2.0, 2.2]": "statement's energies",
     "theta = [0.1, 2.9]": "",
-    theta(HIGH, LOW): "do not rise",
     theta(LOW, LOW): "do not rise",
     theta(-LOW, HIGH): "do not rise",
     "theta = [2.1, 3.2]": "do not rise",
     theta(LOW - 500, HIGH + 500): "normal form is not",  # too wide for the coefficients' digits
-    'k = "1/4"': "", 'g = "1/24"': "", 'kind = "resonance"': "kind",
 }  # fmt: skip
 
 
@@ -142,14 +127,6 @@ def test_altered_certificates_are_refused(line, reason):
     text = with_field(TEXT, field, value)
     assert text != TEXT
     assert reason in refused(NAME, text)
-
-
-@pytest.mark.parametrize("bounds", [
-    {"margin": Fraction("5.61")}, {"energies": (Fraction("0.0373"), Fraction("0.03739517136"))},
-    {"k": Fraction("201/1000")}, {"g": Fraction("41/1000")},
-])  # fmt: skip
-def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bounds):
-    assert refused(NAME, **bounds)
 
 
 def test_a_map_with_another_term_is_refused(monkeypatch):

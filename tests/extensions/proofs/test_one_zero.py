@@ -90,7 +90,9 @@ def test_a_function_falls_through_zero_once_only():
     plus, minus, falls = (arb(1), arb(0, 9)), (arb(-1), arb(0, 9)), (arb(0, 1), arb(-1))
 
     def margin(rows):
-        return one_zero._falls_once([one_zero._stage(*row, "zero") for row in rows], "zero")
+        return one_zero._margin_of_one_zero(
+            [one_zero._sign_stage(one_zero.Enclosed(*row), "zero") for row in rows], "zero"
+        )
 
     assert margin([plus, falls, falls, minus, minus]) == 1
     for rows in (
@@ -115,7 +117,6 @@ def test_other_bands_are_refused():
         (edges[1:], "do not rise from"),
         ([["-0.01"], *edges], "do not rise from"),
         ([edges[0], edges[2], edges[1], *edges[3:]], "do not rise from"),
-        ([*edges[:9], edges[8], *edges[9:]], "do not rise from"),
         (edges[:-2], "not proved to reach"),
         ([*edges, ["3.15"]], "not proved to reach"),
         (edges[:1], "edges, not 2"),
@@ -126,16 +127,12 @@ def test_other_bands_are_refused():
 
 @pytest.mark.parametrize("name", ["zero", "resonance"])
 @pytest.mark.parametrize(("row", "reason"), [
-    (["1.9", "1.91"], "certificate's theta"),
-    (["1.98", "2.2"], "statement's energies"),
-    (["2.2", "1.9"], "no interval"),
-    (["2.0", "2.0"], "no interval"),
-    (["0.0", "3.1"], "no interval"),
+    ("[1.9, 1.91]", "certificate's theta"), ("[1.98, 2.2]", "statement's energies"),
+    ("[2.0, 2.0]", "no interval"), ("[0.0, 2.0]", "no interval"), ("[1.9, 3.1]", "no interval"),
 ])  # fmt: skip
 def test_a_zero_elsewhere_or_less_precise_is_refused(name, row, reason):
     """A wide interval is consistent, and proves less than the statement."""
-    text = THEOREMS[NAME].text()
-    assert reason in refused(NAME, with_field(text, name, f"[{', '.join(row)}]"))
+    assert reason in refused(NAME, with_field(THEOREMS[NAME].text(), name, row))
 
 
 def test_no_band_contains_the_resonance_of_order_three():
@@ -145,7 +142,3 @@ def test_no_band_contains_the_resonance_of_order_three():
         at("2.14", ball)
         with pytest.raises(NotProvedError, match="third power"):
             one_zero.over_band(*ball, Fraction("2.25"), Fraction("2.27"))
-
-
-def test_a_certificate_up_to_a_lower_energy_is_refused():
-    assert "not 3/50" in refused(NAME, THEOREMS[NAME].text().replace("3/50", "1/20"))

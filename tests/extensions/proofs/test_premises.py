@@ -1,5 +1,6 @@
 """Premises: each function that encloses something under one refuses what is outside it."""
 
+import json
 from fractions import Fraction
 
 import numpy as np
@@ -16,6 +17,7 @@ from study import reference_solver
 from study.enclosure import flight, jets
 from study.enclosure.flight import Flight
 from study.enclosure.jets import Jet
+from study.enclosure.surface import ball_of
 
 PAPER = Surface("1/5", "1/25", "1/100")
 K, G = Fraction(1, 5), Fraction(1, 25)
@@ -51,7 +53,7 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
             jump.prove_crossing(surface, across, arb("-0.13835"), arb("-0.13670"))
         for xdot in ("-0.13835", "-0.1172", "0.1172", "nan", "-inf", "[-0.117 +/- 0.001]"):
             with pytest.raises(NotProvedError, match="rim point with x < -g"):
-                jump._flight_from_rim(surface, arb(xdot))
+                jump._landing_from_rim(surface, arb(xdot))
     for touches in (
         ("-0.13835", "-0.13670"), ("-0.13835", "-0.0723"), ("-0.0741", "0.1172"), ("-9", "9")
     ):  # fmt: skip
@@ -73,37 +75,18 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
                             "1.384155377505870197248849393743562336482"], "1e-30"),
     ("six-birth", "theta", ["-1e-31", "1e-31"], "between 0 and pi"),
     ("six-elliptic-doubling", "radius", "0", "not 2e-10 as stated"),
-    ("six-elliptic-end", "radius", "-3e-5", "not 3e-05 as stated"),
     ("fixed-point", "radius", "-4e-3", "not 0.004 as stated"),
     ("twist-six", "twist", "0", "not the stated"),
     ("twist-zero", "width", "0", "wide"),
     ("twist-zero", "energy", "-1/250", "not allowed: above"),
-    ("twist-one-zero", "zero", ["1.99", "1.98"], "no interval of theta"),
-    ("twist-one-zero", "resonance", ["2.1", "3.2"], "no interval of theta"),
-    ("twist-one-zero", "zero", ["0", "1.99"], "no interval of theta"),
-    ("curve-six", "loss", "0", "out of range"),
     ("curve-six", "loss", "0.02", "6 times the loss"),
-    ("curve-six", "strip", "1.5", "out of range"),
-    ("curve-six", "columns", 4, "out of range"),
-    ("curve-six", "more_rows", 0, "out of range"),
-    ("curve-six", "error", "0", "not stated to be below"),
-    ("curve-six", "repeating", [], "rational"),
-    ("curve-six", "repeating", [2], "end in ones"),
-    ("curve-six", "quotients", [1, 0, 3], "whole and positive"),
-    ("curve-six", "quotients", [1, -4, 3], "whole and positive"),
     ("horseshoe-outer", "leaves", 6, "saddles"),
     ("entropy-lower", "growth", "1", "not above 1"),
-    ("entropy-lower", "growth", "-2", "not above 1"),
     ("entropy-lower", "weights", ["0", "1"], "not positive"),
-    ("entropy-lower", "weights", ["-1", "1"], "not positive"),
-    ("diffeomorphism", "roots", ["-0.05", "0.45"], "not the stated product"),
 ])  # fmt: skip
 def test_a_certificate_outside_a_premise_is_refused(name, field, value, reason):
-    if isinstance(value, str):
-        value = f'"{value}"'
-    elif isinstance(value, list) and value and isinstance(value[0], str):
-        value = "[" + ", ".join(f'"{number}"' for number in value) + "]"
-    assert reason in refused(name, with_field(THEOREMS[name].text(), field, value))
+    text = json.dumps(value)  # TOML has numbers, strings and lists in the same form
+    assert reason in refused(name, with_field(THEOREMS[name].text(), field, text))
 
 
 @pytest.mark.parametrize(("name", "field", "row", "columns", "values", "reason"), [
@@ -117,9 +100,6 @@ def test_a_certificate_outside_a_premise_is_refused(name, field, value, reason):
     ("no-circle", "saddles", 2, (0, 1), ("0.21107112", "0.03071019"), "Newton|floor|period"),
     ("horseshoe-outer", "approach", 0, (4, 5), ("0", "0"), "sides may be parallel"),
     ("horseshoe-outer", "margins", 0, (0, 1), ("-1", "-1"), "below 0"),
-    ("twist-one-zero", "edges", 0, (0,), ("0.01",), "do not rise from"),
-    ("twist-one-zero", "edges", 3, (0,), ("0.05",), "do not rise from"),
-    ("twist-one-zero", "edges", -1, (0,), ("3.2",), "reach"),
     ("six-elliptic", "points", 3, (0, 1), ("0.6", "0.1"), "rim"),
 ])  # fmt: skip
 def test_rows_outside_a_premise_are_refused(name, field, row, columns, values, reason):
@@ -141,9 +121,6 @@ def test_rows_outside_a_premise_are_refused(name, field, row, columns, values, r
     ("six-birth", {"rotation": Fraction(1, 7), "period": 7}, "no two orbits"),
     ("six-birth", {"energies": (Fraction(0), Fraction(1, 50))}, "beyond theta"),
     ("jump-set", {"jump": Fraction(-1)}, "may be within"),
-    ("six-elliptic-doubling", {"trace": 2}, "has the trace -2"),
-    ("six-elliptic-end", {"periods": (6, 6)}, "have the periods"),
-    ("six-elliptic-end", {"sides": (1, 1)}, "not proved to exist above"),
 ])  # fmt: skip
 def test_a_statement_outside_a_premise_is_refused(name, bounds, reason):
     assert reason in refused(name, None, **bounds)
@@ -184,7 +161,7 @@ OUTSIDE = {
     "set: parallel": lambda: HSet("N", (arb(0),) * 2, (arb(1),) * 2, (arb(2),) * 2),
     "set: perhaps": lambda: HSet("N", (arb(0),) * 2, (arb(1), arb(0)), (arb(1), arb(0, 1e-9))),
     "set: a point": lambda: hsets.hset("N", [Fraction(0)] * 6),
-    "touch: no x < -g": lambda: jump._touch(Surface(K, G, "1/1000"), arb(1)),
+    "touch: no x < -g": lambda: jump._rim_point(Surface(K, G, "1/1000"), arb(1)),
     "landings: no x < -g": lambda: jump.check_landings(Surface(K, G, "1/1000")),
     "orbit: radius": lambda: periodic.prove(PAPER, [[Fraction(0), Fraction(0)]], Fraction(-1)),
     "growth: below 1": lambda: graph.check_growth(None, Fraction(1, 2), []),
@@ -204,19 +181,17 @@ def test_nothing_is_enclosed_outside_a_premise(case):
 
 
 def test_an_impact_that_is_no_number_has_no_bound():
-    before = np.array([[0.1], [0.05], [0.06]])
-    x, v, w, tau = (
-        float(a) for a in reference_solver._impact(*map(arb, (0.2, 0.04, 0.1, 0.05, 0.06)))
+    k, g, state = Fraction("0.2"), Fraction("0.04"), (0.1, 0.05, 0.06)
+    *after, tau = (
+        float(a) for a in reference_solver._impact(*map(ball_of, (k, g)), *map(arb, state))
     )
+
+    def bound(*impact):
+        columns = np.array([*state, *impact])[:, None]
+        return reference_solver.impact_errors(k, g, columns[:3], columns[3:6], columns[6])
+
+    assert bound(*after, tau) < 1e-15
     for place in range(4):
-        given = [x, v, w, tau]
-        assert (
-            reference_solver.impact_errors(
-                Fraction(0.2), Fraction(0.04), before, np.array(given[:3])[:, None], np.array([tau])
-            )
-            < 1e-15
-        )
-        given[place] = np.nan
-        after, times = np.array(given[:3])[:, None], np.array(given[3:])
-        bound = reference_solver.impact_errors(Fraction(0.2), Fraction(0.04), before, after, times)
-        assert bound == np.inf
+        impact = [*after, tau]
+        impact[place] = np.nan
+        assert bound(*impact) == np.inf

@@ -47,42 +47,42 @@ FIELDS = {
     "event",
 }  # fmt: skip
 
-
-# A theorem, and the field and the place of one of its sets.
-SETS = [
-    *((name, "approach", row) for name in HORSESHOES for row in (0, 30, -2)),
-    ("entropy-lower", "sets", 0),
-    *(("entropy-lower", "chains", row) for row in (0, 20, -1)),
-    *(("no-circle", "chain", row) for row in (1, 30, -2)),
+# A theorem, and a field and places of its sets; the default suite changes the first one only.
+FIELDS_OF_SETS = [
+    *((name, "approach", (0, 30, -2)) for name in HORSESHOES), ("entropy-lower", "sets", (0,)),
+    ("entropy-lower", "chains", (0, 20, -1)), ("no-circle", "chain", (1, 30, -2)),
 ]  # fmt: skip
+# Columns of a set that are multiplied by a factor and moved by half the columns so much further on.
+CHANGES = [((2, 3), Fraction("1.3"), None), ((4, 5), Fraction("0.7"), None),
+           ((0, 1), 1, 2), ((0, 1), 1, 4)]  # fmt: skip
+SETS = [(name, field, rows[:1]) for name, field, rows in FIELDS_OF_SETS]
+MORE_SETS = [(name, field, rows[1:]) for name, field, rows in FIELDS_OF_SETS if rows[1:]]
 
 
-@pytest.mark.parametrize(("checker", "name", "field", "row"), [
-    *(("package", *place) for place in SETS),
-    *slowly(*(("second", *place) for place in SETS if place[0] in STATEMENTS)),
+@pytest.mark.parametrize(("checker", "name", "field", "places"), [
+    *(("package", *sets) for sets in SETS),
+    *slowly(*(("package", *sets) for sets in MORE_SETS)),
+    *slowly(*(("second", *sets) for sets in [*SETS, *MORE_SETS] if sets[0] in STATEMENTS)),
 ])  # fmt: skip
-@pytest.mark.parametrize(("columns", "factor", "shift"), [
-    ((2, 3), Fraction("1.3"), None), ((4, 5), Fraction("0.7"), None), ((0, 1), 1, 2), ((0, 1), 1, 4)
-])  # fmt: skip
+@pytest.mark.parametrize(("columns", "factor", "shift"), CHANGES)
 def test_sets_that_are_wider_thinner_or_shifted_are_refused(
-    checker, name, field, row, columns, factor, shift
+    checker, name, field, places, columns, factor, shift
 ):
-    """A set is shifted by half the side in the columns that come so much later."""
-    rows = numbers(THEOREMS[name].text(), field)
-    values = [Fraction(a) for a in rows[row]]
-    for i in columns:
-        values[i] = values[i] * factor + (values[i + shift] / 2 if shift else 0)
-    rows[row] = [f'"{value}"' for value in values]
-    reason = refused(name, with_rows(THEOREMS[name].text(), field, rows), checker)
-    assert re.search("cover|floor|set", reason) or (checker == "second" and "cone" in reason)
+    for place in places:
+        rows = numbers(THEOREMS[name].text(), field)
+        values = [Fraction(a) for a in rows[place]]
+        for i in columns:
+            values[i] = values[i] * factor + (values[i + shift] / 2 if shift else 0)
+        rows[place] = [f'"{value}"' for value in values]
+        reason = refused(name, with_rows(THEOREMS[name].text(), field, rows), checker)
+        assert re.search("cover|floor|set", reason) or (checker == "second" and "cone" in reason)
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
 def test_horseshoes_refuse_the_other_connection(checker):
     inner = THEOREMS["horseshoe-inner"].text()
-    refused("horseshoe-outer", inner, checker)
-    without_entropy = refused("horseshoe-outer", inner, checker, entropy=Fraction(0))
-    assert "where the statement says" in without_entropy
+    reason = refused("horseshoe-outer", inner, checker, entropy=Fraction(0))
+    assert "where the statement says" in reason
 
 
 @pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
@@ -131,13 +131,13 @@ def stated(name, field):
     ("fixed-point", "radius", "5e-03", "boxes"),
     *((name, "radius", THEOREMS[name].bounds["radius"] / 2, "as stated") for name in TWISTS),
     *((name, "twist", factor * stated(name, "twist"), "not the stated")
-      for name in TWISTS for factor in (-1, Fraction("1.00000001"), 0)),
+      for name in TWISTS for factor in (-1, Fraction("1.00000001"))),
     *(("twist-zero", "energy", stated("twist-zero", "energy") + shift, "")
       for shift in (Fraction("1e-13"), -Fraction("1e-13"))),
-    *(("twist-zero", "width", width, "wid") for width in ("1e-12", "0", "-1e-13", "nan", "inf")),
+    *(("twist-zero", "width", width, "wid") for width in ("1e-12", "-1e-13", "nan", "inf")),
     ("twist-zero", "radius", "1e-3", "as stated"),
     *(("fixed-point-elliptic", "bands", bands, reason)
-      for bands, reason in ((0, "bands"), (1, "each band"), (-4, "bands"), (10**9, "bands"))),
+      for bands, reason in ((1, "each band"), (-4, "bands"), (10**9, "bands"))),
     ("fixed-point-elliptic", "trace_above", "-1/2", "not -0.46"),
     ("fixed-point-elliptic", "trace_above", "-0.45", "not proved to be above"),
     ("jump-set", "radius", "1e-27", "not at most"),
@@ -164,9 +164,7 @@ def test_boxes_of_another_size_and_points_of_another_orbit_are_refused(checker, 
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
-def test_boxes_of_another_orbit_or_of_none_are_refused(checker):
-    text = THEOREMS["fixed-point"].text()
-    refused("fixed-point", text.replace("0.0212078", "0.0312078"), checker)
+def test_an_orbit_of_another_type_is_refused(checker):
     reason = refused("six-elliptic", THEOREMS["six-hyperbolic"].text(), checker)
     assert "hyperbolic, not" in reason or "to be elliptic" in reason
 
@@ -188,16 +186,22 @@ def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period(prove, at, e
 @pytest.mark.parametrize("checker", CHECKERS)
 @pytest.mark.parametrize(
     ("energy", "roots"),
-    [("1/100", None), ("11/6249", None), ("11/6251", None), ("-3/1000", ("1/10", "3/10")),
-     ("0.00129", ("-0.03", "0.43")), ("0", ("0", "0.4")), ("-0.004", ("0.2", "0.2")),
-     ("11/6250", ("-0.03", "0.43")), ("11/6250", ("-0.05", "0.45"))],
+    [("11/6251", None), ("0.00129", ("-0.03", "0.43")), ("11/6250", ("-0.03", "0.43"))],
 )  # fmt: skip
 def test_the_map_is_not_proved_smooth_below_another_energy(energy, roots, checker):
     text = THEOREMS["diffeomorphism"].text().replace("11/6250", energy)
-    if roots:  # mostly those of the energy, so that the certificate is consistent
+    if roots:  # in the second case those of the energy, so that the certificate is consistent
         text = with_field(text, "roots", f'["{roots[0]}", "{roots[1]}"]')
     reason = refused("diffeomorphism", text, checker)
     assert "not 11/6250" in reason or checker == "second" or energy == "11/6250"
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_the_map_is_not_proved_smooth_where_flights_touch(checker):
+    text = with_field(THEOREMS["diffeomorphism"].text(), "roots", '["-0.05", "0.45"]')
+    text = with_field(text, "energy_below", '"0.00225"')
+    reason = refused("diffeomorphism", text, checker, energy=Fraction("0.00225"))
+    assert "negative for x < -g" in reason
 
 
 def test_no_jump_is_proved_where_the_map_is_smooth():
@@ -250,7 +254,7 @@ def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_a
         ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
 
 
-@pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (1, 0), (3, 0.5)])
+@pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (3, 0.5)])
 def test_a_newton_image_that_is_not_inside_its_box_proves_no_zero(zero):
     def system(values):
         residuals = [value - wanted for value, wanted in zip(values, place, strict=True)]
@@ -303,6 +307,8 @@ STRONGER = [
     ("jump-set", "length", lambda length: length + Fraction(1, 10**4)),
     ("jump-set", "jump", lambda jump: jump + Fraction(1, 10**3)),
     ("twist-zero", "width", lambda width: width / 2),
+    ("unstable", "margin", lambda margin: margin + Fraction(1, 100)),
+    ("unstable", "energies", lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 20)),
     *(("twist-one-zero", name, lambda sides: (sides[0], sides[0] + (sides[1] - sides[0]) / 5))
       for name in ("zero", "resonance")),
 ]  # fmt: skip
@@ -364,56 +370,14 @@ def test_another_number_in_a_bound_gives_another_statement(name, bound):
     assert len({theorem.statement, *texts}) == len(texts) + 1
 
 
-def other_everywhere(value):
-    """The value with every number in it changed."""
-    if isinstance(value, Surface):
-        return Surface(*(other_everywhere(a) for a in (value.k, value.g, value.energy)))
-    if isinstance(value, tuple):
-        return tuple(other_everywhere(part) for part in value)
-    if isinstance(value, Fraction):
-        return value * Fraction(113, 128)
-    return value + 20 if isinstance(value, int) and value > 0 else value
-
-
 @pytest.mark.parametrize("name", THEOREMS)
 def test_no_number_of_a_statement_is_typed(name):
-    """If every bound has another number, no number of the statement is left in its text."""
-
-    def written(theorem):
-        formulas = r"y = 0|eq\. \(31\)|k/2 - g|g\^2/?|\(2k\)|\(1 \+ k/2\)|lambda\^\d|through -2"
-        text = re.sub(formulas, "", theorem.statement)
-        return set(re.findall(r"(?<![\w.])-?\d[\d./]*(?:e-?\d+)?", text))
-
-    theorem = THEOREMS[name]
-    bounds = {bound: other_everywhere(value) for bound, value in theorem.bounds.items()}
-    assert not written(theorem) & written(with_bounds(theorem, **bounds | KEPT.get(name, {})))
+    formulas = r"{.*?}|y = 0|g\^2/|\(2k\)|lambda\^\d"
+    assert not re.search(r"\d", re.sub(formulas, "", THEOREMS[name].wording))
 
 
-KEPT = {"six-elliptic-doubling": {"trace": -2}}
-
-
-@pytest.mark.parametrize(("name", "bounds", "words"), [
-    ("six-birth", {"energies": ("0.00737", "0.00738")}, ["0.00737 < E < 0.00738"]),
-    ("six-elliptic-doubling", {"energies": ("0.0108", "0.0109"), "positions": ("0.30", "1/3"),
-                               "radius": "1e-10"}, ["1e-10", "0.0108 < E < 0.0109", "< 1/3"]),
-    ("twist-one-zero", {"zero": ("0.029", "0.0292"), "resonance": ("0.037", "0.038")},
-     ["0.029 < E < 0.0292", "0.037 < E < 0.038"]),
-    ("six-elliptic-end", {"energies": ("0.0125", "0.0126")}, ["0.0125 < E < 0.0126"]),
-    ("one-fixed-point", {}, ["k/2 - g"]),
-    ("jump-set", {"length": "0.4", "jump": "0.2"}, ["than 0.4 in", "than 0.2 apart"]),
-    pytest.param("curve-six", {"share": "0.001"}, ["more than 0.001 of"], marks=pytest.mark.slow),
-])  # fmt: skip
-def test_a_certificate_with_other_valid_bounds_proves_another_text(name, bounds, words):
-    bounds = {
-        bound: Fraction(value) if isinstance(value, str) else tuple(map(Fraction, value))
-        for bound, value in bounds.items()
-    }
-    result = with_bounds(THEOREMS[name], **bounds).check()
-    assert result.verdict == "proved"
-    assert all(word in result.statement for word in words)
-
-
-@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.slow
+@pytest.mark.parametrize("checker", ["package", "second"])
 def test_a_longer_chain_is_refused_for_its_entropy(checker):
     theorem = THEOREMS["horseshoe-outer"]
     weaker = with_bounds(theorem, entropy=Fraction(0))
@@ -425,12 +389,17 @@ def test_a_longer_chain_is_refused_for_its_entropy(checker):
     assert "entropy" in refused(theorem.name, text, checker)
 
 
-@pytest.mark.parametrize(("checker", "name"), by_both(HORSESHOES))
-def test_margins_that_are_not_positive_and_finite_are_refused(checker, name):
-    text = THEOREMS[name].text()
-    for margin in ("-1.0", "nan", "inf", "-inf"):
-        rows = [[margin, margin] for _ in numbers(text, "margins")]
-        assert "margin" in refused(name, with_rows(text, "margins", rows), checker)
+@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize(("margin", "reason"), [
+    ("-1.0", "below 0"), ("nan", "margins"), ("inf", "margins"), ("0.9", "by less than is stated"),
+])  # fmt: skip
+def test_stated_margins_that_no_covering_has_are_refused(checker, margin, reason):
+    text = THEOREMS["horseshoe-outer"].text()
+    rows = [[margin, margin] for _ in numbers(text, "margins")]
+    assert reason in refused("horseshoe-outer", with_rows(text, "margins", rows), checker)
+
+
+def test_margins_that_are_not_positive_and_finite_prove_nothing():
     for margin in (-0.004, 0.0, float("nan"), float("inf")):
         with pytest.raises(NotProvedError, match="the margin room"):
             Finding({}, {"beyond": 1.0, "room": margin})
@@ -508,11 +477,12 @@ def stays_true(checker, field, name, text):
 
 
 @pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
-@pytest.mark.parametrize("quarters", [[0], *slowly([1, 2, 3])])
-def test_no_leading_digit_may_change(checker, name, quarters):
+@pytest.mark.parametrize("eighths", [[0], *slowly([*range(1, 8)])])
+def test_no_leading_digit_may_change(checker, name, eighths):
+    """Of the eight other values of a digit, the default suite tries one."""
     changes = some_leading_digits(THEOREMS[name].text())
     assert changes
-    for field, number, text in (change for first in quarters for change in changes[first::4]):
+    for field, number, text in (change for first in eighths for change in changes[first::8]):
         if not stays_true(checker, field, name, text):
             assert refused(name, text, checker), number
 
@@ -533,6 +503,18 @@ def test_a_set_contains_what_is_proved_to_be_inside():
     assert not one.contains(arb(1.3), arb(1.7))
     assert not one.contains(arb(1.6), arb(2.6))
     assert not one.contains(arb(1.4, 0.2), arb(2.4, 0.2))
+
+
+def test_sets_are_disjoint_if_a_side_of_one_separates_them():
+    one = HSet("S", (arb(0), arb(0)), (arb(1), arb(1)), (arb(-1), arb(1)))
+    for x, y, apart in ((1.5, 1.5, True), (1.1, 1.1, False), (2.6, 0, True), (2.4, 0, False)):
+        other = HSet("T", (arb(x), arb(y)), (arb(0.5), arb(0)), (arb(0), arb(0.3)))
+        assert one.is_disjoint(other) == other.is_disjoint(one) == apart
+
+
+def test_a_horseshoe_whose_middle_set_may_meet_another_is_refused(monkeypatch):
+    monkeypatch.setattr(HSet, "is_disjoint", lambda *_: False)
+    assert "M_0 is not proved to be disjoint" in refused("horseshoe-outer")
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from certificates import numbers
 from flint import ctx
+from project import shipped
 from sections import BALL
 from slowly import slowly
 from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
-from extensions.proofs.theorems import impacts, scenes
+from extensions.proofs.proved_impacts import Impacts, _impacts_behind, of_orbits, prove_impacts
+from extensions.proofs.theorems import scenes
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
@@ -103,32 +105,37 @@ def test_a_horseshoe_that_is_not_found_is_refused_in_one_line():
 
 def orbit_impacts(starts, impacts_each):
     orbits = scene_orbits(BALL, 0.01, starts, impacts_each)
-    return impacts.of_orbits(BALL, 0.01, orbits, orbits["start"].values)
+    return of_orbits(BALL, 0.01, orbits, orbits["start"].values)
 
 
-def test_impacts_are_proved_and_errors_small(six):
-    states, told = orbit_impacts([0.534522, -0.44], [400, 200]), []
-    result = impacts.prove_impacts("1/5", "1/25", *states, progress=told.append)
+def test_impacts_are_proved_and_errors_small():
+    impacts, told = orbit_impacts([0.534522, -0.44], [400, 200]), []
+    result = prove_impacts("1/5", "1/25", impacts, progress=told.append)
     assert told == [*range(600)]
     assert result.verdict == "proved"
     assert 0 < result.margins["worst error"] < 1e-12
     assert "600 impacts" in result.line()
-    orbit = of_type(six, "elliptic")
-    for states in (impacts.of_periodic(orbit), impacts.of_states(BALL, states_of(orbit))):
-        assert impacts.prove_impacts("1/5", "1/25", *states).verdict == "proved"
+
+
+@pytest.mark.parametrize("scene", ["fig4", "fig6", "fig7"])
+def test_impacts_of_each_stage_are_proved(scene, six):
+    document = shipped()
+    data = {"periodic": six, "manifolds": six.isel(orbit=0)}
+    for _, some in _impacts_behind(
+        document["scenes"][scene] | {"ball": document["ball"]}, data.get, 6
+    ):
+        assert prove_impacts("1/5", "1/25", some).verdict == "proved"
 
 
 def test_no_impacts_a_missed_one_and_a_wrong_time_are_noticed():
-    none = np.empty((3, 0))
-    assert impacts.prove_impacts("1/5", "1/25", none, none, np.empty(0)).verdict == "not proved"
-    before, after, tau = orbit_impacts([0.534522], [60])
-    skipped = np.delete(before, 31, axis=1), np.delete(after, 30, axis=1), np.delete(tau, 30)
-    result = impacts.prove_impacts("1/5", "1/25", *skipped)
-    assert result.verdict == "not proved"
-    assert "impact 30 is off by" in result.reason
+    none = Impacts(np.empty((3, 0)), np.empty((3, 0)), np.empty(0))
+    assert prove_impacts("1/5", "1/25", none).verdict == "not proved"
+    impacts = orbit_impacts([0.534522], [60])
+    before, after, tau = impacts
+    skipped = Impacts(np.delete(before, 31, 1), np.delete(after, 30, 1), np.delete(tau, 30))
+    assert "impact 30 is off by" in prove_impacts("1/5", "1/25", skipped).reason
     tau[7] += 1e-5
-    result = impacts.prove_impacts("1/5", "1/25", before, after, tau)
-    assert "impact 7 is off by 1e-05" in result.reason
+    assert "impact 7 is off by 1e-05" in prove_impacts("1/5", "1/25", impacts).reason
 
 
 # ---- data of the pictures

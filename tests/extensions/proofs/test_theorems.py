@@ -212,7 +212,9 @@ def test_the_length_of_the_jump_set_is_one_lower_bound_everywhere(results):
     ]
     assert all(bound in text for text in (theorem.statement, *documents))
     with ctx.workprec(jump.BITS):
-        few, many = (jump._polygon(theorem.bounds["surface"], count) for count in (400, 1600))
+        few, many = (
+            jump._polygon_length(theorem.bounds["surface"], count) for count in (400, 1600)
+        )
         assert arb(bound) < few < many < arb("0.404858179457")  # computed: CLAIMS.md
 
 

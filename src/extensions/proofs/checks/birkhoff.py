@@ -17,10 +17,10 @@ from operator import mul
 
 from flint import acb, arb
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface
 
-from .certificate import NotProvedError
 from .periodic import Orbit
 
 I = acb(0, 1)  # noqa: E741
@@ -93,7 +93,7 @@ def _normalised(multiplier: acb, map_: Jet, order: int, resonance: int) -> Jet:
     normal = change * multiplier
     inverse = multiplier.conjugate()
 
-    def with_conjugate(jet):
+    def with_conjugate(jet: Jet) -> tuple[Jet, Jet]:
         return jet, Jet(jet.algebra, [jet[j, i].conjugate() for i, j in jet.algebra.monomials])
 
     for degree in range(2, order + 1):
@@ -112,7 +112,7 @@ def _normalised(multiplier: acb, map_: Jet, order: int, resonance: int) -> Jet:
 def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
     """Return tau_1, tau_2, ..."""
     normal = _normalised(multiplier, map_, order, order + 2)
-    twists = []
+    twists: list[arb] = []
     for n in range(1, (order + 1) // 2):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
         term = normal[n + 1, n] * multiplier.conjugate()
         drift = term.real if n == 1 else term.real + twists[0] ** 2 / 8

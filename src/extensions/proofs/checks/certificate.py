@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
+from typing import Any
 
 from flint import arb
 
@@ -12,6 +13,8 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of, exact
 
 Ball = tuple[Fraction, Fraction]  # k and g
+Range = tuple[Fraction, Fraction]  # lower and upper limit
+Window = tuple[Range, Range]  # of x and of xdot
 MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
 
 
@@ -19,23 +22,24 @@ MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's num
 class Finding:
     """The result of a checker: enclosures, margins, and proved objects that later steps use.
 
-    A margin is by how much an inequality holds; NotProvedError is raised for one that is not
+    A margin says by how much an inequality holds. Raises NotProvedError for a margin that is not
     positive and finite.
     """
 
     digits: dict[str, arb] = field(default_factory=dict)
     margins: dict[str, float] = field(default_factory=dict)
-    parts: dict = field(default_factory=dict)
+    parts: dict[str, Any] = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, margin in self.margins.items():
             if not 0 < margin < inf:
                 raise NotProvedError(f"the margin {name} is {margin:g}, not positive and finite")
 
 
 class Certificate:
-    """The fields of a certificate, a TOML text, of the required kind, and Surface or k and g.
+    """The fields of a certificate, a TOML text, which must have the given kind.
 
+    It must also have the constants of the Surface, or the k and g of the ball, if these are given.
     Every method raises NotProvedError for a field that is missing, misshapen or not as expected.
     """
 
@@ -54,14 +58,14 @@ class Certificate:
             raise NotProvedError(f"the certificate is of {its}, the statement of {surface}")
 
     def surface(self, ball: Ball) -> Surface:
-        """Return the Surface, at any energy, that the certificate is for; its ball is given."""
+        """Return the Surface of the ball at the certificate's energy."""
         self._check_ball(ball)
         try:
             return Surface(*ball, self.number("energy", str))
         except ValueError as error:
             raise NotProvedError(f"the certificate's {error}") from None
 
-    def _check_ball(self, ball):
+    def _check_ball(self, ball: Ball) -> None:
         if not (0 < ball[0] <= 1 and ball[1] > 0):
             raise NotProvedError("no ball has these k and g: 0 < k <= 1 and g > 0")
         for name, value in zip("kg", ball, strict=True):
@@ -107,19 +111,19 @@ class Certificate:
         """Return one row of `width` numbers."""
         return self._row(name, self._take(name, list), width)
 
-    def _row(self, name, row, width):
+    def _row(self, name: str, row: Any, width: int) -> list[Fraction]:
         if not isinstance(row, list) or len(row) != width:
             raise NotProvedError(f"the certificate's {name} is no row of {width} numbers")
         return [self._exact(name, value) for value in row]
 
-    def _take(self, name, kind):
+    def _take(self, name: str, kind: type) -> Any:
         value = self._fields.get(name)
         if value is None or kind not in (object, type(value)):
             raise NotProvedError(f"the certificate's {name} is missing or of another form")
         return value
 
     @staticmethod
-    def _exact(name, value):
+    def _exact(name: str, value: Any) -> Fraction:
         try:
             number = exact(name, value)
         except ValueError as error:
@@ -165,7 +169,7 @@ def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
     return [arb(ball_of(c).mid(), (half + ball_of(c).rad()).upper()) for c in centre]
 
 
-def lowest(value: arb) -> float:
+def lower_bound(value: arb) -> float:
     """Return a lower bound of a ball, rounded down."""
     low = float(value.lower())
     return low if arb(low) <= value.lower() else float(arb(low) - abs(low) * 2.0**-52)

@@ -9,7 +9,7 @@ from math import factorial
 
 from flint import acb, arb
 
-from .certificate import NotProvedError
+from study.enclosure.flight import NotProvedError
 
 ORDER = 5  # of the Taylor polynomials in a cell
 MOST_DIVISORS = 10_000  # of a rotation number, before its partial quotients are ones
@@ -88,8 +88,8 @@ class Cells:
     ):
         height, half = arb(height), arb(half)
         wide = arb(1) / (2 * count) if wide is None else wide
-        self.real = bool(height == 0 and half == 0)
-        self.box = acb(arb(0, wide.upper()), arb(0) if self.real else arb(0, half.upper()))
+        real = bool(height == 0 and half == 0)
+        self.box = acb(arb(0, wide.upper()), arb(0) if real else arb(0, half.upper()))
         reach = (wide * wide + half * half).sqrt()
         terms, self._columns = waves, []
         for order in range(ORDER + 1):
@@ -100,16 +100,15 @@ class Cells:
         for q, c in enumerate(terms):
             size += 2 * abs(c) * (2 * q * arb.pi() * (abs(height) + half)).exp()
         rest = (size * reach ** (ORDER + 1) / factorial(ORDER + 1)).upper()
-        self.rest = acb(arb(0, rest), arb(0) if self.real else arb(0, rest))
+        self.rest = acb(arb(0, rest), arb(0) if real else arb(0, rest))
 
     def taylor(self, j: int) -> list[acb]:
         """Return the Taylor coefficients around the centre of cell j, without the remainder."""
         return [column[j] for column in self._columns]
 
-    def __getitem__(self, j: int) -> acb | arb:
+    def __getitem__(self, j: int) -> acb:
         """Enclose the polynomial on cell j."""
-        value = evaluate(self.taylor(j), self.box) + self.rest
-        return value.real if self.real else value
+        return evaluate(self.taylor(j), self.box) + self.rest
 
 
 def evaluate(coefficients: list[acb], at: acb) -> acb:

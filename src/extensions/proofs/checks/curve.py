@@ -5,36 +5,40 @@ used here. For an orbit of period n the curves K_0 ... K_(n-1) around its points
 T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from flint import acb, arb, ctx
 
-from study.enclosure.flight import UndecidedError
+from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
 from ..enclosure import complex_flight
 from . import periodic
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, Range, Window, lower_bound
 from .circle import Cells, derivative, evaluate, noble, real_values, rotated, transform, values
-from .periodic import Window
+from .periodic import Point
 
 BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
 CELL_BITS = 80
 NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
 MOST_CELLS, MOST_MODES = 4096, 4096
-_FINER = 4  # cells of the strip's edge, and points for the twist's mean, for each column
-_SHRUNK = Fraction(1, 1000)  # relative distance of the polygon from the curve
-_DEPTH = 14  # of the subdivision of the disc inside
-_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
+_EDGE_CELLS_PER_COLUMN = (
+    4  # cells of the strip's edge, and points for the twist's mean, for each column
+)
+_POLYGON_INSET = Fraction(1, 1000)  # relative distance of the polygon from the curve
+_MOST_HALVINGS = 14  # of the subdivision of the disc inside
+_DISC_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
 _COLUMNS_OF_PIECE = 8  # of the first pieces of the disc, around the curve
 
 Curve = tuple[list[acb], list[acb]]  # Fourier coefficients of x and of y
-Point = tuple[arb, arb]
+Centred = tuple[Curve, Point]  # a curve and the centre that it goes around
+ComplexPoint = tuple[acb, acb]
+Number = TypeVar("Number", arb, acb)
 
 
 class Bounds(NamedTuple):
@@ -49,6 +53,18 @@ class Bounds(NamedTuple):
     image: arb  # of |P(K)| and |K| on the wide strip
 
 
+class EdgeBounds(NamedTuple):
+    """The bounds over one cell of the strip's edge."""
+
+    tangent: arb
+    normal: arb
+    twist: arb
+    first: arb
+    second: arb
+    length: arb  # of |K - c|
+    area: arb  # a lower bound of |det(K - c, L)|
+
+
 class Plan(NamedTuple):
     """Numbers of a certificate: the strips, the cells and rows, and what each step loses."""
 
@@ -61,6 +77,26 @@ class Plan(NamedTuple):
     all_rows: int
 
 
+class Claim(NamedTuple):
+    """What a certificate says of its curve."""
+
+    centres: list[Point]
+    omega: arb
+    divisors: arb  # the sum of `circle.noble`
+    error: arb
+    share: arb
+    plan: Plan
+    curve: Curve
+
+
+class Cell(NamedTuple):
+    """Enclosures over one cell of the strip, for all curves near K."""
+
+    point: ComplexPoint
+    slope: ComplexPoint
+    root: acb  # the flight time
+
+
 def check(
     text: str,
     surface: Surface,
@@ -70,7 +106,7 @@ def check(
     share: Fraction,
     error: Fraction,
     window: Window | None = None,
-    rotation: tuple[Fraction, Fraction] | None = None,
+    rotation: Range | None = None,
 ) -> Finding:
     """Prove a certificate's invariant curve around the first point of an elliptic orbit.
 
@@ -86,52 +122,77 @@ def check(
             certificate, surface, period=period, type="elliptic", radius=radius, window=window
         )
     with ctx.workprec(BITS):
-        centres = [tuple(map(ball_of, row)) for row in certificate.numbers("points", 2)]
-        omega, divisors = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
-        if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
-            raise NotProvedError("the rotation number is not in the statement's interval")
-        stated_error, stated_share = certificate.number("error"), certificate.number("share")
-        if not 0 < stated_error <= error:
-            raise NotProvedError(f"the error is not stated to be below {float(error):g}")
-        if not stated_share >= share:
-            raise NotProvedError(f"the share is stated as {float(stated_share):g}, less than "
-                                 f"{float(share):g}")  # fmt: skip
-        plan = _plan(certificate)
-        first = _first_curve(certificate)
-        with ctx.workprec(64):  # beyond it coefficients are far below the error in the strip
-            digits = 10 - float(ball_of(stated_error).log())
-            most = max(len(first[0]), int(digits / float(2 * arb.pi() * (plan.wide - plan.strip))))
-        count = 1 << (2 * most + 2).bit_length()
-        curves, errors = _curves(surface, first, period, omega, count)
-        with ctx.workprec(CELL_BITS):
-            bounds = _bounds(surface, curves, centres, omega, plan)
-        size = _size_of_error(errors, most, count, bounds.image, plan)
-        if not size < ball_of(stated_error):
-            raise NotProvedError(
-                f"the curve's error is not proved to be below {float(stated_error):g}: "
-                f"its bound is {float(size.upper()):.3g}"
-            )
+        claim = _read(certificate, share, error, rotation)
+        curves, bounds = _prove_error(surface, claim, period)
         margins, distance, slope = _theorem(
-            ball_of(stated_error), bounds, divisors, period, plan.loss
+            claim.error, bounds, claim.divisors, period, claim.plan.loss
         )
-        area = _area(first)
-        area = arb(area.mid(), area.rad() + (distance * (2 * bounds.tangent + slope)).upper())
+        area = _inflated(_area(claim.curve), distance * (2 * bounds.tangent + slope))
         part = area / surface.area()
-        if not part > ball_of(stated_share):
+        if not part > claim.share:
             raise NotProvedError(
-                f"the curve is not proved to enclose {float(stated_share):g} of the section"
+                f"the curve is not proved to enclose {float(claim.share):g} of the section"
             )
     with ctx.workprec(CELL_BITS):
-        polygons = []
-        for curve, centre in zip(curves, centres, strict=True):
-            _check_winding(curve, centre, plan.columns)
-            polygons.append(_polygon(curve, centre, plan.columns))
-        all_boxes = [_real_cells(curve, plan.columns) for curve in curves]
-        _check_disjoint(all_boxes)
-        for boxes, centre in zip(all_boxes, centres, strict=True):
-            _check_disc(surface, boxes, centre)
-    digits = {"rotation number": omega, "area": area, "share": part, "distance": distance.upper()}
-    return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": first})
+        polygons = _prove_discs(surface, curves, claim.centres, claim.plan.columns)
+    digits = {
+        "rotation number": claim.omega, "area": area, "share": part, "distance": distance.upper(),
+    }  # fmt: skip
+    return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": claim.curve})
+
+
+def _read(
+    certificate: Certificate, share: Fraction, error: Fraction, rotation: Range | None
+) -> Claim:
+    """Return what a certificate says, which must be as much as the statement needs."""
+    centres = [(ball_of(x), ball_of(y)) for x, y in certificate.numbers("points", 2)]
+    omega, divisors = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
+    if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
+        raise NotProvedError("the rotation number is not in the statement's interval")
+    stated_error, stated_share = certificate.number("error"), certificate.number("share")
+    if not 0 < stated_error <= error:
+        raise NotProvedError(f"the error is not stated to be below {float(error):g}")
+    if not stated_share >= share:
+        raise NotProvedError(
+            f"the share is stated as {float(stated_share):g}, less than {float(share):g}"
+        )
+    sizes = ball_of(stated_error), ball_of(stated_share)
+    return Claim(centres, omega, divisors, *sizes, _plan(certificate), _first_curve(certificate))
+
+
+def _prove_error(surface: Surface, claim: Claim, period: int) -> tuple[list[Curve], Bounds]:
+    """Prove that the curve's error is the stated one, and return all curves and the bounds."""
+    plan, modes = claim.plan, len(claim.curve[0])
+    with ctx.workprec(64):  # beyond `most` coefficients are far below the error in the strip
+        digits = 10 - float(claim.error.log())
+        most = max(modes, int(digits / float(2 * arb.pi() * (plan.wide - plan.strip))))
+    count = 1 << (2 * most + 2).bit_length()
+    curves, errors = _curves(surface, claim.curve, period, claim.omega, count)
+    with ctx.workprec(CELL_BITS):
+        bounds = _bounds(surface, curves, claim)
+    size = _size_of_error(errors, most, count, bounds.image, plan)
+    if not size < claim.error:
+        raise NotProvedError(
+            f"the curve's error is not proved to be below {float(claim.error):g}: "
+            f"its bound is {float(size.upper()):.3g}"
+        )
+    return curves, bounds
+
+
+def _prove_discs(
+    surface: Surface, curves: list[Curve], centres: list[Point], columns: int
+) -> list[list[list[float]]]:
+    """Prove that P is analytic on the disc inside each curve, and return polygons inside them.
+
+    The discs must be disjoint, and each curve turn once around its centre.
+    """
+    polygons, all_boxes = [], [_real_cells(curve, columns) for curve in curves]
+    for curve, boxes, centre in zip(curves, all_boxes, centres, strict=True):
+        _check_winding(curve, boxes, centre)
+        polygons.append(_polygon(curve, centre, columns))
+        _check_disc(surface, boxes, centre)
+    _check_disjoint(all_boxes)
+    return polygons
 
 
 def _plan(certificate: Certificate) -> Plan:
@@ -162,10 +223,13 @@ def _first_curve(certificate: Certificate) -> Curve:
 
 def _points(curve: Curve, count: int, offset: arb | int = 0) -> list[Point]:
     """Return the real points of a curve at t = (j + offset)/count."""
-    return list(zip(*(real_values(row, count, offset) for row in curve), strict=True))
+    x, y = (real_values(row, count, offset) for row in curve)
+    return list(zip(x, y, strict=True))
 
 
-def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int):
+def _curves(
+    surface: Surface, first: Curve, period: int, omega: arb, count: int
+) -> tuple[list[Curve], list[list[acb]]]:
     """Return all curves, and the discrete Fourier coefficients of P(K_i) - K_(i+1).
 
     K_i for i > 0 are the midpoints of truncated series of the images, taken as exact.
@@ -174,11 +238,11 @@ def _curves(surface: Surface, first: Curve, period: int, omega: arb, count: int)
     curves, errors = [first], []
     for i in range(period):
         images = [surface.impact(*point)[:2] for point in _points(curves[i], count)]
-        waves = [transform(row, count // 2) for row in zip(*images, strict=True)]
+        waves = [transform(list(row), count // 2) for row in zip(*images, strict=True)]
         if i + 1 < period:
-            target = tuple([c.mid() for c in row[: modes + 1]] for row in waves)
-            for row in target:
-                row[0] = acb(row[0].real)  # the mean is real
+            x, y = ([c.mid() for c in row[: modes + 1]] for row in waves)
+            x[0], y[0] = acb(x[0].real), acb(y[0].real)  # the means are real
+            target = x, y
             curves.append(target)
         else:
             target = _turned(first, omega)
@@ -209,10 +273,12 @@ def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, p
             bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
             total += bound if q == 0 else 2 * bound
         sizes.append(total.upper())
-    return _most(sizes)
+    return _largest(sizes)
 
 
-def _theorem(error: arb, b: Bounds, divisors: arb, period: int, d: arb) -> tuple[dict, arb, arb]:
+def _theorem(
+    error: arb, b: Bounds, divisors: arb, period: int, d: arb
+) -> tuple[dict[str, float], arb, arb]:
     """Check the theorem's inequalities; returns margins, the curve's distance and its slope's.
 
     `divisors` is the sum of `circle.noble`.
@@ -235,134 +301,151 @@ def _theorem(error: arb, b: Bounds, divisors: arb, period: int, d: arb) -> tuple
             raise NotProvedError(f"{name}: {float(value.upper()):.3g} is not below {float(most):g}")
     margins = {"contraction": 1 / (2 * contraction), "distance": NEAR / distance}
     margins |= {"torsion": b.torsion}
-    return {name: lowest(value) for name, value in margins.items()}, distance, slope
+    return {name: lower_bound(value) for name, value in margins.items()}, distance, slope
 
 
-def _bounds(surface: Surface, curves: list, centres: list, omega: arb, plan: Plan) -> Bounds:
+def _bounds(surface: Surface, curves: list[Curve], claim: Claim) -> Bounds:
     """Compute the constants of the theorem.
 
     P is analytic, and det(K - c, K') not zero, over the cells of the strip. So by the maximum
     principle the bounds over its edge, in finer cells, hold in all of it.
     """
-    circle = [*zip(curves, centres, strict=True), (_turned(curves[0], omega), centres[0])]
-    image, edge = [], []
+    centres, plan = claim.centres, claim.plan
+    circle = [*zip(curves, centres, strict=True), (_turned(curves[0], claim.omega), centres[0])]
+    wide: list[acb] = []  # x and y over the upper edge of the wide strip, and their images
+    edge: list[EdgeBounds] = []
     for here, there in pairwise(circle):
         for box in _real_cells(here[0], plan.columns):
             surface.impact(*box)  # raises an error where a flight has no first root
-        middles = _points(here[0], plan.columns, arb(0.5))
-        known = [tuple(map(acb, (*point, surface.impact(*point).tau))) for point in middles]
-        for row in range(plan.all_rows):
-            cells = []
-            for x, y, slopes, root in _row_of_cells(surface, here[0], plan, row, known):
-                cells.append((x, y, root))
-                if row < plan.rows:
-                    _normal((x, y), slopes, here[1])
-                if row == plan.all_rows - 1:
-                    image += [x, y, *surface.impact(x, y, root)[:2]]
-            if row == plan.rows - 1:
-                edge += _over_edge(surface, here, there, plan, cells)
-    tangent, normal, twist, first, second, length, areas = zip(*edge, strict=True)
-    sizes = [_most(row) for row in (tangent, normal, first, second)]
-    twist, image = _most(twist), _most(a.abs_upper() for a in image)
-    count = _FINER * plan.columns
+        below, top = _over_strip(surface, here, plan)
+        edge += _over_edge(surface, here, there, plan, below)
+        for cell in top:
+            wide += [*cell.point, *surface.impact(*cell.point, cell.root)[:2]]
+    *sizes, areas = zip(*edge, strict=True)
+    tangent, normal, twist, first, second, length = map(_largest, sizes)
+    count = _EDGE_CELLS_PER_COLUMN * plan.columns
     ratio = (-2 * arb.pi() * plan.strip * count).exp()
-    change = _change_of_twist(sizes, _most(length), reduce(arb.min, areas))
-    torsion = abs(_torsion(surface, circle, count))
-    torsion = (torsion - 2 * twist * ratio / (1 - ratio) - change).lower()
+    aliasing = 2 * twist * ratio / (1 - ratio)  # of the mean over `count` points
+    change = _change_of_twist(tangent, normal, first, second, length, reduce(arb.min, areas))
+    torsion = (abs(_torsion(surface, circle, count)) - aliasing - change).lower()
     if not torsion > 0:
         raise NotProvedError("the twist's mean along the curve may be zero")
-    return Bounds(sizes[0], sizes[1], twist, torsion, sizes[2], sizes[3], image)
+    image = _largest(a.abs_upper() for a in wide)
+    return Bounds(tangent, normal, twist, torsion, first, second, image)
 
 
-def _over_edge(surface: Surface, here, there, plan: Plan, cells: list) -> list[tuple]:
-    """Bound |L|, |N|, |T|, |DP|, |D^2 P|, |K - c| above and |det(K - c, L)| below, per cell.
+def _over_strip(surface: Surface, here: Centred, plan: Plan) -> tuple[list[Cell], list[Cell]]:
+    """Return the cells below the strip's edge and those below the wide strip's.
 
-    The cells are those of the strip's edge, for all curves near K. `here` and `there` are a curve
-    and the one that its image is close to, each with its centre, and `cells` the x, y and flight
-    time over the cells below the edge.
+    Flight times are continued from the real axis, row by row.
     """
-    count, bounds = _FINER * plan.columns, []
-    points, slopes = _edge_cells(here[0], count, plan)
-    images, image_slopes = _edge_cells(there[0], count, plan)
-    middles = list(zip(*(values(row, count, arb(0.5), plan.strip) for row in here[0]), strict=True))
-    for j in range(count):
-        (x, y), (below_x, below_y, below) = points[j], cells[j // _FINER]
-        _check_inside(middles[j], (x, y), (below_x, below_y))
-        known = complex_flight.point_root(surface.flight(*middles[j]), below)
-        root = complex_flight.unique_root(surface, x, y, known)
-        jets = surface.impact(*Jet.plane(2, x, y), root)[:2]
-        sizes = [[c.abs_upper() for c in jet.coefficients] for jet in jets]
-        normal, length, area = _normal((x, y), slopes[j], here[1])
+    curve, centre = here
+    known = []
+    for x, y in _points(curve, plan.columns, arb(0.5)):
+        known.append((acb(x), acb(y), acb(surface.impact(x, y).tau)))
+    for row in range(plan.all_rows):
+        cells = _row_of_cells(surface, curve, plan, row, known)
+        if row < plan.rows:
+            below = cells
+            for cell in cells:
+                _normal(cell.point, cell.slope, centre)  # raises an error where it may have a pole
+    return below, cells
+
+
+def _over_edge(
+    surface: Surface, here: Centred, there: Centred, plan: Plan, below: list[Cell]
+) -> list[EdgeBounds]:
+    """Return bounds over each cell of the strip's edge, for all curves near K.
+
+    `here` is a curve and `there` the one that its image is close to; `below` are the cells below
+    the edge.
+    """
+    count, bounds = _EDGE_CELLS_PER_COLUMN * plan.columns, []
+    points, slopes = _inflated_cells(here[0], count, plan.strip)
+    images, image_slopes = _inflated_cells(there[0], count, plan.strip)
+    x_middles, y_middles = (values(row, count, arb(0.5), plan.strip) for row in here[0])
+    for j, middle in enumerate(zip(x_middles, y_middles, strict=True)):
+        cell = below[j // _EDGE_CELLS_PER_COLUMN]
+        _check_inside(middle, points[j], cell.point)
+        known = complex_flight.point_root(surface.flight(*middle), cell.root)
+        root = complex_flight.unique_root(surface, *points[j], known)
+        x, y = Jet.plane(2, *points[j])
+        right, up, *_ = surface.impact(x, y, root)
+        sizes = [[c.abs_upper() for c in jet.coefficients] for jet in (right, up)]
+        normal, length, area = _normal(points[j], slopes[j], here[1])
         after, *_ = _normal(images[j], image_slopes[j], there[1])
-        right, up = (jet[1, 0] * normal[0] + jet[0, 1] * normal[1] for jet in jets)
-        bounds.append((
-            _most(a.abs_upper() for a in slopes[j]), _most(a.abs_upper() for a in normal),
-            (right * after[1] - up * after[0]).abs_upper(),
-            _most(a + b for _, a, b, *_ in sizes), _most(2 * (a + b + c) for *_, a, b, c in sizes),
-            length, area,
+        along, across = (jet[1, 0] * normal[0] + jet[0, 1] * normal[1] for jet in (right, up))
+        bounds.append(EdgeBounds(
+            tangent=_largest(a.abs_upper() for a in slopes[j]),
+            normal=_largest(a.abs_upper() for a in normal),
+            twist=(along * after[1] - across * after[0]).abs_upper(),
+            first=_largest(a + b for _, a, b, *_ in sizes),
+            second=_largest(2 * (a + b + c) for *_, a, b, c in sizes),
+            length=length,
+            area=area,
         ))  # fmt: skip
     return bounds
 
 
-def _edge_cells(curve: Curve, count: int, plan: Plan) -> tuple[list, list]:
-    """Return (x, y) and (x', y') over the cells of the strip's edge, for all curves near K."""
-    points, slopes = (
-        [Cells(row, count, plan.strip) for row in rows]
-        for rows in (curve, tuple(map(derivative, curve)))
-    )
-    return tuple(
-        [[_inflated(cell[j], by) for cell in cells] for j in range(count)]
-        for cells, by in ((points, NEAR), (slopes, NEAR_SLOPE))
-    )
+def _inflated_cells(
+    curve: Curve, count: int, height: arb, half: arb | int = 0
+) -> tuple[list[ComplexPoint], list[ComplexPoint]]:
+    """Return (x, y) and (x', y') over the cells of a row of the strip, for all curves near K."""
+
+    def over_cells(curve: Curve, radius: arb) -> list[ComplexPoint]:
+        x, y = (Cells(row, count, height, half) for row in curve)
+        return [(_inflated(x[j], radius), _inflated(y[j], radius)) for j in range(count)]
+
+    return over_cells(curve, NEAR), over_cells(_slope_of(curve), NEAR_SLOPE)
 
 
-def _normal(point, slope, centre: Point) -> tuple[Point, arb, arb]:
+def _normal(
+    point: tuple[Number, Number], slope: tuple[Number, Number], centre: Point
+) -> tuple[tuple[Number, Number], arb, arb]:
     """Return N = -(K - c)/det(K - c, K'), and bounds of |K - c| above and of the det. below."""
-    x, y = _minus(point, centre)
+    x, y = point[0] - centre[0], point[1] - centre[1]
     area = x * slope[1] - y * slope[0]
     if not area.abs_lower() > 0:
         raise NotProvedError("K - c and K' may be parallel in the strip")
-    return (-x / area, -y / area), _most([x.abs_upper(), y.abs_upper()]), area.abs_lower()
+    return (-x / area, -y / area), _largest([x.abs_upper(), y.abs_upper()]), area.abs_lower()
 
 
-def _change_of_twist(sizes: list[arb], length: arb, area: arb) -> arb:
-    """Bound the difference of T between K and the curves near it.
-
-    `length` bounds |K - c| from above and `area` |det(K - c, K')| from below, for all of them.
-    """
-    tangent, normal, first, second = sizes
+def _change_of_twist(
+    tangent: arb, normal: arb, first: arb, second: arb, length: arb, area: arb
+) -> arb:
+    """Bound the difference of T between K and the curves near it, by the bounds over the edge."""
     of_area = 2 * (NEAR * tangent + length * NEAR_SLOPE)
     of_normal = (NEAR + normal * of_area) / area
     return 2 * normal * (second * NEAR * normal + 2 * first * of_normal)
 
 
-def _real_cells(curve: Curve, columns: int) -> list[list[arb]]:
+def _real_cells(curve: Curve, columns: int) -> list[Point]:
     """Return boxes (x, y) around all curves near K, over the cells of the real circle."""
-    rows = [Cells(row, columns) for row in curve]
-    return [[_inflated(row[j], NEAR) for row in rows] for j in range(columns)]
+    x, y = (Cells(row, columns) for row in curve)
+    return [(_inflated(x[j].real, NEAR), _inflated(y[j].real, NEAR)) for j in range(columns)]
 
 
 def _row_of_cells(
-    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[tuple]
-) -> Iterator[tuple]:
-    """Yield x, y, (x', y') and the flight time of each cell of a row, for all curves near K.
+    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[tuple[acb, acb, acb]]
+) -> list[Cell]:
+    """Return the cells of a row of the strip.
 
     `known` has the x and y of a point on the lower edge of each cell and its flight time, and is
     replaced by those of a point on the upper edge. Both must be points of the cell.
     """
     half = plan.height / 2
     middle, top = plan.height * row + half, plan.height * (row + 1)
-    cells = [Cells(waves, plan.columns, middle, half) for waves in curve]
-    slopes = [Cells(derivative(waves), plan.columns, middle, half) for waves in curve]
-    edge = [values(waves, plan.columns, arb(0.5), top) for waves in curve]
-    for j in range(plan.columns):
-        x, y = (_inflated(cell[j], NEAR) for cell in cells)
-        below, above = known[j], (edge[0][j], edge[1][j])
-        _check_inside(below[:2], (x, y))
-        _check_inside(above, (x, y))
-        root = complex_flight.unique_root(surface, x, y, below[2])
+    points, slopes = _inflated_cells(curve, plan.columns, middle, half)
+    x_above, y_above = (values(waves, plan.columns, arb(0.5), top) for waves in curve)
+    cells = []
+    for j, above in enumerate(zip(x_above, y_above, strict=True)):
+        *below, time = known[j]
+        _check_inside(below, points[j])
+        _check_inside(above, points[j])
+        root = complex_flight.unique_root(surface, *points[j], time)
         known[j] = *above, complex_flight.point_root(surface.flight(*above), root)
-        yield x, y, [_inflated(slope[j], NEAR_SLOPE) for slope in slopes], root
+        cells.append(Cell(points[j], slopes[j], root))
+    return cells
 
 
 def _check_inside(point: Sequence[acb], *boxes: Sequence[acb]) -> None:
@@ -377,12 +460,18 @@ def _turned(curve: Curve, omega: arb) -> Curve:
     return x, y
 
 
-def _torsion(surface: Surface, circle: list, count: int) -> arb:
+def _slope_of(curve: Curve) -> Curve:
+    """Return the curve's derivative K'."""
+    x, y = map(derivative, curve)
+    return x, y
+
+
+def _torsion(surface: Surface, circle: list[Centred], count: int) -> arb:
     """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points.
 
     The circle has the curves with their centres, and the first one turned.
     """
-    normals, total = [_normals(*pair, count) for pair in circle], arb(0)
+    normals, total = [_normals(*centred, count) for centred in circle], arb(0)
     for (curve, _), here, there in zip(circle, normals, normals[1:], strict=False):
         for point, n, m in zip(_points(curve, count), here, there, strict=True):
             (a, b), (c, d) = surface.jacobian(*point)[0]
@@ -392,24 +481,23 @@ def _torsion(surface: Surface, circle: list, count: int) -> arb:
 
 def _normals(curve: Curve, centre: Point, count: int) -> list[Point]:
     """Enclose N at equidistant real points."""
-    slopes = _points(tuple(map(derivative, curve)), count)
-    pairs = zip(_points(curve, count), slopes, strict=True)
-    return [_normal(*pair, centre)[0] for pair in pairs]
+    pairs = zip(_points(curve, count), _points(_slope_of(curve), count), strict=True)
+    return [_normal(point, slope, centre)[0] for point, slope in pairs]
 
 
-def _check_winding(curve: Curve, centre: Point, columns: int) -> None:
+def _check_winding(curve: Curve, cells: list[Point], centre: Point) -> None:
     """Check that every curve near K turns once, clockwise, around the centre and the orbit's point.
 
     The point is within periodic.CLOSE of the centre. det(K - c, K') is not zero (`_bounds`), so the
     curve turns one way. K - c stays, over each cell, within a right angle of its values at the
     middles of this cell and the one before, so that arguments from middle to middle are principal.
     """
-    centre = tuple(_inflated(value, ball_of(periodic.CLOSE)) for value in centre)
-    boxes = [acb(*_minus(box, centre)) for box in _real_cells(curve, columns)]
-    middles = [acb(*_minus(point, centre)) for point in _points(curve, columns, arb(0.5))]
+    x, y = (_inflated(value, ball_of(periodic.CLOSE)) for value in centre)
+    boxes = [acb(*_minus(box, (x, y))) for box in cells]
+    middles = [acb(*_minus(point, (x, y))) for point in _points(curve, len(cells), arb(0.5))]
     total = arb(0)
     for j, here in enumerate(middles):
-        after = (j + 1) % columns
+        after = (j + 1) % len(cells)
         if not all((boxes[k] / here).real > 0 for k in (j, after)):
             raise NotProvedError("the cells are too wide to count the curve's turns")
         total += (middles[after] / here).arg()
@@ -430,33 +518,38 @@ def _polygon(curve: Curve, centre: Point, columns: int) -> list[list[float]]:
     to be less than half a turn, and the polygon turns once.
     """
     wide = arb(1) / (2 * columns)
-    cells = [Cells(row, columns, wide=wide * 1.25) for row in curve]
+    x_cells, y_cells = (Cells(row, columns, wide=wide * 1.25) for row in curve)
     left, right = (
-        [[_inflated(value, NEAR) for value in point] for point in _points(curve, columns, offset)]
+        [(_inflated(x, NEAR), _inflated(y, NEAR)) for x, y in _points(curve, columns, offset)]
         for offset in (arb(-0.125), arb(0.125))
     )
-    factor = 1 - ball_of(_SHRUNK)
+    factor = 1 - ball_of(_POLYGON_INSET)
     corners = [
         [float(c + factor * (value - c)) for value, c in zip(end, centre, strict=True)]
         for end in _points(curve, columns)
     ]
-    exact = [tuple(map(arb, corner)) for corner in corners]
+    exact = [(arb(x), arb(y)) for x, y in corners]
     for j, a in enumerate(exact):
         k = (j + 1) % columns
         b = exact[k]
-        side = _minus(b, a)
-        line = [
-            side[0] * t[1].real - side[1] * t[0].real
-            for t in zip(*(cell.taylor(j) for cell in cells), strict=True)
-        ]
-        line[0] -= side[0] * a[1] - side[1] * a[0]
-        rest = abs(side[0]) * abs(cells[1].rest) + abs(side[1]) * abs(cells[0].rest)
-        rest += (abs(side[0]) + abs(side[1])) * NEAR
-        height = evaluate([acb(c) for c in line], cells[0].box).real
         turns = [_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[k]))]
-        if not (height > rest and all(turn < 0 < towards for turn, towards in turns)):
+        if not (
+            _is_beyond(x_cells, y_cells, j, a, b)
+            and all(turn < 0 < towards for turn, towards in turns)
+        ):
             raise NotProvedError("the polygon is not proved to lie inside the curve")
     return corners
+
+
+def _is_beyond(x_cells: Cells, y_cells: Cells, j: int, a: Point, b: Point) -> bool:
+    """Whether the curves near K lie, over cell j, to the left of the line from a to b."""
+    dx, dy = _minus(b, a)
+    coefficients = zip(x_cells.taylor(j), y_cells.taylor(j), strict=True)
+    line = [dx * y.real - dy * x.real for x, y in coefficients]
+    line[0] -= dx * a[1] - dy * a[0]
+    rest = abs(dx) * abs(y_cells.rest) + abs(dy) * abs(x_cells.rest)
+    rest += (abs(dx) + abs(dy)) * NEAR
+    return bool(evaluate([acb(c) for c in line], x_cells.box).real > rest)
 
 
 def _turn(centre: Point, a: Point, b: Point) -> tuple[arb, arb]:
@@ -469,7 +562,7 @@ def _minus(a: Point, b: Point) -> Point:
     return a[0] - b[0], a[1] - b[1]
 
 
-def _check_disjoint(all_boxes: list) -> None:
+def _check_disjoint(all_boxes: list[list[Point]]) -> None:
     """Check that the discs inside curves, each in boxes (x, y), are disjoint."""
     hulls = [[reduce(arb.union, row) for row in zip(*boxes, strict=True)] for boxes in all_boxes]
     for i, a in enumerate(hulls):
@@ -477,26 +570,27 @@ def _check_disjoint(all_boxes: list) -> None:
             raise NotProvedError("the discs inside two of the curves may overlap")
 
 
-def _check_disc(surface: Surface, boxes: list[list[arb]], centre: Point) -> None:
+def _check_disc(surface: Surface, boxes: list[Point], centre: Point) -> None:
     """Check that P is analytic on the closed disc in a curve: each flight's first root is simple.
 
     The disc consists of pieces c + l (K - c), K in some of the boxes and l in an interval of
     [0, 1], which are halved where a flight is not decided.
     """
     pieces = [
-        (boxes[begin : begin + _COLUMNS_OF_PIECE], Fraction(layer, _LAYERS), 0)
+        (boxes[begin : begin + _COLUMNS_OF_PIECE], Fraction(layer, _DISC_LAYERS), 0)
         for begin in range(0, len(boxes), _COLUMNS_OF_PIECE)
-        for layer in range(_LAYERS)
+        for layer in range(_DISC_LAYERS)
     ]
     while pieces:
         part, low, depth = pieces.pop()
-        half = Fraction(1, 2 * _LAYERS << depth)
+        half = Fraction(1, 2 * _DISC_LAYERS << depth)
         length = ball_of(low).union(ball_of(low + 2 * half))
-        hull = [reduce(arb.union, row) for row in zip(*part, strict=True)]
+        hull = (reduce(arb.union, row) for row in zip(*part, strict=True))
+        x, y = (c + (a - c) * length for a, c in zip(hull, centre, strict=True))
         try:
-            surface.impact(*(c + (a - c) * length for a, c in zip(hull, centre, strict=True)))
+            surface.impact(x, y)
         except UndecidedError as reason:
-            if depth == _DEPTH:
+            if depth == _MOST_HALVINGS:
                 raise NotProvedError(f"the disc inside the curve: {reason}") from None
             middle = len(part) // 2
             halves = [part[:middle], part[middle:]] if middle else [part]
@@ -511,14 +605,15 @@ def _area(curve: Curve) -> arb:
     return -total
 
 
-def _inflated(value: acb | arb, radius: arb) -> acb | arb:
+def _inflated(value: Number, radius: arb) -> Number:
     """Return the set of all numbers whose parts are within a radius of the value's."""
     if isinstance(value, acb):
         return acb(_inflated(value.real, radius), _inflated(value.imag, radius))
     return arb(value.mid(), (value.rad() + radius).upper())
 
 
-def _most(sizes: Iterable[arb]) -> arb:
+def _largest(sizes: Iterable[arb]) -> arb:
+    """Return the largest of some upper bounds, which must all be finite."""
     sizes = list(sizes)
     if not all(size < arb("inf") for size in sizes):
         raise NotProvedError("a bound over the strip is not finite")

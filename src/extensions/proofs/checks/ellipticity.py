@@ -8,10 +8,11 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, lower_bound
 from .periodic import BITS, CLOSE
 
 _MOST_BANDS = 10_000
@@ -40,10 +41,10 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
         room = last - ball_of(stated)
         if not (room > 0 and last > -2):
             raise NotProvedError(f"the trace is not proved to be above {float(stated):g}")
-        slope = _steepness(inertia, theta.upper(), certificate.whole("bands"))
+        slope = _least_fall(inertia, theta.upper(), certificate.whole("bands"))
         turns = (last / 2).acos() / (2 * arb.pi())
         digits = {"energies up to": ball_of(energy), "trace": last, "rotation number": turns}
-        margins = {"slope": slope, "trace": lowest(room), "elliptic": lowest(last + 2)}
+        margins = {"slope": slope, "trace": lower_bound(room), "elliptic": lower_bound(last + 2)}
         return Finding(digits, margins)
 
 
@@ -58,7 +59,7 @@ def theta_ends(certificate: Certificate) -> list[arb]:
     return ends
 
 
-def _steepness(k: arb, end: arb, bands: int) -> float:
+def _least_fall(k: arb, end: arb, bands: int) -> float:
     """Prove that the trace falls from pi/2 to a theta, and bound its slope's modulus below."""
     if not 1 <= bands <= _MOST_BANDS:
         raise NotProvedError(f"{bands} bands are not from 1 to {_MOST_BANDS}")
@@ -70,4 +71,4 @@ def _steepness(k: arb, end: arb, bands: int) -> float:
     slopes = [slope_at(k, low.union(high)) for low, high in pairwise(edges)]
     if not all(slope < 0 for slope in slopes):
         raise NotProvedError("the trace is not proved to fall on each band of theta")
-    return min(lowest(-slope) for slope in slopes)
+    return min(lower_bound(-slope) for slope in slopes)

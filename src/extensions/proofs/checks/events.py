@@ -10,30 +10,27 @@ from functools import partial
 
 from flint import arb, ctx
 
-from study.enclosure.flight import Flight, UndecidedError, launch
+from study.enclosure.flight import Flight, NotProvedError, UndecidedError, launch
 from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import Surface, ball_of, fraction_of
+from study.enclosure.surface import Surface, ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
 from ..enclosure.newton import System, enclose_zero, solve
-from . import periodic
 from .birkhoff import normal_form
 from .certificate import (
     Certificate,
     Finding,
-    NotProvedError,
+    Range,
     box,
     check_stated,
     holds_throughout,
-    lowest,
+    lower_bound,
 )
 from .ellipticity import theta_ends
-from .periodic import BITS, CLOSE
+from .periodic import BITS, CLOSE, check_distinct, prove_fixed_point_over
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor
-_RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved at a resonance
 
-Range = tuple[Fraction, Fraction]
 Half = tuple[int, str]  # flights of a half orbit, and where it ends: "impact" or "apex"
 
 
@@ -64,10 +61,7 @@ def check_resonance(
             raise NotProvedError("the energies go beyond theta = pi/2, up to where the trace falls")
         check_stated("event", [energy], certificate.row("event", 1), CLOSE)
         _check_within("energy", energy, energies)
-        bottom = fraction_of(energy.lower()) - CLOSE
-        band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
-        x = gravity / inertia * theta * theta.cot()
-        orbit = periodic.prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
+        band, orbit = prove_fixed_point_over(k, g, energy, theta)
         form = normal_form(band, orbit)
         (twist,) = form.twists
         if not twist > 0:
@@ -75,7 +69,7 @@ def check_resonance(
         margins = {"slope": -slope, "twist": twist, "nonresonance": form.nonresonance}
         return Finding(
             {"energy": energy, "x": orbit.points[0][0], "twist": twist},
-            {name: lowest(margin) for name, margin in margins.items()},
+            {name: lower_bound(margin) for name, margin in margins.items()},
         )
 
 
@@ -100,15 +94,15 @@ def check_doubling(
         raise NotProvedError("a period doubling of an even period has the trace -2")
     with ctx.workprec(BITS):
         certificate = Certificate(text, "period doubling", ball=(k, g))
-        energy, x = _proved(certificate, partial(doubling, k, g, period=period), 2, radius)
+        energy, x = _prove_event(certificate, partial(doubling, k, g, period=period), 2, radius)
         _check_within("energy", energy, energies)
         _check_within("position", x, positions)
-        ends = (_end(k, g, (energy, x), n, order=1) for n in range(1, period // 2 + 1))
-        periodic.check_distinct([(x, arb(0)), *((a.constant, b.constant) for a, b in ends)])
+        ends = (_after_impacts(k, g, (energy, x), n, order=1) for n in range(1, period // 2 + 1))
+        check_distinct([(x, arb(0)), *((a.coefficients[0], b.coefficients[0]) for a, b in ends)])
         slope = _trace_slope(k, g, (energy, x), period)
         if not slope < 0:
             raise NotProvedError("the trace is not proved to fall through -2")
-        margins = {"radius": float(certificate.number("radius")), "slope": lowest(-slope)}
+        margins = {"radius": float(certificate.number("radius")), "slope": lower_bound(-slope)}
         return Finding({"energy": energy, "x": x, "slope of the trace": slope}, margins)
 
 
@@ -136,22 +130,24 @@ def check_grazing(
     with ctx.workprec(BITS):
         certificate = Certificate(text, "grazing orbit", ball=(k, g))
         system = partial(grazing, k, g, halves=halves)
-        values = _proved(certificate, system, len(halves), radius)
+        values = _prove_event(certificate, system, len(halves), radius)
         _check_within("energy", values[0], energies)
-        slopes = [_slope(*system(values, by=by)) for by in ("speed", "gap")]
+        slopes = [_energy_slope(*system(values, by=by)) for by in ("speed", "gap")]
         for slope, sign, name in zip(slopes, sides, ("longer", "shorter"), strict=True):
             if not sign * slope > 0:
                 where = "above" if sign > 0 else "below"
                 raise NotProvedError(f"the {name} orbit is not proved to exist {where} the energy")
         named_slopes = dict(zip(("dE/ds", "dE/dh"), slopes, strict=True))
-        margins = {name: lowest(abs(slope)) for name, slope in named_slopes.items()}
+        margins = {name: lower_bound(abs(slope)) for name, slope in named_slopes.items()}
         return Finding(
             dict(zip(("energy", "y"), values, strict=False)) | named_slopes,
             {"radius": float(certificate.number("radius"))} | margins,
         )
 
 
-def _proved(certificate: Certificate, system: System, unknowns: int, radius: Fraction) -> list[arb]:
+def _prove_event(
+    certificate: Certificate, system: System, unknowns: int, radius: Fraction
+) -> list[arb]:
     """Prove that a system has one zero in the certificate's box, and enclose it narrowly."""
     centre = certificate.row("event", unknowns)
     values = enclose_zero(system, box(centre, certificate.radius(radius) + CLOSE))
@@ -159,7 +155,7 @@ def _proved(certificate: Certificate, system: System, unknowns: int, radius: Fra
     return values
 
 
-def _slope(values: list[arb], slopes: list[list[arb]]) -> arb:
+def _energy_slope(values: list[arb], slopes: list[list[arb]]) -> arb:
     """Return the energy's derivative by the last variable, along the zeros of a system."""
     return -solve(slopes, [row[len(values)] for row in slopes])[0]
 
@@ -207,11 +203,11 @@ def grazing(
         for leg in range(flights):
             x, v, w = _land(flight, gap if leg == 0 else 0)
             flight = launch(inertia, gravity, x, v, w, v + w)
-        ends.append(v - inertia * w if where == "impact" else _apex(flight))
+        ends.append(v - inertia * w if where == "impact" else _strain_rate_at_apex(flight))
     return [e.constant for e in ends], [e.coefficients[1:] for e in ends]
 
 
-def _apex(flight: Flight) -> Jet:
+def _strain_rate_at_apex(flight: Flight) -> Jet:
     """Return the rate of strain where the centre is highest in a flight."""
     t = flight.b * (-1 / flight.g)
     if not t.constant > 0:
@@ -242,7 +238,7 @@ def _check_clear(flight: Flight, until: arb) -> None:
         raise UndecidedError("an impact may come before the apex")
 
 
-def _end(
+def _after_impacts(
     k: Fraction, g: Fraction, values: Sequence[arb], impacts: int, order: int
 ) -> tuple[Jet, Jet]:
     """Return (x, y) after some impacts from (x, 0), as jets in E, x and y."""
@@ -262,13 +258,13 @@ def doubling(
     k: Fraction, g: Fraction, values: Sequence[arb], period: int
 ) -> tuple[list[arb], list[list[arb]]]:
     """Return y and dx/dx after half a period, and the derivatives of both by E and x."""
-    x, y = _end(k, g, values, period // 2, order=2)
+    x, y = _after_impacts(k, g, values, period // 2, order=2)
     slopes = [[y[1, 0, 0], y[0, 1, 0]], [x[1, 1, 0], 2 * x[0, 2, 0]]]
     return [y.constant, x[0, 1, 0]], slopes
 
 
 def _trace_slope(k: Fraction, g: Fraction, values: Sequence[arb], period: int) -> arb:
     """Return the derivative by E, along the family, of the trace 4 A D - 2 where A = dx/dx = 0."""
-    _, y = _end(k, g, values, period // 2, order=1)
+    _, y = _after_impacts(k, g, values, period // 2, order=1)
     _, ((y_energy, y_x), (by_energy, by_x)) = doubling(k, g, values, period)
     return 4 * y[0, 0, 1] * (by_energy - by_x * y_energy / y_x)

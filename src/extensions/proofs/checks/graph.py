@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 from flint import ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of
 
 from . import hsets
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, lower_bound
 from .hsets import HSet
 
 BITS = 64  # the smallest sets are 1e-6 wide, and one machine word is 1e-19 fine
@@ -61,15 +62,13 @@ def check(text: str, surface: Surface, *, entropy: Fraction) -> Finding:
         margins = [prove_connection(surface, graph.sets, it) for it in graph.connections]
         beyond, room = map(min, zip(*margins, strict=True))
         return Finding(
-            {"entropy": bound},
-            {"beyond": beyond, "room": room, "apart": apart},
-            {"graph": graph},
+            {"entropy": bound}, {"beyond": beyond, "room": room, "apart": apart}, {"graph": graph}
         )
 
 
 def read(certificate: Certificate) -> Graph:
     """Return the graph of a certificate; raises NotProvedError where it is none."""
-    sets = [hsets.hset(f"B_{i}", row) for i, row in enumerate(certificate.numbers("sets", 6))]
+    sets = hsets.read_sets(certificate, "sets", "B")
     rows = iter(certificate.numbers("chains", 6))
     connections = []
     for n, row in enumerate(certificate.numbers("connections", 5)):
@@ -92,9 +91,9 @@ def read(certificate: Certificate) -> Graph:
 
 def part(of: HSet, name: str, low: Fraction, high: Fraction) -> HSet:
     """Return the strip low <= p <= high of a set."""
+    (x, y), (ux, uy) = of.centre, of.u
     middle, half = ball_of((low + high) / 2), ball_of((high - low) / 2)
-    centre = tuple(c + middle * u for c, u in zip(of.centre, of.u, strict=True))
-    return HSet(name, centre, tuple(half * u for u in of.u), of.s)
+    return HSet(name, (x + middle * ux, y + middle * uy), (half * ux, half * uy), of.s)
 
 
 def check_strips(graph: Graph) -> float:
@@ -105,7 +104,7 @@ def check_strips(graph: Graph) -> float:
         gaps += [right[0] - left[1] for left, right in pairwise(strips)]
         if not gaps[-1] > 0 or not min(gaps) > 0:
             raise NotProvedError(f"two strips of B_{source} overlap")
-    return lowest(ball_of(min(gaps)))
+    return lower_bound(ball_of(min(gaps)))
 
 
 def check_growth(graph: Graph, growth: Fraction, weights: list[Fraction]) -> None:
@@ -135,4 +134,5 @@ def prove_connection(
     """
     path = [connection.strip, *connection.chain, sets[connection.target]]
     margins = [hsets.prove_covering(surface, *pair) for pair in pairwise(path)]
-    return tuple(map(min, zip(*margins, strict=True)))
+    beyond, room = map(min, zip(*margins, strict=True))
+    return beyond, room

@@ -8,17 +8,37 @@ theorems, and what follows for the orbits of P.
 from fractions import Fraction
 from itertools import pairwise
 from math import gcd
+from typing import NamedTuple
 
 from flint import arb, ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of
 
 from . import hsets, periodic
-from .certificate import Certificate, Finding, NotProvedError
+from .certificate import Certificate, Finding, Range, Window
 from .hsets import HSet
-from .periodic import Window
 
 BITS = 128  # the smallest sets are 1e-10 wide: 1e-38 is far finer than their margins
+
+Edge = tuple[HSet, HSet]  # the first set covers the second one
+
+
+class Sets(NamedTuple):
+    """A certificate's sets, and the saddles that the chain leaves from and enters."""
+
+    saddles: list[HSet]
+    chain: list[HSet]
+    leaves: int
+    enters: int
+
+
+class Relations(NamedTuple):
+    """What is proved of all edges: margins of each covering, least cone margin, crossing angle."""
+
+    margins: list[tuple[float, float]]
+    cone: float
+    angle: arb
 
 
 def check(
@@ -29,7 +49,7 @@ def check(
     radius: Fraction,
     entropy: Fraction,
     window: Window | None = None,
-    crossing: tuple[Fraction, Fraction] | None = None,
+    crossing: Range | None = None,
 ) -> Finding:
     """Prove a certificate's horseshoe on an orbit of a prime period, with a point in the window.
 
@@ -48,13 +68,14 @@ def check(
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
         ]
+        stated = _stated_margins(certificate, len(edges))
         margins, cone, angle = _relations(surface, edges, chain)
-        _check_margins(certificate, edges, margins)
+        _check_margins(edges, margins, stated)
         middle = chain[len(chain) // 2]
         for hset in (*saddles, *chain):
             if hset is not middle and not middle.is_disjoint(hset):
                 raise NotProvedError(f"M_0 is not proved to be disjoint from {hset.name}")
-        x = middle.box()[0]
+        x = middle.box(hsets.UNIT, hsets.UNIT)[0]
         if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
             raise NotProvedError("the connection does not pass y = 0 where the statement says")
         loop = len(chain) + 1 + (leaves - enters) % period
@@ -71,27 +92,26 @@ def check(
         )
 
 
-def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
-    """Return saddles, chain, a and b; the second half of the chain mirrors the first."""
-    rows, approach = (certificate.numbers(name, 6) for name in ("saddles", "approach"))
-    leaves, enters = (certificate.number(name) for name in ("leaves", "enters"))
+def _sets(certificate: Certificate) -> Sets:
+    """Return the certificate's sets; the second half of the chain mirrors the first."""
+    rows = certificate.numbers("saddles", 6)
+    leaves, enters = certificate.whole("leaves"), certificate.whole("enters")
     if not {leaves, enters} <= set(range(len(rows))):
         raise NotProvedError("the certificate's chain does not begin and end at its saddles")
-    leaves, enters = int(leaves), int(enters)
     for i, (x, y, ux, uy, sx, sy) in enumerate(rows):  # the reversor maps the connection to itself
         if rows[(leaves + enters - i) % len(rows)] != [x, -y, sx, -sy, ux, -uy]:
             raise NotProvedError(f"S_{i} has no mirror image among the saddles' sets")
-    steps = len(approach)
-    chain = [hsets.hset(f"M_{i - steps}", row) for i, row in enumerate(approach)]
+    steps = len(certificate.numbers("approach", 6))
+    chain = hsets.read_sets(certificate, "approach", "M", -steps)
     x, ux, uy = certificate.row("middle", 3)
-    middle = hsets.hset("M_0", [x, 0, ux, uy, ux, -uy])
+    middle = hsets.hset("M_0", [x, Fraction(0), ux, uy, ux, -uy])
     back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
-    saddles = [hsets.hset(f"S_{i}", row) for i, row in enumerate(rows)]
-    return saddles, [*chain, middle, *reversed(back)], leaves, enters
+    saddles = hsets.read_sets(certificate, "saddles", "S")
+    return Sets(saddles, [*chain, middle, *reversed(back)], leaves, enters)
 
 
-def _relations(surface: Surface, edges: list[tuple[HSet, HSet]], chain: list[HSet]):
-    """Prove every covering and cone condition: ([(beyond, room), ...], cone margin, angle)."""
+def _relations(surface: Surface, edges: list[Edge], chain: list[HSet]) -> Relations:
+    """Prove every covering with its cone condition."""
     margins, cone = [], float("inf")
     slope, middle = hsets.UNIT, chain[len(chain) // 2]
     for source, target in edges:
@@ -104,7 +124,7 @@ def _relations(surface: Surface, edges: list[tuple[HSet, HSet]], chain: list[HSe
         slope = (c + d * slope) / (a + b * slope)  # dq/dp of the unstable manifold
         if target is middle:
             angle = _crossing_angle(middle, slope)
-    return margins, cone, angle
+    return Relations(margins, cone, angle)
 
 
 def _crossing_angle(middle: HSet, slope: arb) -> arb:
@@ -114,14 +134,21 @@ def _crossing_angle(middle: HSet, slope: arb) -> arb:
     return (2 * half).min(arb.pi() - 2 * half)  # the acute one, even if half may be pi/4
 
 
-def _check_margins(certificate: Certificate, edges: list, margins: list) -> None:
-    """Check that every covering has at least the stated margins."""
+def _stated_margins(certificate: Certificate, count: int) -> list[list[Fraction]]:
+    """Return the certificate's two margins of each covering, which must not be negative."""
     stated = certificate.numbers("margins", 2)
-    if len(stated) != len(edges):
-        raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
+    if len(stated) != count:
+        raise NotProvedError(f"there are {len(stated)} margins for {count} coverings")
+    if (least := min(map(min, stated))) < 0:
+        raise NotProvedError(f"a margin of the certificate is {float(least):g}, below 0")
+    return stated
+
+
+def _check_margins(
+    edges: list[Edge], margins: list[tuple[float, float]], stated: list[list[Fraction]]
+) -> None:
+    """Check that every covering has at least the stated margins."""
     for (source, target), pair, least in zip(edges, margins, stated, strict=True):
-        if min(least) < 0:
-            raise NotProvedError(f"a margin of the certificate is {float(min(least)):g}, below 0")
         if not all(arb(p) >= ball_of(m) for p, m in zip(pair, least, strict=True)):
             raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
 

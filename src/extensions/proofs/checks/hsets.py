@@ -9,21 +9,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from flint import arb
 
-from study.enclosure.flight import UndecidedError
+from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
-from .certificate import NotProvedError, lowest
+from .certificate import Certificate, lower_bound
 
 UNIT = arb(0, 1)  # the interval from -1 to 1
 MOST_CELLS = 600  # of a set, before its covering is given up
 _SQUARE = arb(0.5, 0.5)  # the interval from 0 to 1
 
 Vector = tuple[arb, arb]
+Number = TypeVar("Number", arb, Jet)
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class HSet:
     u: Vector
     s: Vector
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not abs(self.area) > 0:
             raise NotProvedError(f"{self.name}: its sides may be parallel")
 
@@ -47,11 +48,12 @@ class HSet:
         """Signed area of a quarter."""
         return self.u[0] * self.s[1] - self.u[1] * self.s[0]
 
-    def box(self, p: arb | Jet = UNIT, q: arb | Jet = UNIT) -> list[arb | Jet]:
+    def box(self, p: Number, q: Number) -> tuple[Number, Number]:
         """Return a box around the points with these p and q."""
-        return [c + p * u + q * s for c, u, s in zip(self.centre, self.u, self.s, strict=True)]
+        (x, y), (ux, uy), (sx, sy) = self.centre, self.u, self.s
+        return x + p * ux + q * sx, y + p * uy + q * sy
 
-    def coordinates(self, x: arb | Jet, y: arb | Jet) -> tuple[arb | Jet, arb | Jet]:
+    def coordinates(self, x: Number, y: Number) -> tuple[Number, Number]:
         """Return (p, q) of the point (x, y)."""
         dx, dy = x - self.centre[0], y - self.centre[1]
         (ux, uy), (sx, sy) = self.u, self.s
@@ -75,13 +77,20 @@ class HSet:
 
     def mirrored(self, name: str) -> "HSet":
         """Return the image under the reversor (x, y) -> (x, -y), its two directions exchanged."""
-        return HSet(name, *((x, -y) for x, y in (self.centre, self.s, self.u)))
+        (x, y), (ux, uy), (sx, sy) = self.centre, self.u, self.s
+        return HSet(name, (x, -y), (sx, -sy), (ux, -uy))
 
 
-def hset(name: str, row: list[Fraction]) -> HSet:
+def hset(name: str, row: Sequence[Fraction]) -> HSet:
     """Return the set of a certificate's row: centre, expanding side, contracting side."""
-    values = tuple(ball_of(value) for value in row)
-    return HSet(name, values[:2], values[2:4], values[4:])
+    x, y, ux, uy, sx, sy = map(ball_of, row)
+    return HSet(name, (x, y), (ux, uy), (sx, sy))
+
+
+def read_sets(certificate: Certificate, field: str, name: str, first: int = 0) -> list[HSet]:
+    """Return the sets of a certificate's field, named by this letter and a number from `first`."""
+    rows = certificate.numbers(field, 6)
+    return [hset(f"{name}_{i}", row) for i, row in enumerate(rows, first)]
 
 
 def check_contained(sets: list[HSet], points: Sequence[Vector]) -> None:
@@ -126,18 +135,21 @@ def local_map(surface: Surface, source: HSet, target: HSet) -> LocalMap:
 
     Raises UndecidedError where a flight from the set may touch the floor earlier.
     """
-    at_centre, over_set = (
-        target.coordinates(*surface.impact(*source.box(*Jet.plane(order, value, value)))[:2])
-        for order, value in ((1, arb(0)), (2, UNIT))
-    )
+
+    def image(order: int, value: arb) -> tuple[Jet, Jet]:
+        p, q = Jet.plane(order, value, value)
+        x, y, *_ = surface.impact(*source.box(p, q))
+        return target.coordinates(x, y)
+
+    (p, q), (over_p, over_q) = image(1, arb(0)), image(2, UNIT)
     return LocalMap(
-        tuple(jet.constant for jet in at_centre),
-        tuple(tuple(jet.coefficients[1:]) for jet in at_centre),
-        tuple(tuple(jet.coefficients[3:]) for jet in over_set),
+        (p.coefficients[0], q.coefficients[0]),
+        ((p[1, 0], p[0, 1]), (q[1, 0], q[0, 1])),
+        (tuple(over_p.coefficients[3:]), tuple(over_q.coefficients[3:])),
     )
 
 
-def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]:
+def covering_margins(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]:
     """Prove that source covers target; raises NotProvedError.
 
     Returns how far beyond the target's edges the exit edges land, and how much room is left within
@@ -152,10 +164,10 @@ def covering(local: LocalMap, source: HSet, target: HSet) -> tuple[float, float]
         raise NotProvedError(f"{failure}: its edges are not proved to land beyond the target")
     if not room > 0:
         raise NotProvedError(f"{failure}: its image is not proved to fit between the edges")
-    return min(lowest(-low - 1), lowest(high - 1)), lowest(room)
+    return min(lower_bound(-low - 1), lower_bound(high - 1)), lower_bound(room)
 
 
-def cones(local: LocalMap, source: HSet, target: HSet) -> float:
+def cone_margin(local: LocalMap, source: HSet, target: HSet) -> float:
     """Prove the cone condition; raises NotProvedError.
 
     Returns a lower bound of the least eigenvalue of D^T Q' D - Q, Q = p^2 - q^2, over all D in the
@@ -166,7 +178,7 @@ def cones(local: LocalMap, source: HSet, target: HSet) -> float:
     determinant = first * last - mixed * mixed
     if not (first > 0 and determinant > 0):
         raise NotProvedError(f"cone condition not proved from {source.name} to {target.name}")
-    return lowest(determinant / (first + last))
+    return lower_bound(determinant / (first + last))
 
 
 def prove_hyperbolic(
@@ -180,15 +192,16 @@ def prove_hyperbolic(
         local = local_map(surface, source, target)
     except UndecidedError as error:
         raise NotProvedError(f"{source.name}: {error}") from None
-    return covering(local, source, target), cones(local, source, target), local
+    return covering_margins(local, source, target), cone_margin(local, source, target), local
 
 
 def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float, float]:
     """Prove that source covers target, on cells of the source that are halved where needed.
 
-    Returns the margins of `covering`. Raises NotProvedError.
+    Returns the margins of `covering_margins`. Raises NotProvedError.
     """
-    right = target.coordinates(*surface.impact(*source.box(arb(1), arb(0)))[:2])[0]
+    x, y, *_ = surface.impact(*source.box(arb(1), arb(0)))
+    right = target.coordinates(x, y)[0]
     side = 1 if right > 0 else -1  # on which the edge p = 1 lands
     beyond = room = float("inf")
     failure = f"{source.name} does not cover {target.name}"
@@ -207,8 +220,8 @@ def prove_covering(surface: Surface, source: HSet, target: HSet) -> tuple[float,
         edges = [p * side * local.exit_edge(p) - 1 for p in at]
         left = 1 - abs(local.across()).upper()
         if left > 0 and all(edge > 0 for edge in edges):
-            beyond = min([beyond, *map(lowest, edges)])
-            room = min(room, lowest(left))
+            beyond = min([beyond, *map(lower_bound, edges)])
+            room = min(room, lower_bound(left))
         elif any(edge < 0 for edge in edges) or abs(local.centre[1]) > 1:
             break
         else:
@@ -227,8 +240,9 @@ class _Cell(NamedTuple):
     def of(self, source: HSet) -> HSet:
         """Return the cell of a set as an HSet."""
         p, q, half_p, half_q = map(arb, self)
-        u, s = tuple(half_p * a for a in source.u), tuple(half_q * a for a in source.s)
-        return HSet(source.name, tuple(source.box(p, q)), u, s)
+        (ux, uy), (sx, sy) = source.u, source.s
+        u, s = (half_p * ux, half_p * uy), (half_q * sx, half_q * sy)
+        return HSet(source.name, source.box(p, q), u, s)
 
     def halves(self, source: HSet) -> list["_Cell"]:
         """Return the two halves of the cell, cut across its longer side."""

@@ -8,27 +8,19 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from study.enclosure.surface import Surface, ball_of, fraction_of
+from study.enclosure.flight import NotProvedError
+from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at, slope_at, trace_at
-from . import periodic
 from .birkhoff import complex_map, resonant_coefficients
-from .certificate import Certificate, Finding, NotProvedError, check_stated, lowest
-from .periodic import BITS
+from .certificate import Certificate, Finding, Range, check_stated, lower_bound
+from .periodic import BITS, prove_fixed_point_over
 
 CLOSE = Fraction(1, 10**9)  # largest distance of a certificate's coefficients from the true ones
 _REACH = arb(2) ** -30  # of theta, on both sides of the band: there the trace falls too
-_RADIUS = Fraction(1, 10**8)  # of the box in which the fixed point is proved
 
 
-def check(
-    text: str,
-    k: Fraction,
-    g: Fraction,
-    *,
-    energies: tuple[Fraction, Fraction],
-    margin: Fraction,
-) -> Finding:
+def check(text: str, k: Fraction, g: Fraction, *, energies: Range, margin: Fraction) -> Finding:
     """Prove that lambda^4 = 1 at one energy between `energies`, and the fixed point unstable there.
 
     The certificate's two theta are the ends of a band. Checked: the trace falls over all of
@@ -52,10 +44,7 @@ def check(
         first, last = (energy_at(ball_of(k), ball_of(g), end) for end in around)
         if not first < low < energy < high < last:
             raise NotProvedError("the band is not proved to lie between the statement's energies")
-        bottom = fraction_of(energy.lower())
-        band = Surface(k, g, bottom, fraction_of(energy.upper()) - bottom)
-        x = ball_of(g / k) * ends[0] * ends[0].cot()
-        orbit = periodic.prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
+        band, orbit = prove_fixed_point_over(k, g, energy, ends[0])
         a, b = map(abs, resonant_coefficients(*complex_map(band, orbit, order=3)))
         check_stated("normal form", [a, b], certificate.row("coefficients", 2), CLOSE)
         least = certificate.number("margin")
@@ -63,5 +52,5 @@ def check(
             raise NotProvedError(f"the margin is {float(least):g}, not {float(margin):g} as stated")
         if not b - a > ball_of(least):
             raise NotProvedError(f"|B| is not proved to be above |A| by {float(least):g}")
-        margins = {"slope": lowest(-slope), "|B| - |A|": lowest(b - a)}
+        margins = {"slope": lower_bound(-slope), "|B| - |A|": lower_bound(b - a)}
         return Finding({"energy": energy, "|A|": a, "|B|": b}, margins)

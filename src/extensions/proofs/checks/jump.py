@@ -10,25 +10,17 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.enclosure.flight import UndecidedError, flight_from_rim
+from study.enclosure.flight import NotProvedError, UndecidedError, flight_from_rim
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Impact, Surface, ball_of
 
-from .certificate import (
-    Certificate,
-    Finding,
-    NotProvedError,
-    check_stated,
-    holds_throughout,
-    lowest,
-)
+from .certificate import Certificate, Finding, check_stated, holds_throughout, lower_bound
 from .hsets import HSet
+from .periodic import Point
 
 BITS = 192  # twice what points to 1e-28 need
 _SHORT_FLIGHTS = 0.95  # of the largest xdot: beyond it flights from the rim are short
 _CROSSING_PARTS = 64  # of the part of S+ that crosses an h-set
-
-Point = tuple[arb, arb]
 
 
 def check(
@@ -49,18 +41,18 @@ def check(
         points = stated_points(surface, speed)
         transversality = _transversality(surface, speed)
         check_landings(surface)
-        excess = _polygon(surface) - ball_of(length)
+        excess = _polygon_length(surface) - ball_of(length)
         if not excess > 0:
             raise NotProvedError(f"the curve is not proved to be longer than {float(length):g}")
-        digits = {}
+        digits: dict[str, arb] = {}
         for name, point in points.items():
             check_stated(name, point, certificate.row(name.replace(" ", "_"), 2), size)
             digits |= {f"{name} x": point[0], f"{name} y": point[1]}
         images = zip(points["near image"], points["far image"], strict=True)
-        apart = max(lowest(abs(near - far) - ball_of(jump)) for near, far in images)
+        apart = max(lower_bound(abs(near - far) - ball_of(jump)) for near, far in images)
         if not (jump >= 0 and apart > 0):
             raise NotProvedError(f"the one-sided images may be within {float(jump):g}")
-        margins = {"jump": apart, "transversality": transversality, "length": lowest(excess)}
+        margins = {"jump": apart, "transversality": transversality, "length": lower_bound(excess)}
         return Finding(digits, margins)
 
 
@@ -77,7 +69,7 @@ def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Findi
         raise NotProvedError("the energy of a touch is not the stated product of factors")
     if not all(root >= -g for root in roots):
         raise NotProvedError("the factors are not proved to be negative for x < -g")
-    margin = lowest(ball_of(energy + g * g / (2 * k)))
+    margin = lower_bound(ball_of(energy + g * g / (2 * k)))
     return Finding({"energy below": ball_of(energy)}, {"above least": margin})
 
 
@@ -85,13 +77,13 @@ def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
     """Return a point of the jump set with its one-sided images, and the set's ends, in the chart.
 
     `speed` is xdot on the rim where the flight from the point touches. Raises NotProvedError as
-    `_flight_from_rim`.
+    `_landing_from_rim`.
     """
     (k, g, _), (inner, outer) = surface.constants(), _ends(surface)
     return {
-        "point": _mirrored(_flight_from_rim(surface, speed)),
-        "near image": (-g - _touch(surface, _rim_angle(surface, speed))[1], -(1 + k) * speed),
-        "far image": _flight_from_rim(surface, -speed)[:2],
+        "point": _mirrored(_landing_from_rim(surface, speed)),
+        "near image": (-g - _rim_point(surface, _rim_angle(surface, speed))[1], -(1 + k) * speed),
+        "far image": _landing_from_rim(surface, -speed)[:2],
         "outer end": outer,
         "inner end": inner,
     }
@@ -100,14 +92,14 @@ def stated_points(surface: Surface, speed: arb) -> dict[str, Point]:
 def _ends(surface: Surface) -> tuple[Point, Point]:
     """Return the inner and the outer end of the jump set in the chart."""
     k, g, _ = surface.constants()
-    return _mirrored(_flight(surface, arb.pi())), (-g, -(1 + k) * fastest_touch(surface))
+    return _mirrored(_landing(surface, arb.pi())), (-g, -(1 + k) * fastest_touch(surface))
 
 
 def _mirrored(impact: Impact) -> Point:
     return impact.x, -impact.y
 
 
-def _touch(surface: Surface, angle: arb) -> tuple[arb, arb]:
+def _rim_point(surface: Surface, angle: arb) -> tuple[arb, arb]:
     """Return xdot and d >= 0 of points of the rim, s = 0, with x = -g - d.
 
     xdot is the fastest touch's times the cosine of the angle: each angle gives such a point, and
@@ -122,24 +114,24 @@ def _touch(surface: Surface, angle: arb) -> tuple[arb, arb]:
 
 
 def _rim_angle(surface: Surface, xdot: arb) -> arb:
-    """Return the angle of `_touch` for an xdot, which must be one of a rim point with x < -g."""
+    """Return the angle of `_rim_point` for an xdot; the point must have x < -g."""
     fastest = fastest_touch(surface)
     if not abs(xdot) < fastest:
         raise NotProvedError("the speed is not one of a rim point with x < -g")
     return (xdot / fastest).acos()
 
 
-def _flight_from_rim(surface: Surface, xdot: arb) -> Impact:
+def _landing_from_rim(surface: Surface, xdot: arb) -> Impact:
     """Return the next impact of the rim points with some xdot and x < -g; NotProvedError if none.
 
     It refuses every ball of xdot with a number that no such point has.
     """
-    return _flight(surface, _rim_angle(surface, xdot))
+    return _landing(surface, _rim_angle(surface, xdot))
 
 
-def _flight(surface: Surface, angle: arb) -> Impact:
-    """Return the next impact of the rim points with x <= -g at an angle of `_touch`."""
-    flight, tau = flight_from_rim(surface.constants()[1], *_touch(surface, angle))
+def _landing(surface: Surface, angle: arb) -> Impact:
+    """Return the next impact of the rim points with x <= -g at an angle of `_rim_point`."""
+    flight, tau = flight_from_rim(surface.constants()[1], *_rim_point(surface, angle))
     x, v, w = flight.end(tau)
     return Impact(x, v - surface.constants()[0] * w, tau, v + w)
 
@@ -158,12 +150,12 @@ def _transversality(surface: Surface, speed: arb) -> float:
 
     The point of S+ is the one from which the flight touches the rim with the given xdot.
     """
-    impact = _flight_from_rim(surface, speed)
+    impact = _landing_from_rim(surface, speed)
     flight = surface.flight(*Jet.plane(1, *_mirrored(impact)))
     height = flight.height(Jet.constant_of(flight.x.algebra, impact.tau))
     if not height.constant.contains(0):
         raise NotProvedError("the flight does not touch the floor where it should")
-    slope = max(lowest(abs(part)) for part in height.coefficients[1:])
+    slope = max(lower_bound(abs(part)) for part in height.coefficients[1:])
     if not slope > 0:
         raise NotProvedError("the gap's maximum may not change sign across the curve")
     return slope
@@ -173,7 +165,7 @@ def curve(surface: Surface, count: int) -> list[Point]:
     """Return points of the jump set from its inner to its outer end, at `count` even xdot steps."""
     fastest, (inner, outer) = fastest_touch(surface), _ends(surface)
     speeds = [fastest * arb(2 * i - count) / count for i in range(1, count)]
-    return [inner, *(_mirrored(_flight_from_rim(surface, speed)) for speed in speeds), outer]
+    return [inner, *(_mirrored(_landing_from_rim(surface, speed)) for speed in speeds), outer]
 
 
 def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
@@ -185,18 +177,18 @@ def prove_crossing(surface: Surface, hset: HSet, low: arb, high: arb) -> float:
     """
     steps = [low + (high - low) * i / _CROSSING_PARTS for i in range(_CROSSING_PARTS + 1)]
 
-    def touching(speed):
+    def touching(speed: arb) -> Point:
         """Return (p, q) of the point of S+ whose flight touches the floor with this xdot."""
-        return hset.coordinates(*_mirrored(_flight_from_rim(surface, speed)))
+        return hset.coordinates(*_mirrored(_landing_from_rim(surface, speed)))
 
     ends = [touching(speed)[1] for speed in (low, high)]
     across = [touching(a.union(b))[0] for a, b in pairwise(steps)]
     if not (ends[0] > 1 and ends[1] < -1) and not (ends[0] < -1 and ends[1] > 1):
         raise NotProvedError(f"{hset.name}: the jump set may not reach both of its edges")
-    room = min(lowest(1 - abs(p)) for p in across)
+    room = min(lower_bound(1 - abs(p)) for p in across)
     if not room > 0:
         raise NotProvedError(f"{hset.name}: the jump set may leave it sideways")
-    return min(room, *(lowest(abs(q) - 1) for q in ends))
+    return min(room, *(lower_bound(abs(q) - 1) for q in ends))
 
 
 def check_landings(surface: Surface) -> None:
@@ -207,15 +199,15 @@ def check_landings(surface: Surface) -> None:
     to t = xdot/A <= 1, where it is above zero if -(g + x) < xdot^2/(4 A).
     """
     g, last = surface.constants()[1], arb(_SHORT_FLIGHTS).acos()
-    xdot, beyond = _touch(surface, arb(0).union(last))
+    xdot, beyond = _rim_point(surface, arb(0).union(last))
     x = -g - beyond
     if not (xdot > 0 and beyond < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt())):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
 
-    def lands(angle):
+    def lands(angle: arb) -> bool:
         """Whether all flights from the rim at these angles are proved to land with s > 0."""
         try:
-            return _flight(surface, angle).s > 0
+            return bool(_landing(surface, angle).s > 0)
         except UndecidedError:
             return False
 
@@ -223,7 +215,7 @@ def check_landings(surface: Surface) -> None:
         raise NotProvedError("a flight from the rim may touch the floor a second time")
 
 
-def _polygon(surface: Surface, count: int = 400) -> arb:
+def _polygon_length(surface: Surface, count: int = 400) -> arb:
     """Return the length of a polygon whose corners lie on the curve, which is longer."""
     total = arb(0)
     for (x0, y0), (x1, y1) in pairwise(curve(surface, count)):

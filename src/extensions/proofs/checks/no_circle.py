@@ -10,11 +10,11 @@ from itertools import pairwise
 
 from flint import ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of
 
 from . import hsets, jump, periodic
-from .certificate import Certificate, Finding, NotProvedError
-from .periodic import Window
+from .certificate import Certificate, Finding, Window
 
 BITS = 64  # the smallest sets are 1e-5 wide
 
@@ -29,10 +29,8 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
     with ctx.workprec(BITS):
-        saddles, chain = (
-            [hsets.hset(f"{name}_{i}", it) for i, it in enumerate(certificate.numbers(field, 6), n)]
-            for name, field, n in (("S", "saddles", 0), ("M", "chain", 1))
-        )
+        saddles = hsets.read_sets(certificate, "saddles", "S")
+        chain = hsets.read_sets(certificate, "chain", "M", first=1)
         hsets.check_contained(saddles, orbit.points)
         leaves = certificate.whole("leaves")
         if leaves not in range(len(saddles)):
@@ -41,12 +39,12 @@ def check(text: str, surface: Surface, *, period: int, radius: Fraction, window:
         margins = [hsets.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
     with ctx.workprec(jump.BITS):
         jump.check_landings(surface)
-        touches = [ball_of(value) for value in certificate.row("touches", 2)]
-        across = jump.prove_crossing(surface, chain[-1], *touches)
+        low, high = map(ball_of, certificate.row("touches", 2))
+        across = jump.prove_crossing(surface, chain[-1], low, high)
     beyond, room = map(min, zip(*margins, *(pair for pair, _, _ in loop), strict=True))
     cone = min(least for _, least, _ in loop)
     return Finding(
-        {"jump set at x": chain[-1].box()[0]},
+        {"jump set at x": chain[-1].box(hsets.UNIT, hsets.UNIT)[0]},
         {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
         {"chain": chain, "orbit": orbit},
     )

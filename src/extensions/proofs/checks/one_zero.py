@@ -15,34 +15,49 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from math import comb, factorial
+from typing import NamedTuple
 
 from flint import arb, ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet, algebra, algebra_with_parameter
 from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at
-from .certificate import Certificate, Finding, NotProvedError, lowest
+from .certificate import Certificate, Finding, Range, lower_bound
 
 BITS = 128
 MOST_BANDS = 1000
 _ORDER = 3  # of the map's series in xi and eta
 _PARAMETER_ORDER = 5  # of the remainder of its Taylor polynomials in theta
-_TERMS = 60  # of a power series, at arguments below 5
-_MORE = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
+_SERIES_TERMS = 60  # of a power series, at arguments below 5
+_EXTRA_ORDERS = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
 
-PLACES = {"zero": 1, "resonance": 0}  # of the functions in what `over_band` returns
+PLACES = {"zero": 1, "resonance": 0}  # of the functions among the fields of BandEnclosure
 Field = dict[tuple[int, int], Jet]  # powers of xi and eta -> coefficient, a series in theta
 
 
+class Enclosed(NamedTuple):
+    """A function of theta over a band: its values and its derivatives."""
+
+    value: arb
+    slope: arb
+
+
+class BandEnclosure(NamedTuple):
+    """Enclosures over a band; third is theta^2 (3 cot^2(omega/2) - 1)."""
+
+    cosine: Enclosed  # cos(omega)
+    twist: Enclosed  # theta tau_1
+    third: arb
+
+    def function(self, name: str) -> Enclosed:
+        """Return the function that vanishes at the "zero" or at the "resonance"."""
+        return self.twist if name == "zero" else self.cosine
+
+
 def check(
-    text: str,
-    k: Fraction,
-    g: Fraction,
-    *,
-    energy: Fraction,
-    zero: tuple[Fraction, Fraction],
-    resonance: tuple[Fraction, Fraction],
+    text: str, k: Fraction, g: Fraction, *, energy: Fraction, zero: Range, resonance: Range
 ) -> Finding:
     """Prove that the fixed point's twist has one zero between the least energy and a given one.
 
@@ -61,21 +76,20 @@ def check(
         for name, bounds in (("zero", zero), ("resonance", resonance)):
             digits[name] = _energy_of(certificate.row(name, 2), k, g, bounds, name)
         bands = [over_band(k, g, *ends) for ends in pairwise(edges)]
-        margins = {"third resonance": min(lowest(third) for *_, third in bands)}
-        for name, place in PLACES.items():
-            margins[name] = _falls_once([_stage(*band[place], name) for band in bands], name)
+        margins = {"third resonance": min(lower_bound(band.third) for band in bands)}
+        for name in PLACES:
+            margins[name] = _margin_of_one_zero(
+                [_sign_stage(band.function(name), name) for band in bands], name
+            )
         return Finding(digits, margins)
 
 
-def over_band(
-    k: Fraction, g: Fraction, low: Fraction, high: Fraction
-) -> tuple[tuple[arb, arb], tuple[arb, arb], arb]:
+def over_band(k: Fraction, g: Fraction, low: Fraction, high: Fraction) -> BandEnclosure:
     """Enclose cos(omega) and theta tau_1 over a band, each with its derivative in theta.
 
     By the mean value theorem each is its value at the middle plus the derivative over the band
-    times the distance. The third number returned is theta^2 (3 cot^2(omega/2) - 1), which is
-    positive where omega < 2 pi/3. Raises NotProvedError where that or ellipticity is not proved,
-    and for bands that do not lie in 0 <= theta < 2.5.
+    times the distance. The field `third` is positive where omega < 2 pi/3. Raises NotProvedError
+    where that or ellipticity is not proved, and for bands that do not lie in 0 <= theta < 2.5.
     """
     if not 0 <= low <= high:
         raise NotProvedError(f"theta from {float(low):g} to {float(high):g} is no band")
@@ -83,17 +97,18 @@ def over_band(
     middle = band.mid()
     try:
         fields = _fields(ball_of(k), ball_of(g), band)
-        *wide, third = _cosine_and_twist(fields[0], band)
-        narrow = _cosine_and_twist(fields[1], middle)
+        cosine, twist, third = _cosine_and_twist(fields[0], band)
+        cosine_at, twist_at, _ = _cosine_and_twist(fields[1], middle)
     except NotProvedError as reason:
         raise NotProvedError(f"theta from {float(low):g} to {float(high):g}: {reason}") from None
-    pairs = []
-    for over, at in zip(wide, narrow, strict=False):
+
+    def narrowed(over: Jet, at: Jet) -> Enclosed:
         value, slope = over.coefficients
         if not (value.is_finite() and slope.is_finite()):
             raise NotProvedError("the twist over a band is not finite")
-        pairs.append((value.intersection(at.constant + slope * (band - middle)), slope))
-    return pairs[0], pairs[1], third
+        return Enclosed(value.intersection(at.constant + slope * (band - middle)), slope)
+
+    return BandEnclosure(narrowed(cosine, cosine_at), narrowed(twist, twist_at), third)
 
 
 def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fraction) -> None:
@@ -107,21 +122,18 @@ def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fracti
         raise NotProvedError("the bands are not proved to reach the statement's energy")
 
 
-def _stage(value: arb, slope: arb, name: str) -> tuple[int, float]:
-    """Return 0, 1 or 2 where a function is positive, falls or is negative, and the margin.
-
-    The arguments are its value and its derivative over a band.
-    """
-    if value > 0:
-        return 0, lowest(value)
-    if value < 0:
-        return 2, lowest(-value)
-    if slope < 0:
-        return 1, lowest(-slope)
+def _sign_stage(function: Enclosed, name: str) -> tuple[int, float]:
+    """Return 0, 1 or 2 for a function that is positive, falls or is negative, and the margin."""
+    if function.value > 0:
+        return 0, lower_bound(function.value)
+    if function.value < 0:
+        return 2, lower_bound(-function.value)
+    if function.slope < 0:
+        return 1, lower_bound(-function.slope)
     raise NotProvedError(f"the {name} is not proved to be the only one: a band is too wide")
 
 
-def _falls_once(stages: Sequence[tuple[int, float]], name: str) -> float:
+def _margin_of_one_zero(stages: Sequence[tuple[int, float]], name: str) -> float:
     """Check that a function is positive, then falls, then is negative; returns the margin.
 
     So it has one zero over all bands together, which are neighbours.
@@ -132,12 +144,12 @@ def _falls_once(stages: Sequence[tuple[int, float]], name: str) -> float:
     return min(margin for _, margin in stages)
 
 
-def _energy_of(row: list[Fraction], k, g, bounds, name: str) -> arb:
+def _energy_of(row: list[Fraction], k: Fraction, g: Fraction, bounds: Range, name: str) -> arb:
     """Prove that a zero lies between two theta, and its energy between the bounds."""
     low, high = row
     if not 0 < low < high < Fraction("2.5"):  # and so below pi
         raise NotProvedError(f"the certificate's {name} is no interval of theta")
-    signs = [over_band(k, g, theta, theta)[PLACES[name]][0] for theta in row]
+    signs = [over_band(k, g, theta, theta).function(name).value for theta in row]
     if not signs[0] > 0 > signs[1]:
         raise NotProvedError(f"the {name} is not proved to lie between the certificate's theta")
     ends = (energy_at(ball_of(k), ball_of(g), ball_of(theta)) for theta in row)
@@ -189,6 +201,7 @@ def _quadratic_and_cubic(x: Field, y: Field, beta: Jet) -> list[tuple[Jet, Jet]]
 
 
 def _square(pair: tuple[Jet, Jet]) -> Jet:
+    """Return the square of a complex number's modulus."""
     return pair[0] * pair[0] + pair[1] * pair[1]
 
 
@@ -199,7 +212,8 @@ def _fields(k: arb, g: arb, theta: arb) -> tuple[list[Field], list[Field]]:
     """
     order, middle = _PARAMETER_ORDER, theta.mid()
     away = theta - middle
-    over, at = [], []
+    over: list[Field] = []
+    at: list[Field] = []
     pairs = zip(_series(k, g, middle, order - 1), _series(k, g, theta, order), strict=True)
     for near, wide in pairs:
         over.append({})
@@ -264,14 +278,14 @@ def _even_function(kind: str, value: arb, order: int) -> list[arb]:
     """
     if not abs(value) < 5:
         raise NotProvedError("the bands of theta are too wide")
-    middle, most = value.mid(), order + _MORE
+    middle, most = value.mid(), order + _EXTRA_ORDERS
     away = value - middle
     reach, powers = away.abs_upper(), [arb(1)]
-    while len(powers) <= 2 * _TERMS:
+    while len(powers) <= 2 * _SERIES_TERMS:
         powers.append(powers[-1] * middle)
-    # Of the terms C(2j, n) |z|^(2j - n)/(2j)! those with j > _TERMS are left out; as |z| < 5 and
-    # C(2j, n) <= 4^j, their sum is less than the following.
-    left_out = arb(0, arb(2 * 100**_TERMS) / factorial(2 * _TERMS))
+    # Of the terms C(2j, n) |z|^(2j - n)/(2j)! those with j > _SERIES_TERMS are left out. As |z| < 5
+    # and C(2j, n) <= 4^j, their sum is less than the following.
+    left_out = arb(0, arb(2 * 100**_SERIES_TERMS) / factorial(2 * _SERIES_TERMS))
     at_middle = [
         sum((c * powers[p] for p, c in _power_series(kind, n, ctx.prec)), left_out)
         for n in range(most + 1)
@@ -295,6 +309,6 @@ def _power_series(kind: str, n: int, bits: int) -> list[tuple[int, arb]]:
     sign, more = (-1, 3) if kind == "sine" else (1, 2)
     return [
         (2 * j - n, ball_of(Fraction(sign * (-1) ** j * comb(2 * j, n), factorial(2 * j + more))))
-        for j in range(_TERMS + 1)
+        for j in range(_SERIES_TERMS + 1)
         if 2 * j >= n
     ]

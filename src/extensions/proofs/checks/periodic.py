@@ -5,26 +5,28 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
+from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from study.enclosure.surface import Impact, Surface, ball_of
+from study.enclosure.flight import NotProvedError
+from study.enclosure.surface import Impact, Surface, ball_of, fraction_of
 
 from ..enclosure.newton import enclose_zero, newton
-from .certificate import Certificate, Finding, NotProvedError, box, check_stated, lowest
+from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
+_RADIUS = Fraction(1, 10**8)  # of the box in which a fixed point is proved over a band of energies
 
-Window = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]  # of x and of xdot
-Points = Sequence[Sequence[arb]]  # (x, y) of each
+Point = tuple[arb, arb]  # x and y = xdot - k udot
 
 
 @dataclass(frozen=True)
 class Orbit:
     """An enclosed periodic orbit."""
 
-    points: tuple[tuple[arb, arb], ...]  # (x, y = xdot - k udot)
+    points: tuple[Point, ...]
     impacts: tuple[Impact, ...]  # after each point
     matrix: arb_mat  # the product of DP along the orbit, from the first point
     type: str  # "elliptic", "hyperbolic" or "inverse hyperbolic"
@@ -36,7 +38,7 @@ class Orbit:
         return self.matrix[0, 0] + self.matrix[1, 1]
 
 
-def check(text: str, surface: Surface, **bounds) -> Finding:
+def check(text: str, surface: Surface, **bounds: Any) -> Finding:
     """Prove a certificate's orbit; the bounds are those of `prove_stated`.
 
     The digits are of the first point and of the period, which is the sum of the flight times.
@@ -48,7 +50,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
         xdot, udot = surface.velocities(x, y)
         period = sum((impact.tau for impact in orbit.impacts), arb(0))
         digits = {"x": x, "xdot": xdot, "udot": udot, "period": period, "trace": orbit.trace}
-        margins = {"radius": float(orbit.radius), "trace": lowest(abs(abs(orbit.trace) - 2))}
+        margins = {"radius": float(orbit.radius), "trace": lower_bound(abs(abs(orbit.trace) - 2))}
         return Finding(digits, margins, {"orbit": orbit})
 
 
@@ -67,7 +69,7 @@ def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction
         room = 3 * arb.pi() / 2 - ball_of(theta)
         if not (room > 0 and theta * k < 2):
             raise NotProvedError("a second fixed point is not excluded")
-        margins = {"theta": lowest(room), "earlier": lowest(ball_of(2 - theta * k))}
+        margins = {"theta": lower_bound(room), "earlier": lower_bound(ball_of(2 - theta * k))}
         return Finding({"energies up to": ball_of(energy)}, margins)
 
 
@@ -87,15 +89,47 @@ def prove_stated(
     points. Raises NotProvedError.
     """
     centres, size = certificate.numbers("points", 2), certificate.radius(radius)
-    if len(centres) != period:
-        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-    orbit = prove(surface, centres, size + CLOSE)
-    if orbit.type != type:
-        raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
+    orbit = _prove_with_properties(surface, centres, size + CLOSE, period, type, window)
     for point, centre in zip(orbit.points, centres, strict=True):
         check_stated("orbit's point", point, centre, CLOSE)
-    check_window(surface, orbit, window)
     return replace(orbit, radius=size)
+
+
+def prove_saddles(
+    certificate: Certificate, surface: Surface, period: int, radius: Fraction, window: Window | None
+) -> Orbit:
+    """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
+    with ctx.workprec(BITS):
+        centres = [row[:2] for row in certificate.numbers("saddles", 6)]
+        return _prove_with_properties(surface, centres, radius, period, "hyperbolic", window)
+
+
+def _prove_with_properties(
+    surface: Surface,
+    centres: Sequence[Sequence[Fraction]],
+    radius: Fraction,
+    period: int,
+    type: str,
+    window: Window | None,
+) -> Orbit:
+    """Prove an orbit near the centres, with a prime period, a type and a point in the window."""
+    if len(centres) != period:
+        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
+    orbit = prove(surface, centres, radius)
+    if orbit.type != type:
+        raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
+    check_window(surface, orbit, window)
+    return orbit
+
+
+def prove_fixed_point_over(
+    k: Fraction, g: Fraction, energy: arb, theta: arb
+) -> tuple[Surface, Orbit]:
+    """Prove the fixed point over a band around an energy's ball; theta is half its flight time."""
+    bottom = fraction_of(energy.lower()) - CLOSE
+    band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
+    x = ball_of(g / k) * theta * theta.cot()
+    return band, prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
 
 
 def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction) -> Orbit:
@@ -110,7 +144,7 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
     return orbit
 
 
-def _pairs(values: Sequence[arb]) -> list[tuple[arb, arb]]:
+def _pairs(values: Sequence[arb]) -> list[Point]:
     """Return the points whose coordinates are in one list."""
     return list(zip(values[::2], values[1::2], strict=True))
 
@@ -129,43 +163,26 @@ def _shooting(surface: Surface, values: Sequence[arb]) -> tuple[list[arb], list[
     return residuals, slopes
 
 
-def newton_image(surface: Surface, points: Points) -> list[tuple[arb, arb]]:
+def newton_image(surface: Surface, points: Sequence[Sequence[arb]]) -> list[Point]:
     """Return the image of points (x, y) under one step of Newton's method to a periodic orbit."""
     return _pairs(newton(partial(_shooting, surface), [a for point in points for a in point]))
 
 
-def check_distinct(points: Points) -> None:
+def check_distinct(points: Sequence[Point]) -> None:
     """Check that no two of some enclosed points may be one."""
     for first, second in combinations(points, 2):
         if all(a.overlaps(b) for a, b in zip(first, second, strict=True)):
             raise NotProvedError("two points may be one: the period may be shorter")
 
 
-def prove_saddles(
-    certificate: Certificate,
-    surface: Surface,
-    period: int,
-    radius: Fraction,
-    window: Window | None,
+def enclose(
+    surface: Surface, points: Sequence[Sequence[arb]], radius: Fraction = Fraction(0)
 ) -> Orbit:
-    """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
-    with ctx.workprec(BITS):
-        centres = [row[:2] for row in certificate.numbers("saddles", 6)]
-        if len(centres) != period:
-            raise NotProvedError(f"the certificate has {len(centres)} saddles, not {period}")
-        orbit = prove(surface, centres, radius)
-        if orbit.type != "hyperbolic":
-            raise NotProvedError(f"the orbit at the sets is {orbit.type}, not hyperbolic")
-        check_window(surface, orbit, window)
-        return orbit
-
-
-def enclose(surface: Surface, points: Points, radius: Fraction = Fraction(0)) -> Orbit:
     """Return the Orbit through enclosed points; raises NotProvedError if its type is undecided."""
     matrix = arb_mat([[1, 0], [0, 1]])
     impacts = []
-    for point in points:
-        rows, impact = surface.jacobian(*point)
+    for x, y in points:
+        rows, impact = surface.jacobian(x, y)
         matrix = arb_mat(rows) * matrix
         impacts.append(impact)
     trace = matrix[0, 0] + matrix[1, 1]
@@ -175,14 +192,11 @@ def enclose(surface: Surface, points: Points, radius: Fraction = Fraction(0)) ->
         kind = "hyperbolic" if trace > 2 else "inverse hyperbolic"
     else:
         raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
-    return Orbit(tuple(map(tuple, points)), tuple(impacts), matrix, kind, radius)
+    return Orbit(tuple((x, y) for x, y in points), tuple(impacts), matrix, kind, radius)
 
 
 def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
-    """Check that one of the orbit's points lies in a window, if one is given.
-
-    Raises NotProvedError.
-    """
+    """Check that one of the orbit's points is proved to lie in the window, if one is given."""
     if window is None:
         return
     for x, y in orbit.points:

@@ -5,20 +5,23 @@ enclosure shows that the first root of each flight is simple. tau_1 depends cont
 energy, so it has a zero between two energies at which its signs differ.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from flint import ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
 from . import periodic
 from .birkhoff import NormalForm, normal_form
-from .certificate import Certificate, Finding, NotProvedError, check_stated, lowest
+from .certificate import Certificate, Finding, check_stated, lower_bound
 
 CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
 
-def check(text: str, surface: Surface, **bounds) -> Finding:
+def check(text: str, surface: Surface, **bounds: Any) -> Finding:
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
     The bounds are those of `periodic.prove_stated`. The twist is in radians per unit of the action
@@ -33,7 +36,7 @@ def check(text: str, surface: Surface, **bounds) -> Finding:
         check_stated("twist", [twist], [stated], CLOSE * abs(stated))
         if not abs(twist) > 0:
             raise NotProvedError("the twist may be zero")
-        margins = {"twist": lowest(abs(twist)), "nonresonance": lowest(form.nonresonance)}
+        margins = {"twist": lower_bound(abs(twist)), "nonresonance": lower_bound(form.nonresonance)}
         return Finding({"twist": twist, "trace": orbit.trace}, margins)
 
 
@@ -62,15 +65,17 @@ def check_zero(
         if not second < 0:
             raise NotProvedError("the second twist is not proved to be negative in the band")
         margins = {
-            "twist": min(lowest(forms[0].twists[0]), lowest(-forms[1].twists[0])),
-            "second twist": lowest(-second),
-            "nonresonance": lowest(forms[2].nonresonance),
+            "twist": min(lower_bound(forms[0].twists[0]), lower_bound(-forms[1].twists[0])),
+            "second twist": lower_bound(-second),
+            "nonresonance": lower_bound(forms[2].nonresonance),
         }
         return Finding({"energy": between.constants()[2], "second twist": second}, margins)
 
 
-def falling_twist(band: Surface, centres, radius: Fraction, order: int) -> list[NormalForm]:
-    """Prove that a fixed point's twist is positive at the lower end of a band, negative at the end.
+def falling_twist(
+    band: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction, order: int
+) -> list[NormalForm]:
+    """Prove that a fixed point's twist is positive at a band's lower end, negative at its upper.
 
     Returns the normal forms at the two ends and over the whole band, so that the twist is
     continuous there. Raises NotProvedError.

@@ -5,7 +5,8 @@ Each formula in FORMULAS is derived by the function of that name in `model`, `mo
 
 import xarray as xr
 
-from pseudorigid.dynamics.variables import described
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.variables import of_rows
 
 # Module -> its functions that derive a formula each, in the order of the dataset.
 FORMULAS = {
@@ -21,8 +22,15 @@ FORMULAS = {
     "forms": ("jacobian", "exponents", "determinants", "one_form", "area", "reversible"),
 }  # fmt: skip
 
+_TABLE = {
+    "printed": ("formula", "whether the formula holds as printed; -1 where the paper prints none"),
+    "corrected": ("formula", "whether it holds corrected; -1 where it needs no correction"),
+    "value": ("formula", "a number that comes with the formula"),
+    "formula": ("formula", "function of this package that derives it"),
+}
 
-def derivations(ball, energy: float) -> xr.Dataset:
+
+def derivations(ball: Ball, energy: float) -> xr.Dataset:
     """Derive every formula of the paper that can be derived, and say whether it holds.
 
     The ball and the energy are not used: the formulas hold for every ball, or for none. The dataset
@@ -32,23 +40,10 @@ def derivations(ball, energy: float) -> xr.Dataset:
     from . import forms, model, motion
 
     modules = {"model": model, "motion": motion, "forms": forms}
-    names = [(module, name) for module, functions in FORMULAS.items() for name in functions]
-    results = [getattr(modules[module], name)() for module, name in names]
-    printed, corrected = (
-        [-1 if holds is None else int(holds) for holds in column]
-        for column in zip(*(result[:2] for result in results), strict=True)
-    )
-    printed_meaning = "whether the formula holds as printed; -1 where the paper prints none"
-    corrected_meaning = "whether it holds corrected; -1 where it needs no correction"
-    values = [result.value for result in results]
-    data = {
-        "printed": ("formula", printed, printed_meaning),
-        "corrected": ("formula", corrected, corrected_meaning),
-        "value": ("formula", values, "a number that comes with the formula"),
-        "formula": (
-            "formula",
-            [name for _, name in names],
-            "function of this package that derives it",
-        ),
-    }
-    return xr.Dataset(described(data))
+    rows = []
+    for module, names in FORMULAS.items():
+        for name in names:
+            printed, corrected, value = getattr(modules[module], name)()
+            holds = (-1 if flag is None else int(flag) for flag in (printed, corrected))
+            rows.append((*holds, value, name))
+    return xr.Dataset(of_rows(_TABLE, rows))

@@ -1,5 +1,7 @@
 """Jacobian, exponents, one-form and area: equations (32)-(42) of the paper."""
 
+from collections.abc import Iterator
+
 import sympy as sp
 
 from .motion import flight_after_impact, map_residuals
@@ -26,12 +28,13 @@ def jacobian_matrix() -> sp.Matrix:
     return sp.Matrix([[row.coeff(d) for d in DIRECTION] for row in rows])
 
 
-def _flight_examples():
+def _flight_examples() -> Iterator[dict[sp.Symbol, sp.Expr]]:
     """Yield exact values of x, v, w, tau, k and g of flights that end in an impact."""
     for numbers in ((31, -7, 42, 260), (-12, 35, 9, 117), (25, 18, -3, 571)):
         pairs = zip((x, v, w, tau), numbers, strict=True)
         values = {k: sp.Rational(1, 5)} | {a: sp.Rational(number, 100) for a, number in pairs}
-        rest = sum(flight(x, *rebound(v, w), tau)).subs(g, 0)
+        position, strain = flight(x, *rebound(v, w), tau)
+        rest = (position + strain).subs(g, 0)
         yield values | {g: (-2 * rest / tau**2).subs(values)}
 
 

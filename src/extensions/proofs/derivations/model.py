@@ -1,5 +1,7 @@
 """The model of section 2: equations of motion, inertia, stiffness, scaling and impulse."""
 
+from collections.abc import Callable
+
 import sympy as sp
 
 from .symbols import E0, EV0, GRAVITY, PAPER, Formula, M, R, T, energy, g, k, rebound, v, w, x, zero
@@ -15,7 +17,7 @@ def equations_of_motion() -> Formula:
     return Formula(zero(*(e.lhs - e.rhs + p for e, p in zip(equations, printed, strict=True))))
 
 
-def _over_sphere(f) -> sp.Expr:
+def _over_sphere(f: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
     """Integrate a function of the polar angle theta over the unit sphere."""
     theta, phi = sp.symbols("theta phi", positive=True)
     return sp.integrate(f(theta) * sp.sin(theta), (theta, 0, sp.pi), (phi, 0, 2 * sp.pi))
@@ -27,7 +29,7 @@ def euler_tensor() -> Formula:
     printed, corrected, inertias = True, True, []
     for power in (0, 1, 2, 7):  # of the radius, to which the density is proportional
 
-        def over_ball(f, power=power):
+        def over_ball(f: Callable[[sp.Symbol], sp.Expr], power: int = power) -> sp.Expr:
             return sp.integrate(r ** (power + 2) * _over_sphere(f), (r, 0, R))
 
         component = over_ball(lambda theta: (r * sp.cos(theta)) ** 2)
@@ -44,7 +46,7 @@ def shell() -> Formula:
     return Formula(inertia == 1, inertia == sp.Rational(1, 3), float(inertia))
 
 
-def _stiffness(young, nu) -> tuple[sp.Matrix, sp.Expr]:
+def _stiffness(young: sp.Symbol, nu: sp.Symbol) -> tuple[sp.Matrix, sp.Expr]:
     """Return the stiffness of the strains (11, 22, 33), and the shear modulus."""
     lame, shear = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
     return sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0)), shear

@@ -32,14 +32,14 @@ def flow() -> Formula:
     return Formula(zero(*moved, *(tangent.T * form * tangent - form)))
 
 
-def flight_after_impact():
+def flight_after_impact() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     """Return position, xdot, strain and udot a time tau after the impact of x, v and w."""
     speed, rate = rebound(v, w)
     position, strain = flight(x, speed, rate, tau)
     return position, speed + g * tau, strain, strain.diff(tau)
 
 
-def map_residuals(sign):
+def map_residuals(sign: int) -> tuple[tuple[sp.Symbol, ...], tuple[sp.Expr, ...]]:
     """Return x1, v1, w1 and (28) as residuals in them, with this sign in its first line."""
     x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)
     first = (1 - k) / (1 + k) * v + sign * 2 * k / (1 + k) * w
@@ -74,7 +74,7 @@ def conserved_energy() -> Formula:
     return Formula(zero(whole - energy(x, b, c)) and convex)
 
 
-def _end_of_section(sign):
+def _end_of_section(sign: int) -> sp.Expr:
     """Largest or smallest x on an energy surface, by the sign."""
     return g / k + sign * sp.sqrt(2 * LEVEL / k + g**2 / k**2)
 

@@ -27,22 +27,23 @@ def zero(*expressions: sp.Expr) -> bool:
     return all(sp.simplify(sp.expand(sp.expand_trig(e))) == 0 for e in expressions)
 
 
-def rebound(v, w):
+def rebound(v: sp.Expr, w: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Velocities b, c after an impact, by the code's own law on symbols."""
-    return formulas.rebound(v, w, k, (2 / (1 + k), 0))[:2]
+    b, c, *_ = formulas.rebound(v, w, k, (2 / (1 + k), 0))
+    return b, c
 
 
-def flight(x, b, c, t):
+def flight(x: sp.Expr, b: sp.Expr, c: sp.Expr, t: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Position and strain a time t after an impact, eq. (26)."""
     return x + b * t + g * t**2 / 2, c * sp.sin(t) - x * sp.cos(t)
 
 
-def energy(x, v, w):
+def energy(x: sp.Expr, v: sp.Expr, w: sp.Expr) -> sp.Expr:
     """Energy of a state, eq. (29)."""
     return v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2
 
 
-def action(x, b, c, t):
+def action(x: sp.Expr, b: sp.Expr, c: sp.Expr, t: sp.Expr) -> sp.Expr:
     """Integral of xdot^2 + k udot^2 over a flight, in closed form."""
     mixed = sp.sin(t) * sp.cos(t)
     strain = (x**2 * (t - mixed) + c**2 * (t + mixed)) / 2 + x * c * sp.sin(t) ** 2

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -175,15 +174,18 @@ def _reported(name: str) -> Iterator[None]:
         raise ValueError(f"{name} cannot be proved: {error}") from None
 
 
-def _request(ball: Any, orbit: Any, energy: Any) -> tuple[Surface, list[list[float]], str]:
+def _request(
+    ball: Ball | Surface, orbit: xr.Dataset, energy: Exact | None
+) -> tuple[Surface, list[list[float]], str]:
     """Return the surface, the points (x, y) and the type of a requested orbit."""
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
     if isinstance(ball, Surface):
         surface = ball
     else:
-        energy = Fraction(float(orbit.attrs["energy"])) if energy is None else energy
-        surface = Surface(Fraction(ball.k), Fraction(ball.g), energy)
+        if energy is None:
+            energy = Fraction(float(orbit.attrs["energy"]))
+        surface = Surface(Fraction(ball.k), Fraction(ball.g), exact("energy", energy))
     near, states = approximate_orbits.ball(surface), states_of(orbit)
     actual, expected = float(np.ravel(near.energy(*states))[0]), float(surface.energy)
     if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -17,7 +18,7 @@ from ..checks import curve, graph, horseshoe, no_circle
 from ..checks.birkhoff import normal_form
 from ..checks.certificate import Finding
 from ..checks.hsets import HSet
-from ..checks.periodic import BITS, prove
+from ..checks.periodic import BITS, Point, prove
 from ..checks.twist import falling_twist
 from ..search import approximate_orbits
 from ..search.twist import bisect_zero
@@ -74,15 +75,17 @@ def scene_horseshoe(
     return _dataset(table, surface)
 
 
-def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list:
+def _image_of_edges(surface: Surface, source: HSet, target: HSet) -> list[list[Point]]:
     """Return images, in the target's coordinates, of points of the edges p = -1, 1, q = -1, 1."""
     last = _EDGE_POINTS - 1
     line, sides = [arb(2 * i - last) / last for i in range(_EDGE_POINTS)], (arb(-1), arb(1))
     edges = [*([(p, q) for q in line] for p in sides), *([(p, q) for p in line] for q in sides)]
-    return [
-        [target.coordinates(*surface.impact(*source.box(*point))[:2]) for point in edge]
-        for edge in edges
-    ]
+
+    def image(p: arb, q: arb) -> Point:
+        x, y, *_ = surface.impact(*source.box(p, q))
+        return target.coordinates(x, y)
+
+    return [[image(*point) for point in edge] for edge in edges]
 
 
 def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
@@ -110,7 +113,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
         except (NotProvedError, ValueError, ArithmeticError) as error:
             raise ValueError(f"no twist is proved at {surface}: leave it out: {error}") from None
     zeros = (
-        _zero(*surfaces[i : i + 2], points[i])
+        _zero(surfaces[i], surfaces[i + 1], points[i])
         for i, (low, high) in enumerate(pairwise(twists))
         if low > 0.0 >= high
     )
@@ -129,8 +132,8 @@ def _zero(low: Surface, high: Surface, point: list[list[float]]) -> float | None
     """Return the energy between two surfaces at which the twist is proved to be zero, or None."""
     with ctx.workprec(BITS):
         try:
-            band, point = bisect_zero(low.k, low.g, low.energy, high.energy, point)
-            centre = [tuple(Fraction(float(a)) for a in z) for z in point]
+            band, middle = bisect_zero(low.k, low.g, low.energy, high.energy, point)
+            centre = [tuple(Fraction(float(a)) for a in z) for z in middle]
             falling_twist(band, centre, _RADIUS, order=3)
         except (NotProvedError, ArithmeticError):
             return None
@@ -186,8 +189,8 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
     return _dataset(table, surface)
 
 
-def _near(surface: Surface, value: float, theorems: list) -> Finding:
-    """Prove a curve with about this rotation number, from a theorem's certificate if there is."""
+def _near(surface: Surface, value: float, theorems: list[Theorem]) -> Finding:
+    """Prove a curve with about this rotation number, from one of the theorems' if possible."""
     for theorem in theorems:
         low, high = theorem.bounds["rotation"]
         if theorem.bounds["period"] == 1 and low <= value <= high:
@@ -241,10 +244,11 @@ def scene_graph(ball: Ball, energy: float) -> xr.Dataset:
 
 def _surface_of(ball: Ball, energy: float) -> Surface:
     """Return the Surface whose k, g and energy are the decimals that the numbers print as."""
-    return Surface(*(str(value) for value in (ball.k, ball.g, energy)))
+    k, g, exact_energy = (Fraction(str(value)) for value in (ball.k, ball.g, energy))
+    return Surface(k, g, exact_energy)
 
 
-def theorems_at(surface: Surface, checker: Callable) -> list[Theorem]:
+def theorems_at(surface: Surface, checker: Callable[..., Finding]) -> list[Theorem]:
     """Return the theorems on a surface that a checker proves."""
     return [
         theorem
@@ -253,7 +257,7 @@ def theorems_at(surface: Surface, checker: Callable) -> list[Theorem]:
     ]
 
 
-def _doubles(balls: Sequence) -> np.ndarray:
+def _doubles(balls: Sequence[Any]) -> np.ndarray:
     """Round nested lists of balls to an array of doubles."""
     return np.array(balls, dtype=object).astype(float)
 
@@ -264,6 +268,6 @@ def _corners(sets: list[HSet]) -> tuple[np.ndarray, np.ndarray]:
     return x.T, y.T
 
 
-def _dataset(table: dict, surface: Surface) -> xr.Dataset:
+def _dataset(table: dict[str, Any], surface: Surface) -> xr.Dataset:
     """Return the dataset of a table, as for `described`, with k and g as attributes."""
     return xr.Dataset(described(table), attrs={"k": float(surface.k), "g": float(surface.g)})
