@@ -61,7 +61,7 @@ class Impact(NamedTuple, Generic[Value]):
     s: Value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Surface:
     """The states just before an impact at one energy, in the chart x, y = xdot - k udot.
 
@@ -89,19 +89,19 @@ class Surface:
     k: Fraction
     g: Fraction
     energy: Fraction
-    width: Fraction = Fraction(0)
+    width: Fraction
 
-    def __post_init__(self) -> None:
-        for name in ("k", "g", "energy", "width"):
-            object.__setattr__(self, name, exact(name, getattr(self, name)))
+    def __init__(self, k: Exact, g: Exact, energy: Exact, width: Exact = 0) -> None:
+        for name, value in {"k": k, "g": g, "energy": energy, "width": width}.items():
+            object.__setattr__(self, name, exact(name, value))
         if not 0 < self.k <= 1:
             raise ValueError(f"k = {self.k} is not allowed: 0 < k <= 1")
         if not self.g > 0:
             raise ValueError(f"g = {self.g} is not allowed: g > 0")
-        energy, lowest = self.energy, -self.g * self.g / (2 * self.k)
-        if not energy > lowest:
-            needed = f"above {_shortened(lowest)}"
-            raise ValueError(f"energy = {_shortened(energy)} is not allowed: {needed}")
+        lowest = -self.g * self.g / (2 * self.k)
+        if not self.energy > lowest:
+            asked, least = map(_shortened, (self.energy, lowest))
+            raise ValueError(f"energy = {asked} is not allowed: above {least}")
         if not self.width >= 0:
             raise ValueError(f"width = {self.width} is not allowed: at least 0")
 

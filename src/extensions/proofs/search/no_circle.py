@@ -11,7 +11,7 @@ from study.enclosure.surface import Surface
 
 from ..checks import jump
 from . import approximate_orbits
-from .certificate_text import header, row, rows
+from .certificate_text import Theorem, header, row, rows
 from .chains import DoubleMap, Parallelogram, chain
 from .horseshoe import directions, mirrors
 from .periodic import polished
@@ -28,7 +28,7 @@ _TOUCHES = 4001  # points of the jump set among which the nearest is sought
 _REACH = 1.2  # of the jump set beyond the edges of the last set, in its half heights
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return a certificate for the theorem's hyperbolic orbit.
 
     Raises ValueError if the branch does not meet the jump set, or no chain leads to it.
