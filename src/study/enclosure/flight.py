@@ -51,19 +51,16 @@ class Flight(Generic[Value]):
         height, slope = self._height_and_slope(t, sine, cosine)
         return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
-    def height_and_slope(self, t: Value) -> tuple[Value, Value]:
-        """Return f and f' at t."""
-        return self._height_and_slope(t, *t.sin_cos())
-
     def height(self, t: Value) -> Value:
         """Return f at t."""
-        return self.height_and_slope(t)[0]
+        return self._height_and_slope(t, *t.sin_cos())[0]
 
     def slope(self, t: Value) -> Value:
         """Return f' at t."""
-        return self.height_and_slope(t)[1]
+        return self._height_and_slope(t, *t.sin_cos())[1]
 
     def _height_and_slope(self, t: Value, sine: Value, cosine: Value) -> tuple[Value, Value]:
+        """Return f and f' at t, from sine and cosine of t."""
         versine = 1 - cosine
         height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
         return height, self.g * t - self.s - self.c * versine + self.x * sine
@@ -97,7 +94,7 @@ class Flight(Generic[Value]):
         """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
         time, order = Jet.constant_of(self.x.algebra, root), 0
         while order < self.x.algebra.order:
-            height, slope = self.height_and_slope(time)
+            height, slope = self._height_and_slope(time, *time.sin_cos())
             height.coefficients[0] = 0 * root
             time = time - height / slope
             order = 2 * order + 1
@@ -218,7 +215,7 @@ def _step(
 
 
 def _parabola_root(f: float, d: float, m: float) -> float:
-    """Positive root of f + d h + m h^2/2 for f < 0 and m >= 0; infinite where there is none."""
+    """Return the positive root of f + d h + m h^2/2, f < 0 and m >= 0; infinity if none."""
     root = math.sqrt(d * d - 2.0 * m * f)
     if d > 0.0:
         return -2.0 * f / (d + root)

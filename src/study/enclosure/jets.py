@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 from functools import cache
-from itertools import product
+from itertools import accumulate, product
 from math import prod
+from operator import mul
 from typing import Any, TypeVar
 
 from flint import acb, arb
 
-Number = Any  # arb or acb, on which the methods of a Jet are the same
+Coefficient = Any  # arb or acb, all of a Jet of one type
 Real = TypeVar("Real", arb, "Jet")
 Value = TypeVar("Value", arb, acb, "Jet")
 
@@ -26,7 +27,7 @@ class Algebra:
 def algebra(variables: int, order: int, parameter_order: int | None = None) -> Algebra:
     """Return the Algebra of series in some variables up to a total degree (cached).
 
-    With a `parameter_order` their coefficients are series in a parameter, the last variable, and
+    With a `parameter_order` the coefficients are series in a parameter, the last variable, and
     the algebra's order is the largest total degree.
     """
     powers = product(range(order + 1), repeat=variables)
@@ -48,22 +49,22 @@ def algebra(variables: int, order: int, parameter_order: int | None = None) -> A
 class Jet:
     """Truncated Taylor series: coefficients of the algebra's monomials in order."""
 
-    def __init__(self, algebra: Algebra, coefficients: list[Number]):
+    def __init__(self, algebra: Algebra, coefficients: list[Coefficient]):
         self.algebra, self.coefficients = algebra, coefficients
 
     @classmethod
-    def constant_of(cls, algebra: Algebra, value: Number) -> "Jet":
+    def constant_of(cls, algebra: Algebra, value: Coefficient) -> "Jet":
         """Return the series of a constant."""
         return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
 
     @classmethod
-    def plane(cls, order: int, x: Number, y: Number) -> "tuple[Jet, Jet]":
+    def plane(cls, order: int, x: Coefficient, y: Coefficient) -> "tuple[Jet, Jet]":
         """Return the series x + the first and y + the second of two variables."""
         first, second = cls.series(algebra(2, order), x, y)
         return first, second
 
     @classmethod
-    def series(cls, algebra: Algebra, *values: Number) -> "list[Jet]":
+    def series(cls, algebra: Algebra, *values: Coefficient) -> "list[Jet]":
         """Return the series value + variable, for a value of each of the algebra's variables."""
         jets = [cls.constant_of(algebra, value) for value in values]
         for place, jet in enumerate(jets):
@@ -73,14 +74,14 @@ class Jet:
         return jets
 
     @property
-    def constant(self) -> Number:
+    def constant(self) -> Coefficient:
         """Constant term."""
         return self.coefficients[0]
 
-    def __getitem__(self, powers: tuple[int, ...]) -> Number:
+    def __getitem__(self, powers: tuple[int, ...]) -> Coefficient:
         return self.coefficients[self.algebra.monomials.index(powers)]
 
-    def __add__(self, other: "Jet | Number") -> "Jet":
+    def __add__(self, other: "Jet | Coefficient") -> "Jet":
         mine = self.coefficients
         if isinstance(other, Jet):
             theirs = other.coefficients
@@ -92,17 +93,17 @@ class Jet:
     def __neg__(self) -> "Jet":
         return Jet(self.algebra, [-a for a in self.coefficients])
 
-    def __sub__(self, other: "Jet | Number") -> "Jet":
+    def __sub__(self, other: "Jet | Coefficient") -> "Jet":
         return self + (-other)
 
-    def __rsub__(self, other: Number) -> "Jet":
+    def __rsub__(self, other: Coefficient) -> "Jet":
         return (-self) + other
 
-    def __mul__(self, other: "Jet | Number") -> "Jet":
+    def __mul__(self, other: "Jet | Coefficient") -> "Jet":
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a * other for a in self.coefficients])
         mine, theirs = self.coefficients, other.coefficients
-        out: list[Number] = [None] * len(mine)
+        out: list[Coefficient] = [None] * len(mine)
         for i, j, k in self.algebra.products:
             term = mine[i] * theirs[j]
             out[k] = term if out[k] is None else out[k] + term
@@ -110,12 +111,12 @@ class Jet:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: "Jet | Number") -> "Jet":
+    def __truediv__(self, other: "Jet | Coefficient") -> "Jet":
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a / other for a in self.coefficients])
         return self * other._inverse()
 
-    def __rtruediv__(self, other: Number) -> "Jet":
+    def __rtruediv__(self, other: Coefficient) -> "Jet":
         return self._inverse() * other
 
     def _inverse(self) -> "Jet":
@@ -146,16 +147,14 @@ class Jet:
         if not all(jet.constant == 0 for jet in substitutes):
             raise ValueError("a substitute is not 0 at 0: the series would lack terms")
         total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
-        powers = [[one] for _ in substitutes]
-        for row, jet in zip(powers, substitutes, strict=True):
-            for _ in range(self.algebra.order):
-                row.append(row[-1] * jet)
+        repeated = ([jet] * self.algebra.order for jet in substitutes)
+        powers = [list(accumulate(jets, mul, initial=one)) for jets in repeated]
         for monomial, c in zip(self.algebra.monomials, self.coefficients, strict=True):
             first, *rest = (row[i] for row, i in zip(powers, monomial, strict=True))
             total = total + prod(rest, start=first) * c
         return total
 
-    def compose(self, terms: list[Number]) -> "Jet":
+    def compose(self, terms: list[Coefficient]) -> "Jet":
         """Return the sum of terms[n] (self - constant)^n."""
         rest = Jet(self.algebra, [0 * self.constant, *self.coefficients[1:]])
         total = Jet.constant_of(self.algebra, terms[-1])
