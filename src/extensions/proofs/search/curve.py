@@ -129,7 +129,10 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
     with ctx.workprec(53):
         k, g, _ = surface.constants()
         rim = float(g / k + surface.radius())
-    reach = rim - centre if period == 1 else 0.5 * _nearest(points)
+    reach = rim - centre
+    if period > 1:  # half way to the nearest of the other points
+        others = np.asarray(points[1:], dtype=float)
+        reach = 0.5 * float(np.abs(others - points[0]).max(axis=1).min())
 
     def excess(x: float, impacts: int = _IMPACTS) -> float:
         return turns(surface, x, points, impacts) - omega
@@ -147,12 +150,6 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
         f"no curve with the rotation number {omega:.6g} was found on y = 0: "
         f"near the point the numbers go from {low:.4f} to {high:.4f}"
     )
-
-
-def _nearest(points: Sequence) -> float:
-    """Return the distance between the first point and the nearest of the others."""
-    first, *others = np.asarray(points, dtype=float)
-    return float(min(np.abs(np.array(others) - first).max(axis=1)))
 
 
 def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:

@@ -1,4 +1,7 @@
-"""Certificates of the twist, and of the energy at which the fixed point's twist vanishes."""
+"""Certificates of the twist, and of the energy at which the fixed point's twist vanishes.
+
+The twist is proposed by the closed formula for Birkhoff's first coefficient.
+"""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -7,7 +10,7 @@ from flint import arb, ctx
 
 from study.enclosure.surface import Surface
 
-from ..checks.birkhoff import normal_form
+from ..checks.birkhoff import complex_map
 from ..checks.periodic import enclose
 from . import approximate_orbits
 from .certificate_text import Theorem, bisected, decimal, header
@@ -22,7 +25,7 @@ def propose(theorem: Theorem) -> str:
     surface = theorem.bounds["surface"]
     with ctx.workprec(BITS):
         points = polished(surface, approximate_orbits.points_of(theorem, "elliptic"))
-        value = decimal(_twist(surface, points), _TWIST_DIGITS)
+        value = decimal(_approximate_twist(surface, points), _TWIST_DIGITS)
         before = header("twist", surface) + f"twist = {value}\n" + centre_rows(points)
     return with_largest_radius(theorem, before)
 
@@ -51,12 +54,21 @@ def bisect_zero(
     def is_positive(energy: Fraction) -> bool:
         nonlocal point
         point = polished(Surface(k, g, energy), point)
-        return _twist(Surface(k, g, energy), point) > 0
+        return _approximate_twist(Surface(k, g, energy), point) > 0
 
     low, high = bisected(is_positive, low, high, _ENERGY_DECIMALS)
     return Surface(k, g, low, high - low), polished(Surface(k, g, low), point)
 
 
-def _twist(surface: Surface, points: Sequence) -> arb:
-    """Enclose the first twist at the first point (x, y) of a nearly exact orbit."""
-    return normal_form(surface, enclose(surface, points)).twists[0]
+def _approximate_twist(surface: Surface, points: Sequence) -> arb:
+    """Estimate tau_1 of `checks.birkhoff` at the first point (x, y) of a nearly exact orbit."""
+    z, map_ = complex_map(surface, enclose(surface, points), 3)
+    w = z.conjugate()
+    g20, g11, g02, g21 = 2 * map_[2, 0], map_[1, 1], 2 * map_[0, 2], 2 * map_[2, 1]
+    first = (
+        g20 * g11 * (w - 3 + 2 * z) / (2 * (z * z - z) * (w - 1))
+        + g11 * g11.conjugate() / (1 - w)
+        + g02 * g02.conjugate() / (2 * (z * z - w))
+        + g21 / 2
+    )
+    return (2 * (w * first).imag).mid()
