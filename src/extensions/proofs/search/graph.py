@@ -47,14 +47,6 @@ class Crossing(NamedTuple):
     high: float
 
 
-class Strip(NamedTuple):
-    """The strip of a crossing in its set."""
-
-    name: int  # of the crossing
-    below: int  # number of the set's strips that lie below this one
-    crossing: Crossing
-
-
 class Growth(NamedTuple):
     """The largest entropy of crossings whose strips are disjoint."""
 
@@ -85,9 +77,8 @@ def propose(theorem: Theorem, periods: Sequence[int], size: float, impacts: int)
                 del candidates[name]
             else:
                 candidates[name], chains[name] = proved
-    kept, crossings, growth = _best_component(
-        {name: candidates[name] for name in chosen}, len(sets)
-    )
+    candidates = {name: candidates[name] for name in chosen}
+    kept, crossings, growth = _best_component(candidates, len(sets))
     names = sorted(crossings, key=lambda name: (crossings[name].source, crossings[name].low))
     connections = [(crossings[name], chains[name]) for name in names]
     return _text(surface, {i: sets[i] for i in kept}, connections, growth)
@@ -112,13 +103,12 @@ def _at_saddles(double_map: DoubleMap, points: np.ndarray, size: float) -> list[
         values, vectors = np.linalg.eig(np.linalg.multi_dot(turned[::-1]))
         u, s = (vectors[:, j].real for j in np.argsort(-np.abs(values)))
         scale = size / np.sqrt(abs(u[0] * s[1] - u[1] * s[0]))
-        sides = (point, scale * u, scale * s)
-        sets.append(Parallelogram(*(_rounded(side, _CENTRE_DIGITS) for side in sides)))
+        rounded = (
+            np.array([float(f"{value:.{_CENTRE_DIGITS}g}") for value in side])
+            for side in (point, scale * u, scale * s)
+        )
+        sets.append(Parallelogram(*rounded))
     return sets
-
-
-def _rounded(values: Sequence[float], digits: int) -> np.ndarray:
-    return np.array([float(f"{value:.{digits}g}") for value in values])
 
 
 def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -> list[Crossing]:
@@ -185,35 +175,34 @@ def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
     return best
 
 
-def _strips(crossings: dict[int, Crossing], count: int) -> list[list[Strip]]:
-    """Return, for each set, its strips by their upper ends."""
-    strips: list[list[Strip]] = [[] for _ in range(count)]
+def _strips(crossings: dict[int, Crossing], count: int) -> list[list[tuple[int, int, Crossing]]]:
+    """Return name, number of strips below, and crossing of each set's strips, by upper ends."""
+    strips: list[list[tuple[int, int, Crossing]]] = [[] for _ in range(count)]
     for name, it in sorted(crossings.items(), key=lambda pair: (pair[1].high, pair[0])):
         here = strips[it.source]
         limit = it.low - 10.0**-_STRIP_DIGITS
-        below = bisect_left(here, limit, key=lambda strip: strip.crossing.high)
-        here.append(Strip(name, below, it))
+        here.append((name, bisect_left(here, limit, key=lambda strip: strip[2].high), it))
     return strips
 
 
 def _choose(
-    strips: list[list[Strip]], weights: np.ndarray, entropy: float
+    strips: list[list[tuple[int, int, Crossing]]], weights: np.ndarray, entropy: float
 ) -> tuple[np.ndarray, list[int]]:
     """Choose disjoint strips of the largest sum in each set: return the sums, and the names."""
     sums, chosen = np.zeros(weights.size), []
     values, discount = weights.tolist(), np.exp(-entropy)
     for source, here in enumerate(strips):
         best, taken = [0.0], []
-        for strip in here:
-            its = discount**strip.crossing.impacts * values[strip.crossing.target]
-            with_it = best[strip.below] + its
+        for _, below, crossing in here:
+            with_it = best[below] + discount**crossing.impacts * values[crossing.target]
             taken.append(with_it > best[-1])
             best.append(max(with_it, best[-1]))
         sums[source], n = best[-1], len(here)
         while n:
+            name, below, _ = here[n - 1]
             if taken[n - 1]:
-                chosen.append(here[n - 1].name)
-            n = here[n - 1].below if taken[n - 1] else n - 1
+                chosen.append(name)
+            n = below if taken[n - 1] else n - 1
     return sums, chosen
 
 
@@ -231,11 +220,10 @@ def _proved(
     chain_rows = [_row(it) for it in found.sets]
     try:
         with ctx.workprec(graph.BITS):
-            source, target, *between = map(
-                _hset, (*(_row(it, _CENTRE_DIGITS) for it in ends), *chain_rows)
-            )
+            source, target = (_hset(_row(it, _CENTRE_DIGITS)) for it in ends)
             part = graph.part(source, "the strip", low, high)
-            connection = graph.Connection(0, 1, low, high, part, tuple(between))
+            between = tuple(map(_hset, chain_rows))
+            connection = graph.Connection(0, 1, low, high, part, between)
             graph.prove_connection(surface, [source, target], connection)
     except NotProvedError:
         return None
