@@ -6,11 +6,12 @@ parabolas that lie above f.
 """
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, Generic
 
-from flint import acb, arb, ctx
+from flint import arb, ctx
 
-from .jets import Jet
+from .jets import Jet, Real, Value
 
 _MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly touches the floor
 # A step is shortened by far more than the rounding of the parabola's root, so that the check in
@@ -30,57 +31,55 @@ class UndecidedError(NotProvedError, ArithmeticError):
     """A question that cannot be decided for this set of states at this precision."""
 
 
-class Flight(NamedTuple):
+@dataclass(frozen=True)
+class Flight(Generic[Value]):
     """Flights after an impact, eq. (26), and their gap f(t), eq. (21).
 
     x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it.
     """
 
-    x: arb | acb | Jet
-    b: arb | acb | Jet
-    c: arb | acb | Jet
-    s: arb | acb | Jet
+    x: Value
+    b: Value
+    c: Value
+    s: Value
     g: arb
 
-    def derivatives(self, t: arb | Jet) -> tuple:
-        """f, f', f'' and f''' at t."""
+    def derivatives(self, t: Value) -> tuple[Value, Value, Value, Value]:
+        """Return f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
         x, c = self.x, self.c
-        first_two = self._height_and_slope(t, sine, cosine)
-        return *first_two, self.g + x * cosine - c * sine, -x * sine - c * cosine
+        height, slope = self._height_and_slope(t, sine, cosine)
+        return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
-    def height_and_slope(self, t: arb | acb | Jet) -> tuple:
-        """f and f' at t."""
-        return self._height_and_slope(t, *t.sin_cos())
+    def height(self, t: Value) -> Value:
+        """Return f at t."""
+        return self._height_and_slope(t, *t.sin_cos())[0]
 
-    def height(self, t: arb | acb | Jet) -> arb | acb | Jet:
-        """f at t."""
-        return self.height_and_slope(t)[0]
+    def slope(self, t: Value) -> Value:
+        """Return f' at t."""
+        return self._height_and_slope(t, *t.sin_cos())[1]
 
-    def slope(self, t: arb | acb | Jet) -> arb | acb | Jet:
-        """f' at t."""
-        return self.height_and_slope(t)[1]
-
-    def _height_and_slope(self, t, sine, cosine):
+    def _height_and_slope(self, t: Value, sine: Value, cosine: Value) -> tuple[Value, Value]:
+        """Return f and f' at t, from sine and cosine of t."""
         versine = 1 - cosine
         height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
         return height, self.g * t - self.s - self.c * versine + self.x * sine
 
-    def end(self, tau: arb | acb | Jet) -> tuple:
+    def end(self, tau: Value) -> tuple[Value, Value, Value]:
         """Return x, xdot and udot at the end of flights of this duration, eq. (28)."""
         sine, cosine = tau.sin_cos()
         x, c = self.x, self.c
         return x * cosine - c * sine, self.b + self.g * tau, x * sine + c * cosine
 
-    def rounded(self) -> "Flight":
+    def rounded(self: "Flight[arb]") -> "Flight[arb]":
         """Return the flights in balls of the context's precision."""
-        return Flight(*(+part for part in self))
+        return Flight(+self.x, +self.b, +self.c, +self.s, +self.g)
 
-    def constant(self) -> "Flight":
+    def constant(self: "Flight[Jet]") -> "Flight[Any]":
         """Return the flights of the constant terms of jets."""
-        return Flight(*(part.constant for part in self[:-1]), self.g)
+        return Flight(self.x.constant, self.b.constant, self.c.constant, self.s.constant, self.g)
 
-    def first_root(self) -> arb | Jet:
+    def first_root(self: "Flight[Real]") -> Real:
         """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
 
         The ball contains the first root, which is simple, for every choice of parameters in the
@@ -91,18 +90,18 @@ class Flight(NamedTuple):
             return self.expand(self.constant().first_root())
         return _refine(self, *_isolate(self))
 
-    def expand(self, root: arb | acb) -> Jet:
+    def expand(self: "Flight[Jet]", root: Any) -> Jet:
         """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
         time, order = Jet.constant_of(self.x.algebra, root), 0
         while order < self.x.algebra.order:
-            height, slope = self.height_and_slope(time)
+            height, slope = self._height_and_slope(time, *time.sin_cos())
             height.coefficients[0] = 0 * root
             time = time - height / slope
             order = 2 * order + 1
         return time
 
 
-def launch(k: arb, g: arb, x: arb | Jet, v: arb | Jet, w: arb | Jet, s: arb | Jet) -> Flight:
+def launch(k: arb, g: arb, x: Real, v: Real, w: Real, s: Real) -> Flight[Real]:
     """Return the flight after an impact at x with the velocities v and w, eq. (25).
 
     s is v + w, which the sum of two balls would round.
@@ -110,7 +109,7 @@ def launch(k: arb, g: arb, x: arb | Jet, v: arb | Jet, w: arb | Jet, s: arb | Je
     return Flight(x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s, g)
 
 
-def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight, arb]:
+def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight[arb], arb]:
     """Return flights from points of the rim, s = 0, x = -g - beyond, and their first root.
 
     Raises UndecidedError as `first_root` does, and where not beyond >= 0: there the ball stays on
@@ -125,7 +124,7 @@ def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight, arb]:
     return flight, _refine(flight, *_isolate(flight, start))
 
 
-def _isolate(flight: Flight, start: arb | None = None) -> tuple[arb, arb]:
+def _isolate(flight: Flight[arb], start: arb | None = None) -> tuple[arb, arb]:
     """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0.
 
     `start` is a time up to which f < 0 is known.
@@ -143,7 +142,7 @@ def _isolate(flight: Flight, start: arb | None = None) -> tuple[arb, arb]:
         bits = min(2 * bits, most)
 
 
-def _refine(flight: Flight, low: arb, high: arb) -> arb:
+def _refine(flight: Flight[arb], low: arb, high: arb) -> arb:
     """Narrow a root by interval Newton, T = t - f(t)/f'(T), with twice the bits at each level."""
     root = low.union(high)
     levels = [ctx.prec]
@@ -151,24 +150,20 @@ def _refine(flight: Flight, low: arb, high: arb) -> arb:
         levels.append(levels[-1] // 2 + 8)
     for bits in reversed(levels):
         with ctx.workprec(bits):
-            at_level = flight.rounded()
-            while True:
-                slope = at_level.slope(root)
-                if not slope > 0:
-                    if bits < levels[0]:
-                        break  # the next level has more bits to decide
-                    raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
+            at_level, better = flight.rounded(), True
+            while better and (slope := at_level.slope(root)) > 0:
                 middle = root.mid()
-                height = at_level.height(middle)
-                narrow = (middle - height / slope).intersection(root)
-                better = narrow.rad() < root.rad() * 0.75
+                narrow = (middle - at_level.height(middle) / slope).intersection(root)
+                better = (
+                    narrow.rad() < root.rad() * 0.75 and narrow.rel_accuracy_bits() <= bits - 16
+                )
                 root = narrow
-                if not better or root.rel_accuracy_bits() > bits - 16:
-                    break
+    if better:  # not one step with all bits
+        raise UndecidedError("two impacts may be one: the slope of the gap may vanish")
     return root
 
 
-def _march(flight: Flight, start: arb | None) -> tuple[arb, arb]:
+def _march(flight: Flight[arb], start: arb | None) -> tuple[arb, arb]:
     """Isolate the first root at the context's precision."""
     amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
     curvature_bound, jerk_bound = (flight.g + amplitude).upper(), amplitude.upper()
@@ -184,22 +179,24 @@ def _march(flight: Flight, start: arb | None) -> tuple[arb, arb]:
             high = (t - 2 * height.lower() / slope.lower()).mid()
             if flight.slope(t.union(high)) > 0 and flight.height(high) > 0:
                 return t, high
-        jerk = None if count < _PLAIN_STEPS else jerk.upper()
-        step = _step(height, slope, curvature, curvature_bound, jerk_bound, jerk)
+        known_jerk = None if count < _PLAIN_STEPS else jerk.upper()
+        step = _step(height, slope, curvature, known_jerk, curvature_bound, jerk_bound)
         if not step > abs(t) * arb(2) ** (-ctx.prec // 2):
             break
         t = (t + step).lower()  # the parabola is known to be negative up to here
     raise UndecidedError("the ball may touch the floor earlier: a touch cannot be told from a miss")
 
 
-def _step(height, slope, curvature, curvature_bound, jerk_bound, jerk=None):
+def _step(
+    height: arb, slope: arb, curvature: arb, jerk: arb | None, curvature_bound: arb, jerk_bound: arb
+) -> arb:
     """Return a time within which f stays negative, from f, f', f'' and perhaps f''' here, or 0."""
     # f(t + h) <= f + f' h + m h^2/2 for h <= reach, m = min(mean_curvature(reach), g + A)
     f, d, m = (float(a) for a in (height.upper(), slope.upper(), curvature_bound))
     if not f < 0.0:
-        return 0
+        return arb(0)
 
-    def mean_curvature(reach):
+    def mean_curvature(reach: arb) -> arb:
         if jerk is None:
             return (curvature + jerk_bound * reach / 3).upper()
         growth = max(jerk, arb(0)) + jerk_bound * reach / 4
@@ -214,18 +211,18 @@ def _step(height, slope, curvature, curvature_bound, jerk_bound, jerk=None):
         curvature_bound = bound if bound > 0 else arb(0)
     root = _parabola_root(f, d, float(curvature_bound))
     step = arb(min(_STEP_FACTOR * root, float(reach)))
-    return step if height + step * (slope + step * curvature_bound / 2) < 0 else 0
+    return step if height + step * (slope + step * curvature_bound / 2) < 0 else arb(0)
 
 
 def _parabola_root(f: float, d: float, m: float) -> float:
-    """Positive root of f + d h + m h^2/2 for f < 0 and m >= 0; infinite where there is none."""
+    """Return the positive root of f + d h + m h^2/2, f < 0 and m >= 0; infinity if none."""
     root = math.sqrt(d * d - 2.0 * m * f)
     if d > 0.0:
         return -2.0 * f / (d + root)
     return (root - d) / m if m > 0.0 else math.inf
 
 
-def _first_step(flight: Flight, jerk_bound: arb) -> arb:
+def _first_step(flight: Flight[arb], jerk_bound: arb) -> arb:
     """Return a time up to which f < 0.
 
     f/t <= -s + (g + x) t/2 + A t^2/6; where s = 0 = g + x, f/t^3 <= -c/6 + A t/24.
@@ -247,7 +244,7 @@ def _first_step(flight: Flight, jerk_bound: arb) -> arb:
     return t
 
 
-def _long_flight(flight: Flight, amplitude: arb) -> tuple[arb, arb] | None:
+def _long_flight(flight: Flight[arb], amplitude: arb) -> tuple[arb, arb] | None:
     """Return the interval on which f <= x + A + b t + g t^2/2 < 0, or None."""
     b = -flight.s - flight.c
     height = flight.x + amplitude

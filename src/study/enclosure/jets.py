@@ -2,10 +2,16 @@
 
 from dataclasses import dataclass
 from functools import cache
-from itertools import product
+from itertools import accumulate, product
 from math import prod
+from operator import mul
+from typing import Any, TypeVar
 
 from flint import acb, arb
+
+Coefficient = Any  # arb or acb, all of a Jet of one type
+Real = TypeVar("Real", arb, "Jet")
+Value = TypeVar("Value", arb, acb, "Jet")
 
 
 @dataclass(frozen=True)
@@ -13,30 +19,22 @@ class Algebra:
     """Monomials of total degree up to `order`, sorted by degree, and their multiplication table."""
 
     order: int
-    monomials: tuple  # the exponents of each
-    products: tuple  # (i, j, k): monomial i times monomial j is monomial k
+    monomials: tuple[tuple[int, ...], ...]  # the exponents of each
+    products: tuple[tuple[int, int, int], ...]  # (i, j, k): monomial i times j is monomial k
 
 
 @cache
-def algebra(variables: int, order: int) -> Algebra:
-    """Return the Algebra of series in some variables up to a total degree (cached)."""
-    powers = product(range(order + 1), repeat=variables)
-    return _algebra(order, [p for p in powers if sum(p) <= order])
+def algebra(variables: int, order: int, parameter_order: int | None = None) -> Algebra:
+    """Return the Algebra of series in some variables up to a total degree (cached).
 
-
-@cache
-def algebra_with_parameter(variables: int, order: int, parameter_order: int) -> Algebra:
-    """Return the Algebra of series in some variables whose coefficients are series in a parameter.
-
-    The parameter is the last variable. The algebra's order is the largest total degree.
+    With a `parameter_order` the coefficients are series in a parameter, the last variable, and
+    the algebra's order is the largest total degree.
     """
-    monomials = algebra(variables, order).monomials
-    powers = range(parameter_order + 1)
-    return _algebra(order + parameter_order, [(*p, n) for p in monomials for n in powers])
-
-
-def _algebra(order: int, monomials: list[tuple]) -> Algebra:
-    """Return the Algebra of these monomials, with products of others left out."""
+    powers = product(range(order + 1), repeat=variables)
+    monomials = [p for p in powers if sum(p) <= order]
+    if parameter_order is not None:
+        monomials = [(*p, n) for p in monomials for n in range(parameter_order + 1)]
+        order += parameter_order
     monomials.sort(key=lambda p: (sum(p), [-power for power in p]))
     index = {powers: i for i, powers in enumerate(monomials)}
     products = tuple(
@@ -49,23 +47,24 @@ def _algebra(order: int, monomials: list[tuple]) -> Algebra:
 
 
 class Jet:
-    """Truncated Taylor series: coefficients, arb or acb, of the algebra's monomials in order."""
+    """Truncated Taylor series: coefficients of the algebra's monomials in order."""
 
-    def __init__(self, algebra: Algebra, coefficients: list):
+    def __init__(self, algebra: Algebra, coefficients: list[Coefficient]):
         self.algebra, self.coefficients = algebra, coefficients
 
     @classmethod
-    def constant_of(cls, algebra: Algebra, value: arb | acb) -> "Jet":
-        """The series of a constant."""
+    def constant_of(cls, algebra: Algebra, value: Coefficient) -> "Jet":
+        """Return the series of a constant."""
         return cls(algebra, [value] + [0 * value] * (len(algebra.monomials) - 1))
 
     @classmethod
-    def plane(cls, order: int, *values: arb | acb) -> list["Jet"]:
-        """The two series value + variable, for values of the variables."""
-        return cls.series(algebra(2, order), *values)
+    def plane(cls, order: int, x: Coefficient, y: Coefficient) -> "tuple[Jet, Jet]":
+        """Return the series x + the first and y + the second of two variables."""
+        first, second = cls.series(algebra(2, order), x, y)
+        return first, second
 
     @classmethod
-    def series(cls, algebra: Algebra, *values: arb | acb) -> list["Jet"]:
+    def series(cls, algebra: Algebra, *values: Coefficient) -> "list[Jet]":
         """Return the series value + variable, for a value of each of the algebra's variables."""
         jets = [cls.constant_of(algebra, value) for value in values]
         for place, jet in enumerate(jets):
@@ -75,14 +74,14 @@ class Jet:
         return jets
 
     @property
-    def constant(self) -> arb | acb:
+    def constant(self) -> Coefficient:
         """Constant term."""
         return self.coefficients[0]
 
-    def __getitem__(self, powers):
+    def __getitem__(self, powers: tuple[int, ...]) -> Coefficient:
         return self.coefficients[self.algebra.monomials.index(powers)]
 
-    def __add__(self, other):
+    def __add__(self, other: "Jet | Coefficient") -> "Jet":
         mine = self.coefficients
         if isinstance(other, Jet):
             theirs = other.coefficients
@@ -91,20 +90,20 @@ class Jet:
 
     __radd__ = __add__
 
-    def __neg__(self):
+    def __neg__(self) -> "Jet":
         return Jet(self.algebra, [-a for a in self.coefficients])
 
-    def __sub__(self, other):
+    def __sub__(self, other: "Jet | Coefficient") -> "Jet":
         return self + (-other)
 
-    def __rsub__(self, other):
+    def __rsub__(self, other: Coefficient) -> "Jet":
         return (-self) + other
 
-    def __mul__(self, other):
+    def __mul__(self, other: "Jet | Coefficient") -> "Jet":
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a * other for a in self.coefficients])
         mine, theirs = self.coefficients, other.coefficients
-        out = [None] * len(mine)
+        out: list[Coefficient] = [None] * len(mine)
         for i, j, k in self.algebra.products:
             term = mine[i] * theirs[j]
             out[k] = term if out[k] is None else out[k] + term
@@ -112,28 +111,28 @@ class Jet:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other):
+    def __truediv__(self, other: "Jet | Coefficient") -> "Jet":
         if not isinstance(other, Jet):
             return Jet(self.algebra, [a / other for a in self.coefficients])
         return self * other._inverse()
 
-    def __rtruediv__(self, other):
+    def __rtruediv__(self, other: Coefficient) -> "Jet":
         return self._inverse() * other
 
-    def _inverse(self):
+    def _inverse(self) -> "Jet":
         value = self.constant
         return self.compose([(-1) ** n / value ** (n + 1) for n in range(self.algebra.order + 1)])
 
     def sqrt(self) -> "Jet":
-        """The square root with positive constant term."""
+        """Return the square root with positive constant term."""
         value = self.constant
         terms = [value.sqrt()]
         for n in range(self.algebra.order):
             terms.append(terms[-1] * (1 - 2 * n) / (value * 2 * (n + 1)))
         return self.compose(terms)
 
-    def sin_cos(self) -> tuple["Jet", "Jet"]:
-        """Sine and cosine."""
+    def sin_cos(self) -> "tuple[Jet, Jet]":
+        """Return sine and cosine."""
         sine, cosine = self.constant.sin_cos()
         cycle = (sine, cosine, -sine, -cosine)
         terms, factorial = [], 1
@@ -148,17 +147,15 @@ class Jet:
         if not all(jet.constant == 0 for jet in substitutes):
             raise ValueError("a substitute is not 0 at 0: the series would lack terms")
         total, one = (Jet.constant_of(self.algebra, acb(value)) for value in (0, 1))
-        powers = [[one] for _ in substitutes]
-        for row, jet in zip(powers, substitutes, strict=True):
-            for _ in range(self.algebra.order):
-                row.append(row[-1] * jet)
+        repeated = ([jet] * self.algebra.order for jet in substitutes)
+        powers = [list(accumulate(jets, mul, initial=one)) for jets in repeated]
         for monomial, c in zip(self.algebra.monomials, self.coefficients, strict=True):
             first, *rest = (row[i] for row, i in zip(powers, monomial, strict=True))
             total = total + prod(rest, start=first) * c
         return total
 
-    def compose(self, terms):
-        """The sum of terms[n] (self - constant)^n."""
+    def compose(self, terms: list[Coefficient]) -> "Jet":
+        """Return the sum of terms[n] (self - constant)^n."""
         rest = Jet(self.algebra, [0 * self.constant, *self.coefficients[1:]])
         total = Jet.constant_of(self.algebra, terms[-1])
         for term in reversed(terms[:-1]):
@@ -166,17 +163,21 @@ class Jet:
         return total
 
 
-def square_root(square: arb | acb | Jet) -> arb | acb | Jet:
-    """Return the square root of a ball or a jet with a positive real part; so is the root's."""
+def square_root(square: Value) -> Value:
+    """Return the square root with positive real part; the square's must be positive, too."""
     value = square.constant if isinstance(square, Jet) else square
     if not value.real > 0:
         raise ArithmeticError("a square root is not proved to be analytic")
-    if isinstance(value, arb):
-        return square.sqrt()
-    root = _complex_root(value)
-    if square is value:
-        return root
-    total, order = Jet.constant_of(square.algebra, root), 0
+    if isinstance(square, acb):
+        return _complex_root(square)
+    if isinstance(square, Jet) and isinstance(value, acb):
+        return _complex_series_root(square)
+    return square.sqrt()
+
+
+def _complex_series_root(square: Jet) -> Jet:
+    """Return the square root of a complex series, by Newton steps from that of its constant."""
+    total, order = Jet.constant_of(square.algebra, _complex_root(square.constant)), 0
     while order < square.algebra.order:
         excess = total * total - square
         excess.coefficients[0] = acb(0)

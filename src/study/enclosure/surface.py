@@ -1,15 +1,16 @@
 """A surface of constant energy of a ball with exact parameters, and the impact map on it."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, Generic, NamedTuple, overload
 
 from flint import acb, arb, ctx, fmpq
 
 from .flight import Flight, UndecidedError
-from .jets import Jet, square_root
+from .jets import Jet, Real, Value, square_root
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
 
@@ -26,11 +27,8 @@ def exact(name: str, value: Exact) -> Fraction:
             f"{name} = {value!r} is a rounded number: give text or a Fraction, such as '{value!r}'"
         )
     try:
-        if isinstance(value, str):
-            if not _NUMBER.fullmatch(value):
-                raise ValueError
-            numerator, _, denominator = value.partition("/")
-            return Fraction(numerator.strip()) / Fraction(denominator.strip() or 1)
+        if isinstance(value, str) and _NUMBER.fullmatch(value):
+            return Fraction("".join(value.split()))
         if isinstance(value, (int, Fraction, Decimal)) and not isinstance(value, bool):
             return Fraction(value)
     except (ValueError, ZeroDivisionError, OverflowError):
@@ -54,16 +52,16 @@ def fraction_of(value: arb) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
-class Impact(NamedTuple):
+class Impact(NamedTuple, Generic[Value]):
     """The next impact of a point: its x and y, the time of flight tau, and s = xdot + udot."""
 
-    x: arb | Jet
-    y: arb | Jet
-    tau: arb | Jet
-    s: arb | Jet
+    x: Value
+    y: Value
+    tau: Value
+    s: Value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Surface:
     """The states just before an impact at one energy, in the chart x, y = xdot - k udot.
 
@@ -91,37 +89,29 @@ class Surface:
     k: Fraction
     g: Fraction
     energy: Fraction
-    width: Fraction = Fraction(0)
-    _balls: dict = field(default_factory=dict, compare=False, repr=False)
+    width: Fraction
 
-    def __post_init__(self):
-        for name in ("k", "g", "energy", "width"):
-            object.__setattr__(self, name, exact(name, getattr(self, name)))
+    def __init__(self, k: Exact, g: Exact, energy: Exact, width: Exact = 0) -> None:
+        for name, value in {"k": k, "g": g, "energy": energy, "width": width}.items():
+            object.__setattr__(self, name, exact(name, value))
         if not 0 < self.k <= 1:
             raise ValueError(f"k = {self.k} is not allowed: 0 < k <= 1")
         if not self.g > 0:
             raise ValueError(f"g = {self.g} is not allowed: g > 0")
         lowest = -self.g * self.g / (2 * self.k)
         if not self.energy > lowest:
-            energy, least = map(_shortened, (self.energy, lowest))
-            raise ValueError(f"energy = {energy} is not allowed: above {least}")
+            asked, least = map(_shortened, (self.energy, lowest))
+            raise ValueError(f"energy = {asked} is not allowed: above {least}")
         if not self.width >= 0:
             raise ValueError(f"width = {self.width} is not allowed: at least 0")
 
-    def __str__(self):
-        values = (("k", self.k), ("g", self.g), ("E", self.energy))
-        return ", ".join(f"{name} = {_shortened(value)}" for name, value in values)
+    def __str__(self) -> str:
+        k, g, energy = map(_shortened, (self.k, self.g, self.energy))
+        return f"k = {k}, g = {g}, E = {energy}"
 
     def constants(self) -> tuple[arb, arb, arb]:
         """Return k, g and the energy in balls of the context's precision."""
-        if ctx.prec not in self._balls:
-            if len(self._balls) > 50:
-                self._balls.clear()
-            k, g, energy = (ball_of(a) for a in (self.k, self.g, self.energy))
-            if self.width:
-                energy = energy.union(ball_of(self.energy + self.width))
-            self._balls[ctx.prec] = k, g, energy
-        return self._balls[ctx.prec]
+        return _constants(self, ctx.prec)
 
     def radius(self) -> arb:
         """Return half the section's width along y = 0."""
@@ -133,7 +123,7 @@ class Surface:
         k, g, energy = self.constants()
         return arb.pi() * (2 * energy + g * g / k) * ((1 + k) / k).sqrt()
 
-    def speed(self, x: arb | acb | Jet, y: arb | acb | Jet) -> arb | acb | Jet:
+    def speed(self, x: Value, y: Value) -> Value:
         """Return the contact speed s = xdot + udot just before the impact.
 
         At complex points it is the square root with positive real part. Raises UndecidedError where
@@ -145,25 +135,29 @@ class Surface:
             raise UndecidedError("a point is not proved to lie inside the section's rim")
         return square_root(square)
 
-    def velocities(self, x: arb | Jet, y: arb | Jet) -> tuple[arb | Jet, arb | Jet]:
+    def velocities(self, x: Value, y: Value) -> tuple[Value, Value]:
         """Return xdot and udot just before the impact; raises UndecidedError as `speed` does."""
         k = self.constants()[0]
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
-    def flight(self, x: arb | acb | Jet, y: arb | acb | Jet) -> Flight:
+    def flight(self, x: Value, y: Value) -> Flight[Value]:
         """Return the flight after the impact; raises UndecidedError as `speed` does."""
         k, g, _ = self.constants()
         s = self.speed(x, y)
         return Flight(x, (y - k * s) / (1 + k), -(y + s) / (1 + k), s, g)
 
-    def impact(self, x: arb | acb | Jet, y: arb | acb | Jet, root: acb | None = None) -> Impact:
+    @overload
+    def impact(self, x: Real, y: Real) -> Impact[Real]: ...
+    @overload
+    def impact(self, x: Value, y: Value, root: acb) -> Impact[Value]: ...
+    def impact(self, x: Any, y: Any, root: acb | None = None) -> Impact[Any]:
         """Enclose the next impact of every point of the balls x and y, eq. (28).
 
         At complex points `root` encloses the flight times, which `complex_flight` continues. Raises
         UndecidedError where a point may lie on the rim, or a flight may touch the floor earlier.
         """
-        flight = self.flight(x, y)
+        flight: Flight[Any] = self.flight(x, y)
         if root is None:
             tau = flight.first_root()
         else:
@@ -171,11 +165,20 @@ class Surface:
         x, xdot, udot = flight.end(tau)
         return Impact(x, xdot - self.constants()[0] * udot, tau, xdot + udot)
 
-    def jacobian(self, x: arb, y: arb) -> tuple[tuple, Impact]:
+    def jacobian(self, x: arb, y: arb) -> tuple[list[list[arb]], Impact[arb]]:
         """Enclose the derivative DP over a box, as two rows, and the box's image.
 
         Raises UndecidedError as `impact` does.
         """
         image = self.impact(*Jet.plane(1, x, y))
-        rows = tuple(tuple(image[i].coefficients[1:]) for i in (0, 1))
+        rows = [jet.coefficients[1:] for jet in image[:2]]
         return rows, Impact(*(part.constant for part in image))
+
+
+@lru_cache(maxsize=50)
+def _constants(surface: Surface, precision: int) -> tuple[arb, arb, arb]:
+    """Return k, g and the energy in balls of this precision, which is the context's."""
+    k, g, energy = (ball_of(a) for a in (surface.k, surface.g, surface.energy))
+    if surface.width:
+        energy = energy.union(ball_of(surface.energy + surface.width))
+    return k, g, energy

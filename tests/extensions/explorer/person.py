@@ -1,43 +1,159 @@
-"""Someone who uses the explorer's page in Chromium by pointer, touch, keys and fields."""
+"""Someone who uses the explorer's page by pointer, touch, keys and fields."""
 
+import base64
 import csv
 import io
 import re
-import time
+from typing import NamedTuple
 
 import numpy as np
 from PIL import Image
+from project import wait_for
 from selenium.webdriver import ActionChains, Keys
-from selenium.webdriver.support.ui import Select, WebDriverWait
 
 MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
 WHOLE = 1.12  # half the disk's view, in section radii
+DISK = f"view=disk,115,40,0,0,{WHOLE}"
+# Answers for the tests: the orbits' rows, and the bytes of the next file that is saved.
+HELP = """
+const texts = selector => [...document.querySelectorAll(selector)].map(n => n.textContent);
+globalThis.titles = () => texts('#orbits label > div > div:first-child');
+globalThis.facts = () => texts('#orbits .facts');
+globalThis.swatches = () => [...document.querySelectorAll('#orbits .swatch')]
+  .map(n => n.style.backgroundColor);
+const make = URL.createObjectURL, letter = b => String.fromCharCode(b);
+URL.createObjectURL = blob => {
+  if (blob.type !== 'text/javascript') globalThis.saved = blob.arrayBuffer().then(
+    bytes => [blob.type, btoa(Array.from(new Uint8Array(bytes), letter).join(''))]);
+  return make(blob);
+};
+"""
 
 
-class Person:
-    """What a person does with the page, and sees."""
+class View(NamedTuple):
+    """What the section shows: a surface with its angles, or a disk with its middle and size."""
 
-    def __init__(self, browser):
-        self.browser, self.driver, self.run = browser, browser.driver, browser.run
+    kind: str
+    azimuth: float
+    elevation: float
+    x: float
+    y: float
+    half: float
 
-    def chain(self):
-        return ActionChains(self.driver, duration=20)
 
-    def open(self, address):
+class Visitor:
+    """Someone at the page in either browser."""
+
+    def __init__(self, browser, file):
+        self.browser, self.file, self.run = browser, file, browser.run
+
+    def open(self, address=""):
         self.browser.open("about:blank")
-        self.browser.open(address)
-        self.file = address.split("#")[0]
+        self.browser.open(f"{self.file}#{address}" if address else self.file)
+        self.run(HELP)
+        self.settle()
 
-    def find(self, name):
-        return self.driver.find_element("id", name)
+    def reload(self):
+        self.run("location.reload()")
+        wait_for(lambda: self.run("return document.readyState === 'complete' && !globalThis.facts"))
+        self.run(HELP)
+        self.settle()
+
+    def settle(self):
+        """Wait until all orbits are complete."""
+        counts = "return facts().map(t => t.split(' ')[0].replaceAll(',', ''))"
+        wait_for(lambda: re.findall(r"\*(\d+)", self.state().get("orbits", "")) == self.run(counts))
+
+    def state(self):
+        """Fields of the address, which follows the state after 0.4 s."""
+        text = self.run(
+            "await new Promise(done => setTimeout(done, 500));"
+            "return decodeURIComponent(location.hash.slice(1))"
+        )
+        return dict(part.split("=", 1) for part in text.split("&"))
+
+    def view(self):
+        kind, *numbers = self.state()["view"].split(",")
+        return View(kind, *map(float, numbers))
+
+    def starts(self):
+        return [part.split("*")[0] for part in self.state().get("orbits", "").split(";") if part]
 
     def text(self, name):
         return self.run("return document.getElementById(args[0]).textContent", name)
 
+    def value(self, name):
+        return self.run("return document.getElementById(args[0]).value", name)
+
+    def open_panels(self):
+        self.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+
     def press(self, name):
-        element = self.find(name)
-        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
-        element.click()
+        """Click on a button, in a panel that is open then."""
+        self.run(
+            "const button = document.getElementById(args[0]);"
+            "for (let n = button; n; n = n.parentElement) if (n.matches('details')) n.open = true;"
+            "button.scrollIntoView({block: 'center'})",
+            name,
+        )
+        self.browser.click(f"#{name}")
+
+    def set(self, name, *values):
+        """Set a field, or drag a slider over some values and let go."""
+        self.run(
+            "const field = document.getElementById(args[0]);"
+            "for (const value of args[1]) {"
+            " field.value = value; field.dispatchEvent(new Event('input', {bubbles: true}));"
+            " await new Promise(done => setTimeout(done, 60)); }"
+            "field.dispatchEvent(new Event('change', {bubbles: true}))",
+            name,
+            values,
+        )
+
+    def dispatch(self, kinds, across, down, target="section", **more):
+        """Dispatch pointer or wheel events at a share of an element's size, all at once."""
+        self.run(
+            "const [kinds, across, down, target, more] = args;"
+            "const node = document.getElementById(target), box = node.getBoundingClientRect();"
+            "const type = kinds === 'wheel' ? WheelEvent : PointerEvent;"
+            "node.setPointerCapture = () => {};"
+            "for (const kind of kinds.split(' ')) node.dispatchEvent("
+            "new type(kind, {clientX: box.left + across * box.width,"
+            " clientY: box.top + down * box.height, pointerId: 1, pointerType: 'mouse',"
+            " bubbles: true, cancelable: true, ...more}))",
+            *(kinds, across, down, target, more),
+        )
+
+    def click_at(self, across, down):
+        self.dispatch("pointerdown pointerup", across, down)
+
+    def saved(self, name):
+        """Press a button that saves a file, and return its type and its bytes."""
+        self.run("globalThis.saved = null")
+        self.press(name)
+        wait_for(lambda: self.run("return globalThis.saved !== null"))
+        kind, text = self.run("return await saved")
+        return kind, base64.b64decode(text)
+
+    def table(self, name="csv"):
+        """Save the chosen orbit, or all, as CSV, and return the comments and the rows."""
+        lines = self.saved(name)[1].decode().splitlines()
+        comments = [line for line in lines if line[0] == "#"]
+        return comments, [*csv.DictReader(lines[len(comments) :])]
+
+
+class Person(Visitor):
+    """Someone at the page in Chromium, with a pointer and a keyboard."""
+
+    def __init__(self, browser, file):
+        super().__init__(browser, file)
+        self.driver = browser.driver
+
+    def chain(self):
+        return ActionChains(self.driver, duration=20)
+
+    def find(self, name):
+        return self.driver.find_element("id", name)
 
     def unfold(self, name):
         if self.run("return !document.getElementById(args[0]).open", name):
@@ -48,54 +164,25 @@ class Person:
         self.press("as-disk")
         self.press("clear")
 
+    def type(self, name, text):
+        self.find(name).send_keys(Keys.CONTROL + "a", Keys.NULL, Keys.BACKSPACE, text)
+
     def submit(self, name, text):
         """Type into a field and submit its form."""
         self.type(name, text)
         self.find(name).submit()
 
-    def choose(self, name, value):
-        Select(self.find(name)).select_by_value(value)
-
-    def type(self, name, text):
-        field = self.find(name)
-        field.send_keys(Keys.CONTROL + "a")
-        field.send_keys(Keys.BACKSPACE)
-        field.send_keys(text)
-
-    def state(self):
-        """Fields of the address."""
-        time.sleep(0.5)  # the address follows the state after 0.4 s
-        text = self.run("return decodeURIComponent(location.hash.slice(1))")
-        return dict(part.split("=", 1) for part in text.split("&"))
-
-    def orbits(self):
-        """(start, impacts so far, exponent, rotation number, verdict) of each orbit in the list."""
-        rows = self.run(
-            "return [...document.querySelectorAll('#orbits label')].map(n =>"
-            " [...n.querySelectorAll('div')].slice(1).map(d => d.textContent))"
-        )
+    def settled(self):
+        """Wait until all orbits are complete, and return what the list says about each."""
+        self.settle()
         orbits = []
-        for title, facts in rows:
+        for title, facts in self.run("return titles().map((title, i) => [title, facts()[i]])"):
             count, exponent, rotation, start = facts.replace("\N{MINUS SIGN}", "-").split(" · ")
             orbit = {"impacts": int(count.split()[0].replace(",", ""))}
             orbit |= {"exponent": exponent.split()[1], "rotation": rotation.split()[1]}
             orbit |= {"start": start.removeprefix("start ")}
             orbits.append(orbit | {"verdict": re.sub(r"^\d+\. ", "", title)})
         return orbits
-
-    def wait(self, condition):
-        """Wait until a condition is true, and return its value."""
-        return WebDriverWait(self.driver, 60, 0.1).until(lambda _: condition())
-
-    def settled(self):
-        """Wait until all orbits are complete, and return them."""
-
-        def complete():
-            wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
-            rows = self.orbits() if wanted else []
-            return [r["impacts"] for r in rows] == [int(n) for n in wanted] and (rows or [None])
-
-        return [row for row in self.wait(complete) if row]
 
     def spot(self, p, q=0.0):
         """Where a place of the section is in the whole disk, in pixels from the box's middle."""
@@ -129,26 +216,12 @@ class Person:
         picture = self.find("section").screenshot_as_png
         return np.array(Image.open(io.BytesIO(picture)).convert("RGBA"))
 
-    def saved(self, name="csv"):
-        """Save the chosen orbit, or all, as CSV, and return the rows."""
-        catch = (
-            "window.saved = null; const make = URL.createObjectURL;"
-            "URL.createObjectURL = blob => {"
-            " blob.text().then(t => { window.saved = t }); return make(blob) }"
-        )
-        self.run(catch)
-        self.unfold("record-panel")
-        self.press(name)
-        text = self.wait(lambda: self.run("return window.saved"))
-        self.comments = [line[2:] for line in text.splitlines() if line.startswith("# ")]
-        return list(csv.DictReader(line for line in text.splitlines() if line[:1] != "#"))
-
     def every_point(self):
         """The impacts of all orbits on the page, joined as in a dataset of orbits."""
-        columns = {"x": [], "xdot": [], "udot": [], "tau": []}
-        for at in range(len(self.orbits())):
+        rows = []
+        for at in range(len(self.starts())):
             self.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
-            rows = self.saved()[1:]
-            for name, values in columns.items():
-                values += [float(row[name]) for row in rows]
-        return {name: np.array(values) for name, values in columns.items()}
+            rows += self.table()[1][1:]
+        return {
+            name: np.array([float(r[name]) for r in rows]) for name in ("x", "xdot", "udot", "tau")
+        }

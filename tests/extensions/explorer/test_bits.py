@@ -62,19 +62,17 @@ def section_rows(k, g, count, energies):
 
 
 def test_a_million_impacts_of_a_chaotic_orbit(browser):
+    """All of the first ones, and the last, which tells all others since bits that differ grow."""
     start = BALL.start(CHAOTIC, ENERGY)
     ours = orbit(BALL, start, 1_000_000)
     theirs = browser.run(
-        """const [k, g, energy, fraction, impacts] = args;
-        const state = pseudorigid.start(k, g, energy, fraction), hashes = {};
-        const orbit = pseudorigid.history(k, g, ...state, impacts);
-        for (const name in orbit) {
-          hashes[name] = pseudorigid.sha256(pseudorigid.bytesOf(orbit[name]));
-        }
-        return hashes;""",
-        *(0.2, 0.04, ENERGY, CHAOTIC, 1_000_000),
+        """const orbit = Object.entries(pseudorigid.history(0.2, 0.04, ...args, 1e6));
+        const hash = values => pseudorigid.sha256(pseudorigid.bytesOf(values.slice(0, 1e5)));
+        return orbit.map(([name, values]) => [name, hash(values), values.at(-1)]);""",
+        *start,
     )
-    assert theirs == {name: digest(ours[name].values) for name in data.STATE}
+    columns = ((name, ours[name].values) for name in data.STATE)
+    assert theirs == [[name, digest(values[:100_000]), values[-1]] for name, values in columns]
 
 
 @pytest.mark.slow

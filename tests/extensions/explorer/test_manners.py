@@ -1,8 +1,5 @@
 """The explorer's manners, in Chromium and Firefox: undo, exact starts, words, colours and files."""
 
-import base64
-import csv
-import io
 import re
 import struct
 import time
@@ -13,6 +10,7 @@ import browsers
 import numpy as np
 import pytest
 import yaml
+from person import DISK, Visitor
 from project import SHIPPED, wait_for
 from selenium.webdriver import Keys
 
@@ -22,113 +20,6 @@ from pseudorigid.dynamics.orbits import start_state
 
 pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
-DISK = "view=disk,115,40,0,0,1.12"
-# Answers for the tests: the orbits' rows, and the bytes of the next file that is saved.
-HELP = """
-globalThis.titles = () => [...document.querySelectorAll('#orbits label > div > div:first-child')]
-  .map(n => n.textContent);
-globalThis.facts = () => [...document.querySelectorAll('#orbits .facts')].map(n => n.textContent);
-globalThis.swatches = () => [...document.querySelectorAll('#orbits .swatch')]
-  .map(n => n.style.backgroundColor);
-const make = URL.createObjectURL, letter = b => String.fromCharCode(b);
-URL.createObjectURL = blob => {
-  if (blob.type !== 'text/javascript') globalThis.saved = blob.arrayBuffer().then(
-    bytes => [blob.type, btoa(Array.from(new Uint8Array(bytes), letter).join(''))]);
-  return make(blob);
-};
-"""
-
-
-class Visitor:
-    """Someone at the page in either browser."""
-
-    def __init__(self, browser, file):
-        self.browser, self.file, self.run = browser, file, browser.run
-
-    def open(self, address=""):
-        self.browser.open("about:blank")
-        self.browser.open(f"{self.file}#{address}" if address else self.file)
-        self.run(HELP)
-        self.settle()
-
-    def reload(self):
-        self.run("location.reload()")
-        wait_for(lambda: self.run("return document.readyState === 'complete' && !globalThis.facts"))
-        self.run(HELP)
-        self.settle()
-
-    def settle(self):
-        """Wait until all orbits are complete."""
-
-        def complete():
-            parts = self.state().get("orbits", "").split(";")
-            wanted = [int(re.search(r"\*(\d+)", part)[1]) for part in parts if part]
-            counts = self.run(
-                "return facts().map(t => Number(t.split(' ')[0].replaceAll(',', '')))"
-            )
-            return wanted == counts
-
-        wait_for(complete)
-
-    def state(self):
-        text = self.run(
-            "await new Promise(done => setTimeout(done, 500));"
-            "return decodeURIComponent(location.hash.slice(1))"
-        )
-        return dict(part.split("=", 1) for part in text.split("&"))
-
-    def starts(self):
-        return [part.split("*")[0] for part in self.state().get("orbits", "").split(";") if part]
-
-    def text(self, name):
-        return self.run("return document.getElementById(args[0]).textContent", name)
-
-    def value(self, name):
-        return self.run("return document.getElementById(args[0]).value", name)
-
-    def press(self, name):
-        self.run(
-            "for (let n = document.getElementById(args[0]); n; n = n.parentElement)"
-            " if (n.matches('details')) n.open = true;",
-            name,
-        )
-        self.browser.click(f"#{name}")
-
-    def set(self, name, *values):
-        """Set a field, or drag a slider over some values and let go."""
-        self.run(
-            "const field = document.getElementById(args[0]);"
-            "for (const value of args[1]) {"
-            " field.value = value; field.dispatchEvent(new Event('input', {bubbles: true}));"
-            " await new Promise(done => setTimeout(done, 60)); }"
-            "field.dispatchEvent(new Event('change', {bubbles: true}))",
-            name,
-            values,
-        )
-
-    def pointer(self, kinds, across, down, target="section", **more):
-        """Pointer or wheel events at a share of an element's width and height, at once."""
-        self.run(
-            "const [kinds, across, down, target, more] = args;"
-            "const node = document.getElementById(target), box = node.getBoundingClientRect();"
-            "const type = kinds === 'wheel' ? WheelEvent : PointerEvent;"
-            "node.setPointerCapture = () => {};"
-            "for (const kind of kinds.split(' ')) node.dispatchEvent("
-            "new type(kind, {clientX: box.left + across * box.width,"
-            " clientY: box.top + down * box.height, pointerId: 1, pointerType: 'mouse',"
-            " bubbles: true, cancelable: true, ...more}))",
-            *(kinds, across, down, target, more),
-        )
-
-    def click_at(self, across, down):
-        self.pointer("pointerdown pointerup", across, down)
-
-    def saved(self, name):
-        self.run("globalThis.saved = null")
-        self.press(name)
-        wait_for(lambda: self.run("return globalThis.saved !== null"))
-        kind, text = self.run("return await saved")
-        return kind, base64.b64decode(text)
 
 
 @pytest.fixture(scope="module", params=["chromium", "firefox"])
@@ -207,8 +98,7 @@ def test_typed_numbers_start_exactly_there(visitor, x, y):
     visitor.run("document.getElementById('start-form').requestSubmit()")
     for _ in range(2):
         visitor.settle()
-        _, content = visitor.saved("csv")
-        rows = [*csv.DictReader(line for line in content.decode().splitlines() if line[0] != "#")]
+        _, rows = visitor.table()
         found = np.array([[float(row[n]) for n in ("x", "xdot", "udot")] for row in rows])
         expected = BALL.state_xy(x, y, ENERGY)
         assert found[0].tolist() == [*expected]
@@ -320,12 +210,9 @@ def test_pictures_say_what_they_show(visitor):
 
 
 def test_csv_of_all_orbits_says_what_they_are(visitor):
-    _, content = visitor.saved("csv-all")
-    lines = content.decode().splitlines()
-    comments = [line for line in lines if line.startswith("# ")]
+    comments, rows = visitor.table("csv-all")
     assert "# k = 0.2, g = 0.04, E = 0.01" in comments
     assert any("explorer.html#k=0.2" in line for line in comments) and len(comments) == 3
-    rows = [*csv.DictReader(io.StringIO("\n".join(lines[3:])))]
     last = [row for row in rows if row["orbit"] == "8"]
     assert len(last) == 25001 and {row["orbit"] for row in rows} == set("12345678")
     expected = BALL.after(BALL.start(0.534522, ENERGY), 25000)
@@ -356,10 +243,10 @@ def test_the_atlas_shows_a_small_section_at_once(visitor):
     )
     seen = []
     for across, down in ((0.5, 0.5), (0.8, 0.2), (0.5, 0.5)):
-        visitor.pointer("pointermove", across, down, "atlas")
+        visitor.dispatch("pointermove", across, down, "atlas")
         seen.append(visitor.run(drawn))
     assert seen[0] == seen[2] != seen[1]
-    visitor.pointer("pointerleave", 0.5, 0.5, "atlas")
+    visitor.dispatch("pointerleave", 0.5, 0.5, "atlas")
     here = visitor.run(drawn)  # the present place
     assert here not in seen
     visitor.set("k", "0.3")
@@ -386,16 +273,16 @@ def test_an_address_is_refused_with_its_whole_name(visitor):
 
 def test_the_readout_follows_the_wheel(visitor):
     visitor.press("as-disk")
-    visitor.pointer("pointermove", 0.6, 0.4)
+    visitor.dispatch("pointermove", 0.6, 0.4)
     before = visitor.text("where")
     for _ in range(12):
-        visitor.pointer("wheel", 0.6, 0.4, deltaY=-240)
+        visitor.dispatch("wheel", 0.6, 0.4, deltaY=-240)
     wait_for(lambda: len(visitor.text("where")) > len(before))  # more digits
 
 
 def test_a_double_click_starts_one_orbit(visitor):
     count = len(visitor.starts())
-    visitor.pointer("pointerdown pointerup pointerdown pointerup", 0.5, 0.5)
+    visitor.dispatch("pointerdown pointerup pointerdown pointerup", 0.5, 0.5)
     assert len(visitor.starts()) == count + 1
 
 

@@ -6,7 +6,7 @@ import browsers
 import numpy as np
 import pytest
 from axe_core_python.selenium import Axe
-from person import WHOLE
+from person import WHOLE, Visitor
 from project import SHIPPED, shipped, wait_for
 from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
@@ -47,7 +47,7 @@ def test_a_backward_orbit_is_the_inverse_map_s(person):
     person.press("back")
     person.click(0.31, 0.22)
     assert "backwards" in person.settled()[0]["verdict"]
-    rows = person.saved()
+    _, rows = person.table()
     state = tuple(float(rows[0][name]) for name in ("x", "xdot", "udot"))
     reached = []
     for _ in range(100):
@@ -70,19 +70,16 @@ def test_dragging_along_the_symmetry_line_shoots_a_fan(person):
 
 
 def test_dragging_turns_the_surface_and_moves_the_disk(person):
-    person.settled()
     before = person.pixels()
     person.drag((150, 120), (60, 80))
-    kind, azimuth, elevation, *_ = person.state()["view"].split(",")
-    assert kind == "surface"
-    assert float(azimuth) != 115
-    assert float(elevation) != 40
+    view = person.view()
+    assert view.kind == "surface"
+    assert view.azimuth != 115 and view.elevation != 40
     assert not np.array_equal(before, person.pixels())
     person.press("as-disk")
     person.drag(person.spot(0.2, 0.6), person.spot(0.4, 0.4))
-    view = person.state()["view"].split(",")
-    assert float(view[3]) == pytest.approx(-0.2, abs=0.02)
-    assert float(view[4]) == pytest.approx(0.2, abs=0.02)
+    view = person.view()
+    assert (view.x, view.y) == pytest.approx((-0.2, 0.2), abs=0.02)
 
 
 def test_the_wheel_zooms_without_limit_at_the_pointer(person):
@@ -92,14 +89,14 @@ def test_the_wheel_zooms_without_limit_at_the_pointer(person):
     origin = ScrollOrigin.from_element(person.find("section"), *person.spot(0.3, 0.2))
     for _ in range(70):
         person.chain().scroll_from_origin(origin, 0, -240).perform()
-    half = float(person.state()["view"].split(",")[5])
-    assert half < 1e-13
+    assert person.view().half < 1e-13
     person.pointer((40, 40)).perform()
     there = person.text("where")
-    values = [re.findall(r"[−\d.]+", text)[:2] for text in (place, there)]
-    for before, after in zip(*values, strict=True):
-        number = [float(text.replace("−", "-")) for text in (before, after)]
-        assert number[0] == pytest.approx(number[1], abs=3e-3)
+    before, after = (
+        [float(number.replace("−", "-")) for number in re.findall(r"[−\d.]+", text)[:2]]
+        for text in (place, there)
+    )
+    assert before == pytest.approx(after, abs=3e-3)
     person.pointer((40, 40)).click().perform()
     assert person.settled()[-1]["impacts"] == 3000
 
@@ -123,12 +120,11 @@ def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
     for reach in (60, 80, 120):
         fingers(person, "touchMove", (-reach, 60), (reach, 60))
     fingers(person, "touchEnd")
-    half = float(person.state()["view"].split(",")[5])
-    assert half == pytest.approx(WHOLE * 40 / 120, rel=0.1)
-    count = len(person.orbits())
+    assert person.view().half == pytest.approx(WHOLE * 40 / 120, rel=0.1)
+    count = len(person.starts())
     fingers(person, "touchStart", (30, 50))
     fingers(person, "touchEnd")
-    person.wait(lambda: len(person.orbits()) == count + 1)
+    wait_for(lambda: len(person.starts()) == count + 1)
 
 
 @pytest.fixture
@@ -138,7 +134,7 @@ def phone(person):
     metrics = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
     command("Emulation.setDeviceMetricsOverride", metrics)
     command("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    person.open(person.file)
+    person.open()
     yield person
     command("Emulation.setTouchEmulationEnabled", {"enabled": False})
     command("Emulation.clearDeviceMetricsOverride", {})
@@ -152,24 +148,24 @@ return await new Promise(done => setTimeout(() => done(window.scrollY === 0), 20
 def test_one_finger_scrolls_unless_it_turns(phone):
     def swipe():
         """Return how far the page scrolled, and the view."""
-        phone.wait(lambda: phone.run(AT_TOP))  # a fling of the swipe before may still scroll
+        wait_for(lambda: phone.run(AT_TOP))  # a fling of the swipe before may still scroll
         fingers(phone, "touchStart", (60, 100))
         for step in range(1, 9):
             fingers(phone, "touchMove", (60 - 5 * step, 100 - 15 * step))
         fingers(phone, "touchEnd")
-        return phone.run("return window.scrollY"), phone.state()["view"]
+        return phone.run("return window.scrollY"), phone.view()
 
-    before = phone.state()["view"]
+    before = phone.view()
     scrolled, view = swipe()
     assert scrolled > 50 and view == before
-    assert len(phone.orbits()) == 8
+    assert len(phone.starts()) == 8
     phone.press("finger")
     scrolled, view = swipe()
     assert scrolled == 0 and view != before
 
 
 def test_no_control_on_a_phone_is_below_40_pixels(phone):
-    phone.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+    phone.open_panels()
     small = phone.run(
         "return [...document.querySelectorAll('button, select, input, summary, textarea')]"
         ".filter(n => n.getClientRects().length).map(n => [n.id || n.textContent,"
@@ -182,8 +178,7 @@ def test_no_control_on_a_phone_is_below_40_pixels(phone):
 def test_turning_fifty_thousand_points_is_smooth(person):
     """Above 30 frames a second on an idle machine; the drawing of a frame takes less than 33 ms."""
     starts = ";".join(f"{p:.3f}*834" for p in np.linspace(-0.9, 0.9, 60))
-    person.open(f"{person.file}#orbits={starts}")
-    person.settled()
+    person.open(f"orbits={starts}")
     frames = person.run(
         "const box = document.getElementById('section'), b = box.getBoundingClientRect();"
         "box.setPointerCapture = () => {};"
@@ -195,7 +190,7 @@ def test_turning_fifty_thousand_points_is_smooth(person):
         " await new Promise(requestAnimationFrame); taken.push(performance.now() - begin); }"
         "act('pointerup', 300); return taken"
     )
-    assert person.state()["view"].split(",")[1] != "115"
+    assert person.view().azimuth != 115
     assert np.median(frames) < 33
 
 
@@ -205,18 +200,18 @@ def test_the_keyboard_does_everything(person):
     person.run("document.getElementById('section').focus()")
     box.send_keys(*[Keys.ARROW_RIGHT] * 3, *[Keys.ARROW_DOWN] * 2, Keys.ENTER)
     assert len(person.settled()) == 1
-    person.wait(lambda: person.text("play") == "Pause")
+    wait_for(lambda: person.text("play") == "Pause")
     box.send_keys(Keys.SPACE)
-    person.wait(lambda: person.text("play") == "Play")
-    view = person.state()["view"]
+    wait_for(lambda: person.text("play") == "Play")
+    view = person.view()
     box.send_keys("+")
-    assert person.state()["view"] != view
+    assert person.view() != view
     box.send_keys("0", Keys.SHIFT + Keys.ARROW_LEFT)
-    assert person.state()["view"].split(",")[1] != "115"
+    assert person.view().azimuth != 115
     box.send_keys(Keys.NULL, "f", *[Keys.ARROW_LEFT] * 3, "f")
     assert len(person.settled()) == 13
     box.send_keys(Keys.SPACE)
-    person.wait(lambda: person.text("play") == "Play")
+    wait_for(lambda: person.text("play") == "Play")
     curves = person.find("curves")
     now = float(person.state()["t"])
     curves.send_keys(Keys.ARROW_RIGHT)
@@ -226,7 +221,6 @@ def test_the_keyboard_does_everything(person):
 
 
 def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
-    person.settled()
     before = person.pixels()
     for name, text, words in [
         ("k", "0", "k = 0 is not allowed"),
@@ -253,11 +247,10 @@ def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
     assert "2 to 64" in person.text("fan-error")
     person.type("impacts", "0")
     assert "whole number" in person.text("impacts-error")
-    assert len(person.orbits()) == 8
+    assert len(person.starts()) == 8
 
 
 def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
-    person.settled()
     starts = person.state()["orbits"]
     person.type("E", "0.008")
     rows = person.settled()
@@ -269,14 +262,14 @@ def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
         "const s = document.getElementById('k-slide'); s.value = Math.sqrt(0.25);"
         "s.dispatchEvent(new Event('input', {bubbles: true}))"
     )
-    person.wait(lambda: person.state()["k"] == "0.25")
+    wait_for(lambda: person.state()["k"] == "0.25")
     assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
 
 
 def test_bounds_of_the_energy_follow_k_and_g(person):
     """Eq. (31): -g^2/2k < E < k/2 - g."""
     person.type("g", "0.05")
-    person.wait(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
+    wait_for(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
     slide = "const s = document.getElementById('E-slide'); s.value = args[0];"
     slide += "s.dispatchEvent(new Event('input', {bubbles: true}))"
     for end, bound in ((1, 0.05), (0, -0.00625)):
@@ -285,7 +278,7 @@ def test_bounds_of_the_energy_follow_k_and_g(person):
         assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
         assert person.text("E-error") == ""
     person.type("E", "0.03")
-    person.wait(lambda: person.state()["E"] == "0.03")
+    wait_for(lambda: person.state()["E"] == "0.03")
     person.type("k", "0.15")  # k/2 - g = 0.025
     assert "between −g²/2k = −0.008333 and k/2 − g = 0.025, eq. (31)" in person.text("E-error")
     assert person.state()["k"] == "0.2"  # the last good picture stays
@@ -311,13 +304,13 @@ def test_periodic_orbits_are_those_of_python(person):
 def test_a_person_finds_a_saddle_and_draws_its_branches(person):
     person.unfold("periodic-panel")
     person.press("find")
-    person.wait(lambda: "3 symmetric orbits" in person.text("periodic-note"))
+    wait_for(lambda: "3 symmetric orbits" in person.text("periodic-note"))
     listed = person.text("periodic")
     assert "Period 6, hyperbolic" in listed
     assert "2.53147" in listed
     person.press("no-branches")
     person.find("branch-length").submit()
-    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    wait_for(lambda: "24 branches" in person.text("branch-note"))
     person.submit("branch-length", "-1")
     assert "above 0" in person.text("branch-error")
 
@@ -346,14 +339,14 @@ def test_the_jump_curve_has_python_s_length(person):
     assert curve["length"] == pytest.approx(expected, rel=1e-9)
     person.unfold("periodic-panel")
     person.press("jump")
-    person.wait(lambda: "0.404858" in person.text("jump-note"))
+    wait_for(lambda: "0.404858" in person.text("jump-note"))
     person.type("E", "0.001")
-    person.wait(lambda: "continuous" in person.text("jump-note"))
+    wait_for(lambda: "continuous" in person.text("jump-note"))
 
 
 def test_the_ball_in_time_steps_from_impact_to_impact(person):
-    person.choose("preset", "fig4")
-    person.wait(lambda: "impact 0" in person.text("moment"))
+    person.set("preset", "fig4")
+    wait_for(lambda: "impact 0" in person.text("moment"))
     six = of_type(symmetric_orbits(BALL, ENERGY, 6), "elliptic")
     times = np.concatenate([[0.0], np.cumsum(six["tau"].values)])
     views = "return ['#ball', '#curves', '#section .cursors'].map(s => document.querySelector(s)"
@@ -368,7 +361,7 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
     person.press("back-impact")
     assert float(person.state()["t"]) == pytest.approx(times[-2], abs=1e-9)
     person.press("play")
-    person.wait(lambda: float(person.state()["t"]) > times[-2] + 0.5)
+    wait_for(lambda: float(person.state()["t"]) > times[-2] + 0.5)
     person.press("play")
     assert person.text("play") == "Play"
 
@@ -388,8 +381,8 @@ def test_every_preset_draws_and_has_one_sentence(person):
     seen = []
     names = [name for name in names if "/" not in name]
     for name in names:
-        person.choose("preset", name)
-        person.wait(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))
+        person.set("preset", name)
+        wait_for(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))
         assert person.text("see").endswith(".")
         seen.append(person.pixels().tobytes())
         assert person.state()["preset"] == name
@@ -397,20 +390,18 @@ def test_every_preset_draws_and_has_one_sentence(person):
 
 
 def test_the_address_holds_the_whole_state(person):
-    person.choose("preset", "fig5")
+    person.set("preset", "fig5")
     person.settled()
     person.press("as-disk")
     person.press("by-verdict")
     person.click(0.5, 0.3)
     person.press("play")
     person.settled()
-    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    wait_for(lambda: "24 branches" in person.text("branch-note"))
     state = person.state()
-    where = person.run("return location.href")
     picture = person.pixels()
-    person.open(where)
-    person.settled()
-    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    person.open(person.run("return location.hash.slice(1)"))
+    wait_for(lambda: "24 branches" in person.text("branch-note"))
     assert person.state() == state
     assert np.mean(np.any(person.pixels() != picture, axis=2)) < 1e-3
 
@@ -420,24 +411,22 @@ def test_the_address_holds_the_whole_state(person):
     ["k=0", "orbits=2*10", "E=9", "nonsense", "%E0%A4%A", "orbits=0.1*0", "view=cube,1,2,3,4,5"],
 )
 def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
-    person.open(f"{person.file}#{wrong}")
-    person.wait(lambda: "address" in person.text("hint"))
-    assert len(person.settled()) == 8
+    person.open(wrong)
+    assert "address" in person.text("hint")
+    assert len(person.starts()) == 8
 
 
 @pytest.mark.parametrize("scene", ["fig8", "thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
 def test_the_name_of_a_scene_is_an_address(person, scene):
     variant, name = scene.split("/") if "/" in scene else ("paper", scene)
     block = config.load(SHIPPED).variants[variant][name].as_mapping()
-    person.open(f"{person.file}#{scene}")
-    person.wait(lambda: person.state().get("preset") == scene)
+    person.open(scene)
     state = person.state()
     shown = [float(state[field]) for field in ("k", "g", "E")]
     assert shown == [*block["ball"].values(), block["energy"]]
     if "starts" in block:
-        starts = [float(orbit.split("*")[0]) for orbit in state["orbits"].split(";")]
-        assert starts == block["starts"]
-    assert person.find("preset").get_attribute("value") == scene
+        assert [*map(float, person.starts())] == block["starts"]
+    assert state["preset"] == person.value("preset") == scene
 
 
 def test_points_of_a_scene_are_places(person):
@@ -452,7 +441,6 @@ def test_points_of_a_scene_are_places(person):
 
 
 def test_the_atlas_goes_to_a_ball_and_an_energy(person):
-    person.settled()
     person.unfold("atlas-panel")
     person.pointer((30, -20), "atlas").click().perform()
     state = person.state()
@@ -464,21 +452,13 @@ def test_the_atlas_goes_to_a_ball_and_an_energy(person):
 
 
 def test_the_atlas_answers_to_keys(person):
-    person.settled()
     person.unfold("atlas-panel")
     canvas = person.find("atlas")
     canvas.send_keys(*[Keys.ARROW_LEFT] * 3, *[Keys.ARROW_DOWN] * 2)
     assert "k = 0.17, E/g² = 4.96: regular share" in person.text("atlas-note")
     canvas.send_keys(Keys.ENTER)
-    person.wait(lambda: person.state()["k"] == "0.17")
+    wait_for(lambda: person.state()["k"] == "0.17")
     assert float(person.state()["E"]) == pytest.approx(4.96 * 0.04**2)
-
-
-def test_the_view_is_saved_as_png(person):
-    person.settled()
-    person.unfold("record-panel")
-    person.press("png2")
-    person.wait(lambda: "section.png" in person.text("record-note"))
 
 
 @pytest.mark.parametrize("width", [360, 1280, 2000])
@@ -488,10 +468,10 @@ def test_the_page_fits_and_is_legible(person, width, theme):
     metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
     person.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     try:
-        person.open(person.file)
+        person.open()
         if theme != person.run("return document.documentElement.dataset.theme"):
             person.press("theme")
-        person.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+        person.open_panels()
         room, needed = person.run(
             "const e = document.documentElement; return [e.clientWidth, e.scrollWidth]"
         )
@@ -509,30 +489,21 @@ def test_the_page_fits_and_is_legible(person, width, theme):
         person.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
-def test_firefox_draws_the_same_and_a_click_starts_an_orbit(address, tmp_path):
+def test_firefox_draws_the_same_and_fingers_zoom(address, tmp_path):
     with browsers.started("firefox", tmp_path / "firefox", 1280, 1000) as firefox:
-        firefox.open(address)
-        rows = "return [...document.querySelectorAll('#orbits .facts')].map(n => n.textContent)"
-        wait_for(lambda: firefox.run(rows)[-1:] and "25,000" in firefox.run(rows)[-1])
+        visitor = Visitor(firefox, address)
+        visitor.open()
         exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, ENERGY), 25000, 1)["exponent"]
-        assert f"exponent {float(exponent[0, 0]):.4g} " in firefox.run(rows)[-1]
+        assert f"exponent {float(exponent[0, 0]):.4g} " in visitor.run("return facts().at(-1)")
         firefox.click("#section")
-        hint = "return document.getElementById('hint').textContent"
-        wait_for(lambda: firefox.run(hint).startswith("This orbit is"))
-        assert len(firefox.run(rows)) == 9
-        assert firefox.run("return document.getElementById('play').textContent") == "Pause"
-        half = (
-            "return Number(/view=([^&]*)/.exec(decodeURIComponent(location.hash))[1].split(',')[5])"
-        )
-        wait_for(lambda: "view" in firefox.run("return location.hash"))
-        before = firefox.run(half)
+        wait_for(lambda: visitor.text("hint").startswith("This orbit is"))
+        assert len(visitor.starts()) == 9
+        assert visitor.text("play") == "Pause"
+        before = visitor.view().half
         across, down = firefox.middle("#section")
         apart = [[(across + side * d, down) for d in (30, 50, 90)] for side in (-1, 1)]
         firefox.tap("touch", *apart)  # two fingers
-        wait_for(lambda: firefox.run(half) < 0.5 * before)
+        wait_for(lambda: visitor.view().half < 0.5 * before)
         firefox.tap("touch", [(across, down)])
-        wait_for(lambda: len(firefox.run(rows)) == 10)
-        firefox.run("location.hash = 'flux'")
-        note = "return document.getElementById('branch-note').textContent"
-        wait_for(lambda: "24 branches" in firefox.run(note))
+        wait_for(lambda: len(visitor.starts()) == 10)
         assert firefox.errors() == []

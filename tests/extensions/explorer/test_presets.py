@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import yaml
-from project import fresh_tree, shipped
+from person import DISK
+from project import fresh_tree, shipped, wait_for
 
 from pipeline import config
 from pipeline.records.artifacts import load
@@ -13,23 +14,22 @@ from pseudorigid.dynamics.orbits import scene_orbits
 
 def copied(person, kind):
     """Copy what is on the page as a scene of a kind, and return its name and its block."""
-    person.unfold("record-panel")
-    person.choose("scene-kind", kind)
+    person.set("scene-kind", kind)
     person.press("copy-scene")
-    person.wait(lambda: "config.yaml" in person.text("scene-note"))
-    text = person.run("return document.getElementById('scene').value")
+    wait_for(lambda: "config.yaml" in person.text("scene-note"))
+    text = person.value("scene")
     ((name, block),) = yaml.safe_load(text).items()
     assert block["picture"] == kind
     assert max(map(len, text.splitlines())) <= 100
     return name, block
 
 
+@pytest.mark.parametrize("person", [f"{DISK}&next=300"], indirect=True)
 def test_orbits_of_two_clicks_are_copied(person, tmp_path):
-    person.open(f"{person.file}#view=disk,115,40,0,0,1.12&next=300")
     person.click(0.4, 0.3)
     person.click(-0.2)
     assert len(person.settled()) == 2
-    places = [start.split("*")[0].split(":") for start in person.state()["orbits"].split(";")]
+    places = [start.split(":") for start in person.starts()]
     assert np.allclose([*map(float, places[0]), float(places[1][0])], [0.4, 0.3, -0.2], atol=0.01)
     name, block = copied(person, "portrait")
     document = shipped() | {"scenes": {name: block}, "variants": {}}
@@ -64,17 +64,17 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
         person.type(field, value)
     person.settled()
     copy("portrait")
-    person.choose("preset", "jumps")
+    person.set("preset", "jumps")
     person.settled()
     copy("jumps")
-    person.choose("preset", "fig4")
-    person.wait(lambda: "3 symmetric" in person.text("periodic-note"))
+    person.set("preset", "fig4")
+    wait_for(lambda: "3 symmetric" in person.text("periodic-note"))
     motion = copy("motion")
-    person.choose("preset", "fig5")
+    person.set("preset", "fig5")
     person.settled()
     tangle = copy("tangle")
-    person.choose("preset", "fig6")
-    person.wait(lambda: "24 branches" in person.text("branch-note"))
+    person.set("preset", "fig6")
+    wait_for(lambda: "24 branches" in person.text("branch-note"))
     copy("closeup")
 
     assert len(scenes) == 8
@@ -93,13 +93,9 @@ def test_explored_pictures_are_drawn_by_the_pipeline_with_the_same_points(person
 def zoomed(person):
     """Zoom in until the view is a millionth of the section, and start orbits there."""
     person.press("clear")
-    person.run(
-        "const s = document.getElementById('section'); s.scrollIntoView({block: 'center'});"
-        "const b = s.getBoundingClientRect();"
-        "for (let i = 0; i < 35; i++) s.dispatchEvent(new WheelEvent('wheel', {deltaY: -240,"
-        " clientX: b.left + 0.4 * b.width, clientY: b.top + 0.3 * b.height, cancelable: true}))"
-    )
-    assert float(person.state()["view"].split(",")[5]) < 1e-6
+    for _ in range(35):
+        person.dispatch("wheel", 0.4, 0.3, deltaY=-240)
+    assert person.view().half < 1e-6
     for at in ((0, 0), (40, -30), (-60, 20)):
         person.pointer(at).click().perform()
     assert len(person.settled()) == 3

@@ -20,7 +20,7 @@ from typing import NamedTuple
 from flint import arb, ctx
 
 from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet, algebra, algebra_with_parameter
+from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import ball_of
 
 from ..enclosure.fixed_point import energy_at
@@ -235,7 +235,7 @@ def _series(k: arb, g: arb, theta: arb, order: int) -> tuple[Jet, Jet]:
     Positions are g/k + theta z, speeds are theta times (s, c), and times theta tau. At the fixed
     point s = g (1 + 1/k) and tau = 2 for each theta.
     """
-    series = algebra_with_parameter(2, _ORDER, order)
+    series = algebra(2, _ORDER, order)
     xi, eta, t = Jet.series(series, arb(0), arb(0), theta)
     divided = t * _one_minus_theta_cot(t)  # (1 - theta cot(theta))/theta
     z = xi - divided * (g / k)

@@ -27,7 +27,7 @@ def unique_root(surface: Surface, x: acb, y: acb, known: acb) -> acb:
     series, centre = surface.flight(*Jet.plane(1, x, y)), (x.mid(), y.mid())
     box, middle = series.constant(), surface.flight(*centre)
 
-    def newton(inside):
+    def newton(inside: acb) -> acb:
         """Return N(U); f(m) is enclosed by the mean value theorem in x and y."""
         slope = box.slope(inside)
         if slope.contains(0):
@@ -49,7 +49,7 @@ def unique_root(surface: Surface, x: acb, y: acb, known: acb) -> acb:
     raise UndecidedError("the flight time may not be analytic in the strip")
 
 
-def point_root(flight: Flight, value: acb) -> acb:
+def point_root(flight: Flight[acb], value: acb) -> acb:
     """Narrow the root of one of the box's points, from the enclosure of all of them."""
     for _ in range(8):
         middle = value.mid()

@@ -12,7 +12,7 @@ README.md has the argument ("Periodic orbits").
 from flint import arb
 
 from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet, algebra
+from study.enclosure.jets import Jet, Real, algebra
 
 
 def energy_at(k: arb, g: arb, theta: arb) -> arb:
@@ -22,7 +22,7 @@ def energy_at(k: arb, g: arb, theta: arb) -> arb:
     return g * g / (2 * k) * ((1 + k) * theta * theta + bend * bend - 1)
 
 
-def trace_at(k: arb, theta: arb | Jet) -> arb | Jet:
+def trace_at(k: arb, theta: Real) -> Real:
     """Enclose the trace at a theta."""
     _check(theta.constant if isinstance(theta, Jet) else theta)
     sine, cosine = theta.sin_cos()
@@ -33,7 +33,8 @@ def trace_at(k: arb, theta: arb | Jet) -> arb | Jet:
 
 def slope_at(k: arb, theta: arb) -> arb:
     """Enclose the trace's derivative by theta."""
-    return trace_at(k, *Jet.series(algebra(1, 1), theta)).coefficients[1]
+    (jet,) = Jet.series(algebra(1, 1), theta)
+    return trace_at(k, jet).coefficients[1]
 
 
 def _check(theta: arb) -> None:

@@ -1,6 +1,10 @@
 """The section with proved invariant curves, and the areas inside that nothing can enter."""
 
+from typing import Any
+
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.panel import key
@@ -12,7 +16,7 @@ _SHADE = "#f0c3a6"
 
 
 @style.pinned()
-def draw(scene, curves, orbits):
+def draw(scene: dict[str, Any], curves: xr.Dataset, orbits: xr.Dataset) -> Figure:
     """Draw orbits, the proved curves, the areas inside, and points inside no invariant circle."""
     panel, regular, chaotic = section.over_orbits(scene, orbits)
     x, y = curves["x"].values, curves["y"].values
@@ -38,7 +42,7 @@ def draw(scene, curves, orbits):
     return panel.sheet.figure
 
 
-def _inside(polygon, level):
+def _inside(polygon: tuple[np.ndarray, np.ndarray], level: float) -> np.ndarray:
     """Return the pairs of x between which a horizontal line runs inside a polygon."""
     x, y = polygon
     above = y > level

@@ -1,5 +1,10 @@
 """How far orbits get from the fixed point, against the number of impacts."""
 
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
+
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Panel, key, log10
 from pseudorigid.figures.canvas import style
@@ -9,7 +14,7 @@ _FRAME = 135, 105, 1005, 705  # pixels
 
 
 @style.pinned()
-def draw(scene, escape):
+def draw(scene: dict[str, Any], escape: xr.Dataset) -> Figure:
     """Draw the largest distance so far, a line for each energy, both axes logarithmic."""
     sheet = Sheet(style.COLUMN, 825)
     sheet.text(_FRAME[0], 825 - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)

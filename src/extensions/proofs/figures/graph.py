@@ -1,6 +1,10 @@
 """The sets of a proved graph on the section, and the connections between them."""
 
+from typing import Any
+
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.panel import key
@@ -10,7 +14,7 @@ _LINK = "#8fb8d8"
 
 
 @style.pinned()
-def draw(scene, graph, orbits):
+def draw(scene: dict[str, Any], graph: xr.Dataset, orbits: xr.Dataset) -> Figure:
     """Draw orbits, the sets, and a line for each connection between two of them."""
     panel, regular, chaotic = section.over_orbits(scene, orbits)
     corners = np.stack([graph["corner_x"].values, graph["corner_y"].values], axis=1)

@@ -1,6 +1,10 @@
 """The sets of a horseshoe along a connection, over the manifolds, and one covering relation."""
 
+from typing import Any
+
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.dynamics.variables import chart, rows, states_of
 from pseudorigid.figures.axes.limits import complete, inside, of_data, refuse_empty
@@ -14,7 +18,7 @@ _ROOM = 1.3  # height of the lower panel over that of its square; the square's n
 
 
 @style.pinned()
-def draw(scene, manifolds, horseshoe):
+def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) -> Figure:
     """Draw the sets of a horseshoe, as large dots over the manifolds, and one covering relation.
 
     Raises ValueError if the axes show none of the sets or nothing of the image.
@@ -43,7 +47,7 @@ def draw(scene, manifolds, horseshoe):
     return sheet.figure
 
 
-def _sets(panel, horseshoe):
+def _sets(panel: Window, horseshoe: xr.Dataset) -> None:
     """Draw the sets and the key."""
     x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
     for sets, hue, size in (
@@ -65,7 +69,7 @@ def _sets(panel, horseshoe):
     key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)
 
 
-def _relation(panel, horseshoe):
+def _relation(panel: Window, horseshoe: xr.Dataset) -> None:
     """Draw the image of a set across the square of the next."""
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]

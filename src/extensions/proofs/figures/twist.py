@@ -1,6 +1,10 @@
 """The fixed point's twist against the energy, and where it vanishes."""
 
+from typing import Any
+
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes.limits import complete, of_data, refuse_empty
 from pseudorigid.figures.axes.plane import Plane
@@ -11,7 +15,7 @@ _RIGHTMOST = 0.75  # of the width of the frame: a text beside a point beyond it 
 
 
 @style.pinned()
-def draw(scene, twist):
+def draw(scene: dict[str, Any], twist: xr.Dataset) -> Figure:
     """Draw the twist of the fixed point against the energy, with scene["marks"] and a ring at 0.
 
     Raises ValueError if the axes show nothing of the line.

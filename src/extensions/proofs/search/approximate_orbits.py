@@ -5,13 +5,15 @@ from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
 from study.enclosure.surface import Surface
 
+from .certificate_text import Theorem
+
 
 def ball(surface: Surface) -> Ball:
     """Return the Ball whose k and g are the doubles nearest to a surface's."""
     return Ball(k=float(surface.k), g=float(surface.g))
 
 
-def points_of(theorem, kind: str) -> list[list[float]]:
+def points_of(theorem: Theorem, kind: str) -> list[list[float]]:
     """Return the points (x, y) near which a theorem states an orbit of this type."""
     return points(theorem.bounds["surface"], theorem.bounds["period"], kind)
 

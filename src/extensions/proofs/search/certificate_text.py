@@ -1,11 +1,23 @@
-"""Decimals of certificates, and their formatting as text."""
+"""Decimals of certificates, their formatting as text, and the theorem that one is to prove."""
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from typing import Any, Protocol
 
 from flint import arb
 
 from study.enclosure.surface import Surface
+
+from ..checks.certificate import Finding
+
+
+class Theorem(Protocol):
+    """What a search uses of a `theorems.statements.Theorem`."""
+
+    @property
+    def bounds(self) -> dict[str, Any]: ...
+    def prove(self, text: str) -> Finding: ...
+    def holds_for_any_radius(self, text: str) -> bool: ...
 
 
 def header(kind: str, surface: Surface) -> str:

@@ -6,7 +6,7 @@ preimages of the target's. Backwards from the target, each set is made just so w
 land beyond the next one; forwards from the source, just so high that its image fits.
 """
 
-from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -39,8 +39,11 @@ class Parallelogram(NamedTuple):
 
     def coordinates(self, points: np.ndarray) -> np.ndarray:
         """Return p and q of points."""
-        sides = np.stack([self.u, self.s], axis=1)
-        return np.linalg.solve(sides, points - self.centre[:, None])
+        return np.linalg.solve(self.sides(), points - self.centre[:, None])
+
+    def sides(self) -> np.ndarray:
+        """Return the sides as columns."""
+        return np.stack([self.u, self.s], axis=1)
 
 
 class Chain(NamedTuple):
@@ -54,7 +57,7 @@ class Chain(NamedTuple):
 class DoubleMap:
     """The impact map on a surface in doubles, in the chart (x, y)."""
 
-    def __init__(self, surface: Surface):
+    def __init__(self, surface: Surface) -> None:
         self.ball: Ball = approximate_orbits.ball(surface)
         self.energy = float(surface.energy)
 
@@ -71,9 +74,10 @@ class DoubleMap:
             points = chart(k, *self.ball.after(state)[:3])
         return points
 
-    def jacobian(self, point: Sequence[float]) -> np.ndarray:
+    def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Return DP at one point."""
-        state = self.ball.state_xy(*point, self.energy)
+        x, y = point
+        state = self.ball.state_xy(x, y, self.energy)
         return np.array(self.ball.chart_jacobian(*state), dtype=float)
 
 
@@ -91,7 +95,10 @@ def chain(
     its half widths.
     """
     try:
-        start, frames, stretch, squeeze = _frames(double_map, source, target, impacts, strip)
+        start, sign = _start(double_map, source, target, impacts, strip)
+        frames = _frames(double_map, source, target._replace(u=sign * target.u), impacts, start)
+        slopes = [_slopes(double_map, *pair) for pair in pairwise(frames)]
+        stretch, squeeze = zip(*slopes, strict=True)
         wide, high = np.zeros((2, impacts + 1, 2))
         wide[-1] = high[0] = high[-1] = -1.0, 1.0
         for t in reversed(range(impacts)):
@@ -118,38 +125,57 @@ def chain(
     return Chain(low, up, [_part(frames[t], wide[t], high[t]) for t in range(1, impacts)])
 
 
-def _frames(double_map, source, target, impacts, strip):
-    """Return the p of an orbit to the target, frames along it, and its stretches and squeezes."""
+def _start(
+    double_map: DoubleMap,
+    source: Parallelogram,
+    target: Parallelogram,
+    impacts: int,
+    strip: tuple[float, float],
+) -> tuple[float, float]:
+    """Return the p of an orbit to the target's middle, and the sign of the slope of its end's p.
+
+    Raises ValueError if the strip does not reach the target.
+    """
     p = np.linspace(*strip, _STRIP_POINTS)
     ends, _ = target.coordinates(double_map.step(source.points(p, 0.0 * p), impacts))
     crossings = np.flatnonzero(ends[:-1] * ends[1:] <= 0.0)
     if not crossings.size:
         raise ValueError("the strip does not reach the target")
     i = crossings[0]
-    start = p[i] - ends[i] * (p[i + 1] - p[i]) / (ends[i + 1] - ends[i])
+    rise = ends[i + 1] - ends[i]
+    return p[i] - ends[i] * (p[i + 1] - p[i]) / rise, np.sign(rise)
+
+
+def _frames(
+    double_map: DoubleMap, source: Parallelogram, target: Parallelogram, impacts: int, start: float
+) -> list[Parallelogram]:
+    """Return frames along an orbit: images of the source's side u, preimages of the target's s."""
     points = [source.points(np.array([start]), np.zeros(1))]
     for _ in range(impacts):
         points.append(double_map.step(points[-1]))
-    points = [point[:, 0] for point in points]
-    matrices = [double_map.jacobian(point) for point in points[:-1]]
+    centres = [point[:, 0] for point in points[:-1]]
+    matrices = [double_map.jacobian(centre) for centre in centres]
     expanding, contracting = [source.u], [target.s]
-    for matrix in matrices:
+    for matrix in matrices[:-1]:
         expanding.append(_unit(matrix @ expanding[-1]))
     for matrix in reversed(matrices[1:]):
         contracting.append(_unit(np.linalg.solve(matrix, contracting[-1])))
-    contracting.append(source.s)
-    frames = [Parallelogram(*z) for z in zip(points, expanding, reversed(contracting), strict=True)]
-    frames[-1] = Parallelogram(target.centre, np.sign(ends[i + 1] - ends[i]) * target.u, target.s)
-    stretch, squeeze = np.ones((2, impacts))
-    for t, matrix in enumerate(matrices):
-        sides = np.stack(frames[t + 1][1:], axis=1)
-        slopes = np.linalg.solve(sides, matrix @ np.stack(frames[t][1:], axis=1))
-        stretch[t], squeeze[t] = slopes[0, 0], abs(slopes[1, 1])
-    return start, frames, stretch, squeeze
+    sides = zip(centres, expanding, [source.s, *reversed(contracting[1:])], strict=True)
+    return [*(Parallelogram(*it) for it in sides), target]
 
 
-def _image(double_map, frames, wide, high, t):
-    """Return p and q, in the next frame, of the image of a set's boundary."""
+def _slopes(
+    double_map: DoubleMap, frame: Parallelogram, following: Parallelogram
+) -> tuple[float, float]:
+    """Return by how much the map stretches one frame's side u and shrinks its s, in the next."""
+    slopes = np.linalg.solve(following.sides(), double_map.jacobian(frame.centre) @ frame.sides())
+    return slopes[0, 0], abs(slopes[1, 1])
+
+
+def _image(
+    double_map: DoubleMap, frames: list[Parallelogram], wide: np.ndarray, high: np.ndarray, t: int
+) -> np.ndarray:
+    """Return p and q, in the frame after frame t, of the image of the boundary of its set."""
     boundary = _part(frames[t], wide[t], high[t]).points(_P, _Q)
     return frames[t + 1].coordinates(double_map.step(boundary))
 
@@ -161,4 +187,5 @@ def _part(frame: Parallelogram, wide: np.ndarray, high: np.ndarray) -> Parallelo
 
 
 def _unit(vector: np.ndarray) -> np.ndarray:
+    """Return a vector divided by its length."""
     return vector / np.linalg.norm(vector)

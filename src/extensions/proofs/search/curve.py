@@ -7,6 +7,7 @@ midpoints: `checks.curve` proves the result. A curve is a pair of polynomials in
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,28 +16,33 @@ from scipy.optimize import bisect
 
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, fraction_of
 
-from ..checks.certificate import Finding, NotProvedError
+from ..checks.certificate import Finding
 from ..checks.circle import derivative, noble, real_values, rotated, transform
 from ..checks.curve import Curve
 from . import approximate_orbits
-from .certificate_text import fixed, header, rows
+from .certificate_text import Theorem, fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
 from .periodic import centre_rows, polished
 from .rotation_numbers import quotients_near
 
 BITS = 320
 _IMPACTS = 40_000  # of the orbit whose averages start Newton's method
-_SCAN = 120  # starts between the centre and the rim
+_SCAN, _SCAN_IMPACTS = 120, 4000  # starts between the centre and the rim, and impacts of each
+_LARGEST_STEP = 0.05  # of the rotation number from one start to the next, without a jump
 _NOISE = 1e-11  # Fourier coefficients from the orbit below this are rounding errors
 _SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
 _STEPS = 6
+# Of the sizes that `search` tries: the strip as a part of that in which the coefficients decay,
+# cells along it, the share of the rest that its modes use, and more digits of the error.
+_TRIALS = (0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)
 _DIGITS_OF_ERROR = 12.0  # that the error has, besides those of the loss to the fourth power
 
 
-class Strips(NamedTuple):
+class Sizes(NamedTuple):
     """Sizes for the checker."""
 
     strip: str  # half width of the strip of the error
@@ -56,47 +62,51 @@ class _Start(NamedTuple):
     ys: list[float]
 
 
-def propose(theorem, quotients: Sequence[int], strips: Sequence, error: str) -> str:
+def propose(theorem: Theorem, quotients: Sequence[int], strips: Sequence, error: str) -> str:
     """Return a certificate for a curve around a point (x, 0) of a symmetric orbit.
 
-    The rotation number is that of `checks.circle.noble`, and `strips` are those of `Strips`. Of the
+    The rotation number is that of `checks.circle.noble`, and `strips` are the `Sizes`. Of the
     orbit's points on y = 0 the one with the greatest x is taken.
     """
-    start = _start(theorem, quotients)
     share = str(float(theorem.bounds["share"]))
-    return _text(theorem, start, Strips(*strips), share, error)
+    return _certificate(theorem, _start(theorem, quotients), Sizes(*strips), share, error)
 
 
-def search(theorem, rotation: float) -> tuple[str, Finding]:
+def search(theorem: Theorem, rotation: float) -> tuple[str, Finding]:
     """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
 
-    The rotation number is close to the given one. The strips follow from the decay of the
-    coefficients of an orbit in doubles. Raises ValueError if no curve is found, or the checker's
-    NotProvedError if the last sizes fail.
+    The rotation number is close to the given one. Raises ValueError if no curve is found, or the
+    checker's NotProvedError if the last sizes fail.
     """
     start = _start(theorem, quotients_near(rotation))
     xs, ys = start.xs, start.ys
-    decay = -math.log(_NOISE / abs(xs[1])) / len(xs)
+    decay = -math.log(_NOISE / abs(xs[1])) / len(xs)  # of the coefficients per mode
     area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
     with ctx.workprec(64):  # rounding adds less than 1e-4
         share = f"{0.9999 * area / float(theorem.bounds['surface'].area()):.5g}"
-    for part, cells, room, spare in ((0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)):
-        strip = part * decay / (2.0 * math.pi)
-        loss = strip / 6.2
-        digits = math.ceil(_DIGITS_OF_ERROR + spare - 4.0 * math.log10(loss))
-        modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
-        columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
-        rows = math.ceil(columns * strip)
-        strips = Strips(f"{strip:.4g}", f"{loss:.3g}", columns, rows, math.ceil(0.6 * rows), modes)
-        text = _text(theorem, start, strips, share, f"1e-{digits}")
+    for trial in _TRIALS:
+        sizes, error = _sizes(decay, *trial)
+        text = _certificate(theorem, start, sizes, share, error)
         try:
             return text, theorem.prove(text)
-        except NotProvedError as error:
-            reason = error
+        except NotProvedError as refusal:
+            reason = refusal
     raise reason
 
 
-def _start(theorem, quotients: Sequence[int]) -> _Start:
+def _sizes(decay: float, part: float, cells: float, room: float, spare: float) -> tuple[Sizes, str]:
+    """Return sizes for a strip that is a part of the widest, and the error to be reached in it."""
+    strip = part * decay / (2.0 * math.pi)
+    loss = strip / 6.2
+    digits = math.ceil(_DIGITS_OF_ERROR + spare - 4.0 * math.log10(loss))
+    modes = math.ceil(digits * math.log(10.0) / (room * (1.0 - part) * decay))
+    columns = 1 << max(6, math.ceil(math.log2(cells / strip)))
+    rows = math.ceil(columns * strip)
+    more_rows = math.ceil(0.6 * rows)
+    return Sizes(f"{strip:.4g}", f"{loss:.3g}", columns, rows, more_rows, modes), f"1e-{digits}"
+
+
+def _start(theorem: Theorem, quotients: Sequence[int]) -> _Start:
     """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
     surface, points = theorem.bounds["surface"], approximate_orbits.points_of(theorem, "elliptic")
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
@@ -119,31 +129,27 @@ def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
     with ctx.workprec(53):
         k, g, _ = surface.constants()
         rim = float(g / k + surface.radius())
-    reach = rim - centre if period == 1 else 0.5 * _nearest(points)
+    reach = rim - centre
+    if period > 1:  # half way to the nearest of the other points
+        others = np.asarray(points[1:], dtype=float)
+        reach = 0.5 * float(np.abs(others - points[0]).max(axis=1).min())
 
-    def excess(x, impacts=_IMPACTS):
+    def excess(x: float, impacts: int = _IMPACTS) -> float:
         return turns(surface, x, points, impacts) - omega
 
-    previous, seen = None, []
-    for i in range(1, _SCAN):
-        x = centre + reach * i / _SCAN
-        value = excess(x, 4000)
-        if previous is not None and previous[1] * value < 0.0 and abs(value) < 0.05:
-            return bisect(excess, previous[0], x, xtol=1e-17)
-        previous = x, value
-        if not seen or (len(seen) == i - 1 and abs(value - seen[-1]) < 0.05):
-            seen.append(value)  # from the point on, as far as the numbers change without a jump
-    low, high = omega + min(seen), omega + max(seen)
+    places = [centre + reach * i / _SCAN for i in range(1, _SCAN)]
+    values: list[float] = []
+    for i, x in enumerate(places):
+        values.append(excess(x, _SCAN_IMPACTS))
+        if i and values[-2] * values[-1] < 0.0 and abs(values[-1]) < _LARGEST_STEP:
+            return float(bisect(excess, places[i - 1], x, xtol=1e-17))
+    steps = enumerate(pairwise(values), 1)
+    jump = next((i for i, (a, b) in steps if not abs(b - a) < _LARGEST_STEP), len(values))
+    low, high = omega + min(values[:jump]), omega + max(values[:jump])
     raise ValueError(
         f"no curve with the rotation number {omega:.6g} was found on y = 0: "
         f"near the point the numbers go from {low:.4f} to {high:.4f}"
     )
-
-
-def _nearest(points: Sequence) -> float:
-    """Return the distance between the first point and the nearest of the others."""
-    first, *others = np.asarray(points, dtype=float)
-    return float(min(np.abs(np.array(others) - first).max(axis=1)))
 
 
 def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
@@ -187,50 +193,58 @@ def _coefficients_of_orbit(
     return xs[:-3], ys[:-3]
 
 
-def _text(theorem, start: _Start, strips: Strips, share: str, error: str) -> str:
-    """Improve a curve by Newton's method until its error settles, and format the certificate."""
+def _certificate(theorem: Theorem, start: _Start, sizes: Sizes, share: str, error: str) -> str:
+    """Return a certificate of the curve that Newton's method finds from a start."""
     surface, radius = theorem.bounds["surface"], f"{float(theorem.bounds['radius']):g}"
     with ctx.workprec(CENTRE_BITS):
         centres = polished(surface, start.points)
     with ctx.workprec(BITS):
-        omega, _ = noble(start.quotients)
-        curve: Curve = (
-            [acb(a / 2 if q else a) for q, a in enumerate(start.xs)],
-            [acb(0, -a / 2) for a in start.ys],
-        )
-        last = None
-        for _ in range(_STEPS):
-            modes = min(strips.modes, 2 * len(curve[0]) + 20)
-            step = _newton_step(surface, centres[0], len(centres), curve, omega, modes)
-            curve, size = step
-            if last is not None and not size < last * 1e-2 and modes == strips.modes:
-                break
-            last = size
-        digits = _SPARE_DIGITS - math.log10(float(error))
-        decay = 2.0 * math.pi * float(strips.strip) / math.log(10.0)  # in digits per mode
-        lines = [
-            f"[{_decimals(a.real if q == 0 else 2 * a.real, math.ceil(digits + decay * q))}, "
-            f"{_decimals(-2 * b.imag, math.ceil(digits + decay * q))}]"
-            for q, (a, b) in enumerate(zip(*curve, strict=True))
-        ]
+        coefficients = _formatted(_curve(surface, centres, start, sizes.modes), sizes.strip, error)
     return (
         header("invariant curve", surface)
         + f"radius = {radius}\n"
         + centre_rows(centres)
         + "# The rotation number's partial quotients after 0, and those that repeat for ever.\n"
         + f"quotients = [{', '.join(map(str, start.quotients))}]\nrepeating = [1]\n"
-        + f"share = {share}\nerror = {error}\nstrip = {strips.strip}\nloss = {strips.loss}\n"
-        + f"columns = {strips.columns}\nrows = {strips.rows}\nmore_rows = {strips.more_rows}\n"
+        + f"share = {share}\nerror = {error}\nstrip = {sizes.strip}\nloss = {sizes.loss}\n"
+        + f"columns = {sizes.columns}\nrows = {sizes.rows}\nmore_rows = {sizes.more_rows}\n"
         + "# The curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n"
-        + rows("coefficients", lines)
+        + rows("coefficients", coefficients)
     )
 
 
-def _decimals(value: arb, decimals: int) -> str:
-    return fixed(fraction_of(value), decimals)
+def _formatted(curve: Curve, strip: str, error: str) -> list[str]:
+    """Format a curve's coefficients with the digits that the error in the strip demands."""
+    lines = []
+    digits = _SPARE_DIGITS - math.log10(float(error))
+    decay = 2.0 * math.pi * float(strip) / math.log(10.0)  # in digits per mode
+    for q, (x, y) in enumerate(zip(*curve, strict=True)):
+        pair = (2 * x.real if q else x.real), -2 * y.imag
+        decimals = math.ceil(digits + decay * q)
+        lines.append(f"[{', '.join(fixed(fraction_of(value), decimals) for value in pair)}]")
+    return lines
 
 
-def _newton_step(surface, centre, period, curve, omega, modes) -> tuple[Curve, float]:
+def _curve(surface: Surface, centres: list, start: _Start, modes: int) -> Curve:
+    """Improve a curve by Newton's method until its error settles."""
+    omega, _ = noble(start.quotients)
+    curve: Curve = (
+        [acb(a / 2 if q else a) for q, a in enumerate(start.xs)],
+        [acb(0, -a / 2) for a in start.ys],
+    )
+    last = math.inf
+    for _ in range(_STEPS):
+        count = min(modes, 2 * len(curve[0]) + 20)
+        curve, size = _newton_step(surface, centres, curve, omega, count)
+        if not size < last * 1e-2 and count == modes:
+            break
+        last = size
+    return curve
+
+
+def _newton_step(
+    surface: Surface, centres: list, curve: Curve, omega: arb, modes: int
+) -> tuple[Curve, float]:
     """Return the curve after one Newton step, and the error before it."""
     count = 1 << (3 * modes).bit_length()
     shifted = [rotated(row, omega) for row in curve]
@@ -240,11 +254,11 @@ def _newton_step(surface, centre, period, curve, omega, modes) -> tuple[Curve, f
     )
     along, across, twist, normals, size = [], [], [], [], 0.0
     for i in range(count):
-        image, matrix = _power(surface, *here[i], period)
+        image, matrix = _power(surface, here[i], len(centres))
         error = [a - b for a, b in zip(image, there[i], strict=True)]
         size = max(size, *(abs(float(a)) for a in error))
-        normals.append(_normal(here[i], tangent[i], centre))
-        after = _normal(there[i], tangent_there[i], centre)
+        normals.append(_normal(here[i], tangent[i], centres[0]))
+        after = _normal(there[i], tangent_there[i], centres[0])
         along.append(_det(error, after))
         across.append(_det(tangent_there[i], error))
         twist.append(_det([a * normals[i][0] + b * normals[i][1] for a, b in matrix], after))
@@ -255,27 +269,26 @@ def _newton_step(surface, centre, period, curve, omega, modes) -> tuple[Curve, f
     second = [a + mean for a in second]
     rest = [-a - t * b for a, t, b in zip(along, twist, second, strict=True)]
     first = _cohomology(rest, divisors)
+    moved = list(zip(here, tangent, first, normals, second, strict=True))
     x, y = (
-        transform(
-            [
-                (here[i][r] + tangent[i][r] * first[i] + normals[i][r] * second[i]).mid()
-                for i in range(count)
-            ],
-            modes,
-        )
+        transform([(z[r] + t[r] * a + n[r] * b).mid() for z, t, a, n, b in moved], modes)
         for r in (0, 1)
     )
     return ([acb(a.real.mid()) for a in x], [acb(0, a.imag.mid()) for a in y]), size
 
 
-def _power(surface, x, y, period):
-    """Return the image of a point under P^n and the derivative's rows, midpoints."""
-    x, y = Jet.plane(1, x.mid(), y.mid())
+def _power(
+    surface: Surface, point: Sequence[arb], period: int
+) -> tuple[list[arb], list[list[arb]]]:
+    """Return the image of a point under P^n, and the derivative's rows, as midpoints."""
+    x, y = point
+    jets = Jet.plane(1, x.mid(), y.mid())
     for _ in range(period):
-        x, y, *_ = surface.impact(x, y)
-        for jet in (x, y):
+        image = surface.impact(*jets)
+        jets = image.x, image.y
+        for jet in jets:
             jet.coefficients[:] = [a.mid() for a in jet.coefficients]
-    return (x.constant, y.constant), (x.coefficients[1:], y.coefficients[1:])
+    return [jet.constant for jet in jets], [jet.coefficients[1:] for jet in jets]
 
 
 def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
@@ -285,11 +298,11 @@ def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
     return real_values([acb(0), *solved], len(values))
 
 
-def _det(a, b) -> arb:
+def _det(a: Sequence[arb], b: Sequence[arb]) -> arb:
     return a[0] * b[1] - a[1] * b[0]
 
 
-def _normal(point, tangent, centre) -> tuple[arb, arb]:
+def _normal(point: Sequence[arb], tangent: Sequence[arb], centre: Sequence[arb]) -> tuple[arb, arb]:
     """Return N = -(K - c)/det(K - c, L)."""
     x, y = (a - b for a, b in zip(point, centre, strict=True))
     size = _det((x, y), tangent)

@@ -5,17 +5,17 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from study.enclosure.surface import ball_of, fraction_of
+from study.enclosure.surface import ball_of
 
 from ..checks.periodic import BITS
 from ..enclosure.fixed_point import energy_at
-from .certificate_text import ball_header, fixed
+from .certificate_text import Theorem, ball_header, bisected, fixed
 
 _DECIMALS = 38  # of theta
 _BANDS = 64  # of theta, on each of which the checker encloses the slope of the trace
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return the certificate that the fixed point is elliptic at energies up to the theorem's."""
     k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     with ctx.workprec(BITS):
@@ -29,11 +29,8 @@ def propose(theorem) -> str:
 
 
 def bisected_theta(is_below: Callable[[arb], bool]) -> tuple[arb, str]:
-    """Return the theta, from 0 to pi, up to which a condition holds, and a certificate's field."""
-    low, high = arb(0), arb.pi()
-    for _ in range(BITS - 8):
-        middle = ((low + high) / 2).mid()
-        low, high = (middle, high) if is_below(middle) else (low, middle)
+    """Return the theta up to which a condition holds, and a certificate's field around it."""
+    theta, _ = bisected(lambda it: is_below(ball_of(it)), Fraction(0), Fraction(3), _DECIMALS + 2)
     unit = Fraction(1, 10**_DECIMALS)
-    ends = ", ".join(fixed(fraction_of(low) + sign * unit, _DECIMALS) for sign in (-1, 1))
-    return low, f"theta = [{ends}]\n"
+    ends = ", ".join(fixed(theta + sign * unit, _DECIMALS) for sign in (-1, 1))
+    return ball_of(theta), f"theta = [{ends}]\n"

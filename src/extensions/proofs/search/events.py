@@ -11,14 +11,14 @@ from ..checks.events import doubling, grazing
 from ..checks.periodic import BITS
 from ..enclosure.fixed_point import energy_at, trace_at
 from ..enclosure.newton import System, newton
-from .certificate_text import ball_header, row
+from .certificate_text import Theorem, ball_header, row
 from .ellipticity import bisected_theta
 from .periodic import DIGITS, with_largest_radius
 
 _STEPS = 9  # of Newton's method from doubles
 
 
-def propose_resonance(theorem) -> str:
+def propose_resonance(theorem: Theorem) -> str:
     """Return a certificate of the fixed point's resonance at a rotation number."""
     k, g, rotation = (theorem.bounds[name] for name in ("k", "g", "rotation"))
     with ctx.workprec(BITS):
@@ -28,17 +28,19 @@ def propose_resonance(theorem) -> str:
     return ball_header("resonance", k, g) + f"event = {energy}\n{field}"
 
 
-def propose_doubling(theorem, near: Sequence[str]) -> str:
+def propose_doubling(theorem: Theorem, near: Sequence[str]) -> str:
     """Return a certificate of a period doubling near an energy and a position."""
     return _propose("period doubling", theorem, near, doubling, "period")
 
 
-def propose_grazing(theorem, near: Sequence[str]) -> str:
+def propose_grazing(theorem: Theorem, near: Sequence[str]) -> str:
     """Return a certificate of a grazing orbit near an energy and perhaps a y."""
     return _propose("grazing orbit", theorem, near, grazing, "halves")
 
 
-def _propose(kind: str, theorem, near: Sequence[str], equations: Callable, bound: str) -> str:
+def _propose(
+    kind: str, theorem: Theorem, near: Sequence[str], equations: Callable, bound: str
+) -> str:
     """Return a certificate of an event with the largest radius that the checker accepts."""
     k, g = theorem.bounds["k"], theorem.bounds["g"]
     system: System = partial(equations, k, g, **{bound: theorem.bounds[bound]})

@@ -6,8 +6,10 @@ connections whose strips overlap, those are chosen that give the largest growth,
 the checker does not accept are left out.
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from fractions import Fraction
+from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +18,11 @@ from scipy.sparse.csgraph import connected_components
 
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
+from study.enclosure.flight import NotProvedError
+from study.enclosure.surface import Surface
 
 from ..checks import graph, hsets
-from ..checks.certificate import NotProvedError
-from .certificate_text import header, rows
+from .certificate_text import Theorem, header, rows
 from .chains import DoubleMap, Parallelogram, chain
 
 _LEAST_TRACE = 4.0  # of a saddle whose points get sets
@@ -31,6 +34,7 @@ _WIDENINGS = 6  # of a strip by a twelfth, until all lines land beyond the targe
 _CENTRE_DIGITS, _SIDE_DIGITS, _STRIP_DIGITS = 9, 4, 5
 _MARGIN = 0.03  # of the coverings along a chain
 _HIGHEST = 1.0  # entropy above any of this map
+_ENTROPY_ERROR = 1e-4  # of the largest growth that is found
 
 
 class Crossing(NamedTuple):
@@ -43,7 +47,15 @@ class Crossing(NamedTuple):
     high: float
 
 
-def propose(theorem, periods: Sequence[int], size: float, impacts: int) -> str:
+class Growth(NamedTuple):
+    """The largest entropy of crossings whose strips are disjoint."""
+
+    entropy: float
+    weights: np.ndarray  # of the sets, which prove it
+    chosen: list[int]  # names of the crossings
+
+
+def propose(theorem: Theorem, periods: Sequence[int], size: float, impacts: int) -> str:
     """Return a certificate of a graph with the largest growth that is found.
 
     There are sets at the points of the symmetric saddles of these periods. `size` is the square
@@ -53,19 +65,23 @@ def propose(theorem, periods: Sequence[int], size: float, impacts: int) -> str:
     double_map = DoubleMap(surface)
     sets = _sets(double_map, periods, size)
     candidates = dict(enumerate(_crossings(double_map, sets, impacts)))
-    texts: dict[int, list[str]] = {}
+    chains: dict[int, list[str]] = {}
     while True:
-        _, _, chosen = _best(candidates, len(sets))
-        new = [i for i in chosen if i not in texts]
+        chosen = _largest_growth(candidates, len(sets)).chosen
+        new = [name for name in chosen if name not in chains]
         if not new:
             break
-        for i in new:
-            proved = _proved(surface, double_map, sets, candidates[i])
+        for name in new:
+            proved = _proved(surface, double_map, sets, candidates[name])
             if proved is None:
-                del candidates[i]
+                del candidates[name]
             else:
-                candidates[i], texts[i] = proved
-    return _text(surface, sets, [(candidates[i], texts[i]) for i in chosen])
+                candidates[name], chains[name] = proved
+    candidates = {name: candidates[name] for name in chosen}
+    kept, crossings, growth = _best_component(candidates, len(sets))
+    names = sorted(crossings, key=lambda name: (crossings[name].source, crossings[name].low))
+    connections = [(crossings[name], chains[name]) for name in names]
+    return _text(surface, {i: sets[i] for i in kept}, connections, growth)
 
 
 def _sets(double_map: DoubleMap, periods: Sequence[int], size: float) -> list[Parallelogram]:
@@ -73,29 +89,26 @@ def _sets(double_map: DoubleMap, periods: Sequence[int], size: float) -> list[Pa
     sets = []
     for period in periods:
         orbits = symmetric_orbits(double_map.ball, double_map.energy, period)
-        for i in range(orbits.sizes["orbit"]):
-            orbit = orbits.isel(orbit=i)
-            if abs(orbit["trace"].item()) > _LEAST_TRACE:
-                points = chart(double_map.ball.k, *states_of(orbit)).T
-                sets += _at_saddles(double_map, points, size)
+        for i in np.flatnonzero(np.abs(orbits["trace"].values) > _LEAST_TRACE):
+            points = chart(double_map.ball.k, *states_of(orbits.isel(orbit=i))).T
+            sets += _at_saddles(double_map, points, size)
     return sets
 
 
 def _at_saddles(double_map: DoubleMap, points: np.ndarray, size: float) -> list[Parallelogram]:
-    """Return parallelograms along the eigenvectors at the points of a saddle."""
+    """Return parallelograms along the eigenvectors at the points of one saddle."""
     matrices, sets = [double_map.jacobian(z) for z in points], []
     for i, point in enumerate(points):
         turned = matrices[i:] + matrices[:i]
         values, vectors = np.linalg.eig(np.linalg.multi_dot(turned[::-1]))
         u, s = (vectors[:, j].real for j in np.argsort(-np.abs(values)))
         scale = size / np.sqrt(abs(u[0] * s[1] - u[1] * s[0]))
-        sides = (point, scale * u, scale * s)
-        sets.append(Parallelogram(*(_rounded(side, _CENTRE_DIGITS) for side in sides)))
+        rounded = (
+            np.array([float(f"{value:.{_CENTRE_DIGITS}g}") for value in side])
+            for side in (point, scale * u, scale * s)
+        )
+        sets.append(Parallelogram(*rounded))
     return sets
-
-
-def _rounded(values: Sequence[float], digits: int) -> np.ndarray:
-    return np.array([float(f"{value:.{digits}g}") for value in values])
 
 
 def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -> list[Crossing]:
@@ -117,37 +130,38 @@ def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -
 
 def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
     """Return the first and last points of the parts of lines that cross |p|, |q| < 1."""
-    runs = []
     inside = np.abs(p[1]) < 1.0
-    if not inside.any():
-        return runs
-    ends = np.flatnonzero(np.diff(inside.astype(int)))
-    begins = ends[inside[ends + 1]]
-    for begin, end in zip(begins, (ends[ends > i][:1] for i in begins), strict=True):
-        if not end.size or end[0] - begin < _FEWEST_POINTS:
-            continue
-        low, high = begin, end[0] + 1
-        step, sign = max(1, (high - low) // 12), np.sign(p[1, high] - p[1, low])
-        for _ in range(_WIDENINGS):
-            if low < 0 or high >= p.shape[1]:
-                break
-            on_low, on_high = np.all(sign * p[:, low] < -1.0), np.all(sign * p[:, high] > 1.0)
-            if on_low and on_high:
-                part = slice(low, high + 1)
-                smooth = np.abs(np.diff(p[:, part])).max() < _STEP
-                if smooth and np.abs(q[:, part]).max() < _ROOM:
-                    runs.append((low, high))
-                break
-            low, high = low - step * (not on_low), high + step * (not on_high)
-    return runs
+    changes = np.flatnonzero(np.diff(inside))
+    begins, ends = changes[~inside[changes]], changes[inside[changes]] + 1
+    pairs = zip(begins, ends[int(inside[0]) :], strict=False)  # the last part may have no end
+    wide = [_widened(p, low, high) for low, high in pairs if high - low > _FEWEST_POINTS]
+    return [run for run in wide if run and _is_smooth(p[:, slice(*run)], q[:, slice(*run)])]
 
 
-def _best(candidates: dict[int, Crossing], count: int) -> tuple[float, np.ndarray, list[int]]:
-    """Return the largest entropy of disjoint strips, by bisection, its weights and its choice."""
+def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
+    """Widen a part of lines until all of them begin and end beyond |p| = 1; None if none does."""
+    step, sign = max(1, (high - low) // 12), np.sign(p[1, high] - p[1, low])
+    for _ in range(_WIDENINGS):
+        if low < 0 or high >= p.shape[1]:
+            return None
+        on_low, on_high = np.all(sign * p[:, low] < -1.0), np.all(sign * p[:, high] > 1.0)
+        if on_low and on_high:
+            return low, high
+        low, high = low - step * (not on_low), high + step * (not on_high)
+    return None
+
+
+def _is_smooth(p: np.ndarray, q: np.ndarray) -> bool:
+    """Whether lines have no jump, and stay in |q| < 1."""
+    return bool(np.abs(np.diff(p)).max() < _STEP and np.abs(q).max() < _ROOM)
+
+
+def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
+    """Find the largest growth by bisection of the entropy."""
     low, high = 0.0, _HIGHEST
     weights = np.ones(count)
-    best, strips = (weights, []), _sorted_strips(candidates, count)
-    while high - low > 1e-4:
+    best, strips = Growth(low, weights, []), _strips(crossings, count)
+    while high - low > _ENTROPY_ERROR:
         entropy = (low + high) / 2.0
         for _ in range(40):
             sums, chosen = _choose(strips, weights, entropy)
@@ -155,62 +169,65 @@ def _best(candidates: dict[int, Crossing], count: int) -> tuple[float, np.ndarra
             factor = sums.max()
             weights = np.maximum(sums / factor, 1e-12)
         if factor > 1.0:
-            low, best = entropy, (weights, chosen)
+            low, best = entropy, Growth(entropy, weights, chosen)
         else:
             high = entropy
-    return low, *best
+    return best
 
 
-def _sorted_strips(candidates: dict[int, Crossing], count: int) -> list[list[tuple]]:
-    """Return, for each set, its strips by their upper ends: (index, strips below it, crossing)."""
-    strips = []
-    for source in range(count):
-        here = sorted((it.high, i) for i, it in candidates.items() if it.source == source)
-        highs = [high for high, _ in here]
-        strips.append([])
-        for n, (_, i) in enumerate(here):
-            limit = candidates[i].low - 10.0**-_STRIP_DIGITS
-            below = int(np.searchsorted(highs[:n], limit))
-            strips[-1].append((i, below, candidates[i].impacts, candidates[i].target))
+def _strips(crossings: dict[int, Crossing], count: int) -> list[list[tuple[int, int, Crossing]]]:
+    """Return name, number of strips below, and crossing of each set's strips, by upper ends."""
+    strips: list[list[tuple[int, int, Crossing]]] = [[] for _ in range(count)]
+    for name, it in sorted(crossings.items(), key=lambda pair: (pair[1].high, pair[0])):
+        here = strips[it.source]
+        limit = it.low - 10.0**-_STRIP_DIGITS
+        here.append((name, bisect_left(here, limit, key=lambda strip: strip[2].high), it))
     return strips
 
 
-def _choose(strips: list[list[tuple]], weights: np.ndarray, entropy: float):
-    """Choose disjoint strips of the largest sum in each set: the sums, and the choice."""
+def _choose(
+    strips: list[list[tuple[int, int, Crossing]]], weights: np.ndarray, entropy: float
+) -> tuple[np.ndarray, list[int]]:
+    """Choose disjoint strips of the largest sum in each set: return the sums, and the names."""
     sums, chosen = np.zeros(weights.size), []
     values, discount = weights.tolist(), np.exp(-entropy)
     for source, here in enumerate(strips):
         best, taken = [0.0], []
-        for _, below, impacts, target in here:
-            with_it = best[below] + discount**impacts * values[target]
+        for _, below, crossing in here:
+            with_it = best[below] + discount**crossing.impacts * values[crossing.target]
             taken.append(with_it > best[-1])
             best.append(max(with_it, best[-1]))
         sums[source], n = best[-1], len(here)
         while n:
-            index, below, *_ = here[n - 1]
+            name, below, _ = here[n - 1]
             if taken[n - 1]:
-                chosen.append(index)
+                chosen.append(name)
             n = below if taken[n - 1] else n - 1
     return sums, chosen
 
 
-def _proved(surface, double_map, sets, crossing) -> tuple[Crossing, list[str]] | None:
-    """Return the connection that the checker accepts, and the rows of its chain's sets."""
-    source, target = sets[crossing.source], sets[crossing.target]
+def _proved(
+    surface: Surface, double_map: DoubleMap, sets: list[Parallelogram], crossing: Crossing
+) -> tuple[Crossing, list[str]] | None:
+    """Return a connection that the checker accepts, and the rows of its chain's sets, or None."""
+    ends = sets[crossing.source], sets[crossing.target]
     strip = crossing.low, crossing.high
-    found = chain(double_map, source, target, crossing.impacts, strip, _MARGIN)
+    found = chain(double_map, *ends, crossing.impacts, strip, _MARGIN)
     if found is None:
         return None
-    unit = 10.0**_STRIP_DIGITS  # the strip's ends are rounded outwards
-    ends = np.floor(found.low * unit) / unit, np.ceil(found.high * unit) / unit
-    strip, chain_rows = [f"{a:.{_STRIP_DIGITS}f}" for a in ends], [_row(it) for it in found.sets]
+    unit = 10**_STRIP_DIGITS  # the strip's ends are rounded outwards
+    low, high = Fraction(floor(found.low * unit), unit), Fraction(ceil(found.high * unit), unit)
+    chain_rows = [_row(it) for it in found.sets]
     try:
         with ctx.workprec(graph.BITS):
-            graph.prove_connection(surface, *_connection(source, target, strip, chain_rows))
+            source, target = (_hset(_row(it, _CENTRE_DIGITS)) for it in ends)
+            part = graph.part(source, "the strip", low, high)
+            between = tuple(map(_hset, chain_rows))
+            connection = graph.Connection(0, 1, low, high, part, between)
+            graph.prove_connection(surface, [source, target], connection)
     except NotProvedError:
         return None
-    low, high = map(float, strip)
-    return crossing._replace(low=low, high=high), chain_rows
+    return crossing._replace(low=float(low), high=float(high)), chain_rows
 
 
 def _row(of: Parallelogram, digits: int = _SIDE_DIGITS) -> str:
@@ -220,52 +237,50 @@ def _row(of: Parallelogram, digits: int = _SIDE_DIGITS) -> str:
     return f"[{', '.join([*centre, *sides])}]"
 
 
-def _connection(source, target, strip, chain_rows):
-    """Return the sets and the connection as the checker reads them."""
-    ends, through = (
-        [hsets.hset("a set", [Fraction(a) for a in line.strip("[]").split(", ")]) for line in lines]
-        for lines in ([_row(it, _CENTRE_DIGITS) for it in (source, target)], chain_rows)
-    )
-    low, high = map(Fraction, strip)
-    part = graph.part(ends[0], "the strip", low, high)
-    return ends, graph.Connection(0, 1, low, high, part, tuple(through))
+def _hset(row: str) -> hsets.HSet:
+    """Return the set of a certificate's row, as the checker reads it."""
+    return hsets.hset("a set", [Fraction(a) for a in row.strip("[]").split(", ")])
 
 
-def _text(surface, sets, chosen) -> str:
-    """Return the certificate of the component that grows most, with weights that prove it."""
-    joined = np.zeros((len(sets), len(sets)))
-    for crossing, _ in chosen:
-        joined[crossing.source, crossing.target] = 1.0
+def _best_component(
+    crossings: dict[int, Crossing], count: int
+) -> tuple[list[int], dict[int, Crossing], Growth]:
+    """Return the sets of the component that grows most, the crossings in it, and its growth."""
+    joined = np.zeros((count, count))
+    for it in crossings.values():
+        joined[it.source, it.target] = 1.0
     _, component = connected_components(joined, connection="strong")
-    inner = [it for it in chosen if component[it[0].source] == component[it[0].target]]
-    parts = {
-        label: [it for it in inner if component[it[0].source] == label]
-        for label in {int(component[crossing.source]) for crossing, _ in inner}
-    }
-    best = {
-        label: _best({n: crossing for n, (crossing, _) in enumerate(part)}, len(sets))
-        for label, part in parts.items()
-    }
-    label = max(best, key=lambda name: best[name][0])
-    chosen, (entropy, weights, _) = parts[label], best[label]
-    kept = np.flatnonzero(component == label)
-    growth = f"{np.exp(entropy - 1e-4):.6f}"
-    place = {int(i): n for n, i in enumerate(kept)}
-    chosen.sort(key=lambda it: (it[0].source, it[0].low))
-    connections = [
+    parts: dict[int, dict[int, Crossing]] = {}
+    for name, it in crossings.items():
+        if component[it.source] == component[it.target]:
+            parts.setdefault(component[it.source], {})[name] = it
+    growths = {label: _largest_growth(part, count) for label, part in parts.items()}
+    label = max(growths, key=lambda it: growths[it].entropy)
+    return np.flatnonzero(component == label).tolist(), parts[label], growths[label]
+
+
+def _text(
+    surface: Surface,
+    sets: dict[int, Parallelogram],
+    connections: list[tuple[Crossing, list[str]]],
+    growth: Growth,
+) -> str:
+    """Format the certificate of some sets and of the connections, each with its chain's rows."""
+    place = {i: n for n, i in enumerate(sets)}
+    lines = [
         f"[{place[it.source]}, {place[it.target]}, {it.low:.{_STRIP_DIGITS}f}, "
         f"{it.high:.{_STRIP_DIGITS}f}, {it.impacts}]"
-        for it, _ in chosen
+        for it, _ in connections
     ]
     return (
         header("graph", surface)
         + "# a row: centre, expanding side, contracting side\n"
-        + rows("sets", (_row(sets[i], _CENTRE_DIGITS) for i in kept))
+        + rows("sets", (_row(it, _CENTRE_DIGITS) for it in sets.values()))
         + "# from and to which set, the strip's ends in the first one's p, and impacts\n"
-        + rows("connections", connections)
+        + rows("connections", lines)
         + "# between the strip and the set, one connection after the other\n"
-        + rows("chains", (line for _, lines in chosen for line in lines))
+        + rows("chains", (line for _, chain_rows in connections for line in chain_rows))
         + "# the number of paths grows by this factor an impact, as the weights of the sets prove\n"
-        + f"growth = {growth}\n"
-        + f"weights = [{', '.join(f'{weights[i]:.6g}' for i in kept)}]\n"
+        + f"growth = {np.exp(growth.entropy - _ENTROPY_ERROR):.6f}\n"
+        + f"weights = [{', '.join(f'{growth.weights[i]:.6g}' for i in sets)}]\n"
     )

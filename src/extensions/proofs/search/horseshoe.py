@@ -14,12 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
-from ..checks.certificate import Finding, NotProvedError
+from ..checks.certificate import Finding
 from ..checks.periodic import enclose
 from . import approximate_orbits
-from .certificate_text import header, row, rows
+from .certificate_text import Theorem, header, row, rows
 from .chains import DoubleMap
 from .periodic import polished
 
@@ -53,36 +54,36 @@ class _Connection(NamedTuple):
     """A hyperbolic orbit and an orbit that leads from its points back to them."""
 
     surface: Surface
-    saddles: list[Vector]
-    expanding: list[Vector]
-    mirror: list[int]
-    rho: arb
-    points: list[Vector]
-    tangents: list[Vector]
-    middle: int
+    saddles: list[list[arb]]
+    expanding: list[list[arb]]  # sides of the saddles' sets
+    mirror: list[int]  # index of each saddle's mirror image
+    rho: arb  # by which an impact stretches them
+    points: list[Vector]  # of the orbit that leads back
+    tangents: list[Vector]  # of the unstable manifold there
+    middle: int  # index of the point on y = 0
 
     def first(self, steps: int) -> int:
-        """Index of the saddle near which a chain of so many steps begins."""
+        """Return the index of the saddle near which a chain of so many steps begins."""
         return (self.middle - steps) % len(self.saddles)
 
     def contracting(self, saddle: int) -> list[arb]:
-        """Contracting side of a saddle's set."""
+        """Return the contracting side of a saddle's set."""
         return _mirrored(self.expanding[self.mirror[saddle]])
 
     def distance(self, steps: int) -> arb:
-        """Distance of the chain's beginning from its saddle, in units of the expanding side."""
+        """Return how far from its saddle the chain begins, in units of the expanding side."""
         first, point = self.first(steps), self.points[self.middle - steps]
         from_saddle = [p - s for p, s in zip(point, self.saddles[first], strict=True)]
         return self.along(from_saddle, first)
 
     def along(self, vector: Vector, saddle: int) -> arb:
-        """Length of a vector along the expanding side of a saddle's set, in its units."""
+        """Return a vector's part along the expanding side of a saddle's set, in its units."""
         (ux, uy), (sx, sy) = self.expanding[saddle], self.contracting(saddle)
         return abs((vector[0] * sy - vector[1] * sx) / (ux * sy - uy * sx))
 
 
 def propose(
-    theorem, side: str = "outer", plan: Plan | None = None, points: Sequence | None = None
+    theorem: Theorem, side: str = "outer", plan: Plan | None = None, points: Sequence | None = None
 ) -> str:
     """Return a certificate of a horseshoe on a hyperbolic orbit near points (x, y).
 
@@ -94,18 +95,18 @@ def propose(
     if points is None:
         points = approximate_orbits.points_of(theorem, "hyperbolic")
     with ctx.workprec(_BITS):
-        sign, steps = 1 if side == "outer" else -1, _MOST_STEPS if plan is None else plan[0]
-        connection = _connect(theorem.bounds["surface"], points, sign, steps)
+        sign, most = 1 if side == "outer" else -1, _MOST_STEPS if plan is None else plan[0]
+        connection = _connect(theorem.bounds["surface"], points, sign, most)
         if plan is not None:
             return _with_margins(connection, Plan(*plan), theorem.prove)
         rho = connection.rho
         room = float(rho.sqrt())
-        most = min(_MOST_STEPS, connection.middle)
+        most = min(most, connection.middle)
         reaches = [float(connection.distance(steps) / rho) for steps in range(most + 1)]
         reason = f"its multiplier {float(rho) ** len(points):.6g} is too near 1"
         for size in _SIZES:
-            steps = next((n for n in range(1, most + 1) if reaches[n] < _SHARE * size), None)
-            if steps is None:
+            steps = next((n for n in range(1, most + 1) if reaches[n] < _SHARE * size), 0)
+            if not steps:
                 break
             try:
                 return _with_margins(connection, Plan(steps, size, room), theorem.prove)
@@ -120,19 +121,19 @@ def _connect(surface: Surface, points: Sequence, side: int, steps: int) -> _Conn
     mirror = mirrors(saddles)
     rho, expanding = directions(surface, saddles, side)
     multiplier, period = rho ** len(points), len(points)
-    sigma, impacts = _crossing(surface, saddles[0], expanding[0], float(multiplier), period)
+    start, impacts = _crossing(surface, saddles[0], expanding[0], float(multiplier), period)
     extra = min(_EXTRA_ROUNDS, int(math.log(_LEAST_FACTOR) / -math.log(float(multiplier))))
     impacts += period * extra
-    sigma = arb(sigma) / multiplier**extra
+    sigma = arb(start) / multiplier**extra
     branch = surface, saddles[0], expanding[0]
     for _ in range(_NEWTON_STEPS):
-        points, tangents = _follow(*branch, sigma, impacts)
-        step = (points[-1][1] / tangents[-1][1]).mid()
+        track, tangents = _follow(*branch, sigma, impacts)
+        step = (track[-1][1] / tangents[-1][1]).mid()
         sigma = (sigma - step).mid()
         if abs(step) < abs(sigma) * arb(2) ** (-_BITS // 2):
             break
-    track = _follow(*branch, sigma, impacts + steps)
-    return _Connection(surface, saddles, expanding, mirror, rho, *track, impacts)
+    track, tangents = _follow(*branch, sigma, impacts + steps)
+    return _Connection(surface, saddles, expanding, mirror, rho, track, tangents, impacts)
 
 
 def _with_margins(connection: _Connection, plan: Plan, prove: Callable[[str], Finding]) -> str:
@@ -145,6 +146,7 @@ def _with_margins(connection: _Connection, plan: Plan, prove: Callable[[str], Fi
 
 
 def _times(matrix: Sequence[Vector], vector: Vector) -> list[arb]:
+    """Return the product of a matrix, given as rows, and a vector."""
     return [(a * vector[0] + b * vector[1]).mid() for a, b in matrix]
 
 
@@ -156,7 +158,7 @@ def _mirrored(vector: Vector) -> list[arb]:
     return [vector[0], -vector[1]]
 
 
-def mirrors(saddles: list[Vector]) -> list[int]:
+def mirrors(saddles: Sequence[Vector]) -> list[int]:
     """Return the index of the mirror image of each point; ValueError if there is none."""
     indices = []
     for x, y in saddles:
@@ -167,7 +169,9 @@ def mirrors(saddles: list[Vector]) -> list[int]:
     return indices
 
 
-def directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb, list[Vector]]:
+def directions(
+    surface: Surface, saddles: Sequence[Vector], side: int
+) -> tuple[arb, list[list[arb]]]:
     """Return rho, and the unstable directions, stretched by rho from one to the next."""
     orbit = enclose(surface, saddles)
     half, (a, b) = orbit.trace / 2, orbit.matrix.table()[0]
@@ -186,19 +190,21 @@ def directions(surface: Surface, saddles: list[Vector], side: int) -> tuple[arb,
     return rho, vectors
 
 
-def _crossing(surface, saddle, vector, multiplier, period) -> tuple[float, int]:
+def _crossing(
+    surface: Surface, saddle: Vector, vector: Vector, multiplier: float, period: int
+) -> tuple[float, int]:
     """Find sigma and impacts: saddle + sigma vector is the first to meet y = 0 at an x > 0."""
     double_map = DoubleMap(surface)
     start, along = (np.array([[float(a)] for a in z]) for z in (saddle, vector))
 
-    def refined(ends, impacts):
+    def refined(ends: tuple[float, float], impacts: int) -> float | None:
         """Refine the sigma that meets y = 0; None where y jumps across 0."""
         for _ in range(4):
             sigma = np.linspace(*ends, 1001)
             changes = _sign_changes(*double_map.step(start + along * sigma, impacts))
             if not changes.size:
                 return None
-            ends = sigma[changes[0]], sigma[changes[0] + 1]
+            ends = float(sigma[changes[0]]), float(sigma[changes[0] + 1])
         return ends[0]
 
     ends = _START, _START * multiplier
@@ -216,9 +222,11 @@ def _sign_changes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.flatnonzero((y[:-1] * y[1:] <= 0.0) & near)
 
 
-def _follow(surface: Surface, point: Vector, vector: Vector, sigma: arb, impacts: int):
+def _follow(
+    surface: Surface, point: Vector, vector: Vector, sigma: arb, impacts: int
+) -> tuple[list[Vector], list[Vector]]:
     """Return the points of the orbit of point + sigma vector, and their derivatives by sigma."""
-    points = [[(p + sigma * v).mid() for p, v in zip(point, vector, strict=True)]]
+    points: list[Vector] = [[(p + sigma * v).mid() for p, v in zip(point, vector, strict=True)]]
     tangents = [vector]
     for _ in range(impacts):
         matrix, image = surface.jacobian(*points[-1])

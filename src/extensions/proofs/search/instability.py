@@ -10,14 +10,14 @@ from ..checks.birkhoff import complex_map, resonant_coefficients
 from ..checks.periodic import enclose
 from ..enclosure.fixed_point import energy_at, trace_at
 from . import approximate_orbits
-from .certificate_text import ball_header, bisected, fixed, row
+from .certificate_text import Theorem, ball_header, bisected, fixed, row
 from .periodic import BITS, polished
 
 _DECIMALS = 16  # of theta
 _DIGITS = 12  # of the coefficients, of which the checker compares nine
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return a certificate of the instability at the resonance 1/4."""
     k, g = theorem.bounds["k"], theorem.bounds["g"]
     with ctx.workprec(BITS):

@@ -7,12 +7,12 @@ from flint import ctx
 from study.enclosure.surface import ball_of
 
 from ..checks.jump import BITS, stated_points
-from .certificate_text import ball_header, header, row
+from .certificate_text import Theorem, ball_header, header, row
 
 _DIGITS = 30  # points are to be good to 1e-28
 
 
-def propose(theorem, speed: str) -> str:
+def propose(theorem: Theorem, speed: str) -> str:
     """Return a certificate of the jump set; `speed` is xdot on the rim where the flight touches."""
     surface, radius = theorem.bounds["surface"], float(theorem.bounds["radius"])
     with ctx.workprec(BITS):
@@ -23,7 +23,7 @@ def propose(theorem, speed: str) -> str:
     return header("jump set", surface) + f"radius = {radius:g}\nspeed = {speed}\n" + "".join(lines)
 
 
-def propose_smooth(theorem) -> str:
+def propose_smooth(theorem: Theorem) -> str:
     """Return the certificate that no flight touches the floor below an energy."""
     k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     fields = f'energy_below = "{energy}"\nroots = ["{-g}", "{g + 2 * g / k}"]\n'

@@ -11,7 +11,7 @@ from study.enclosure.surface import Surface
 
 from ..checks import jump
 from . import approximate_orbits
-from .certificate_text import header, row, rows
+from .certificate_text import Theorem, header, row, rows
 from .chains import DoubleMap, Parallelogram, chain
 from .horseshoe import directions, mirrors
 from .periodic import polished
@@ -28,7 +28,7 @@ _TOUCHES = 4001  # points of the jump set among which the nearest is sought
 _REACH = 1.2  # of the jump set beyond the edges of the last set, in its half heights
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return a certificate for the theorem's hyperbolic orbit.
 
     Raises ValueError if the branch does not meet the jump set, or no chain leads to it.
@@ -51,9 +51,10 @@ def propose(theorem) -> str:
     p, impacts, stretched = _crossing(double_map, source)
     point = _image(double_map, source, p, impacts)
     middle, half, tangent = _touch(surface, point)
-    target = Parallelogram(point, _LAST * stretched / np.linalg.norm(stretched), tangent)
-    width = _LAST / np.linalg.norm(stretched)
-    found = chain(double_map, source, target, impacts, (p - width, p + width), _MARGIN)
+    length = float(np.linalg.norm(stretched))
+    target = Parallelogram(point, _LAST * stretched / length, tangent)
+    strip = p - _LAST / length, p + _LAST / length
+    found = chain(double_map, source, target, impacts, strip, _MARGIN)
     if found is None:
         raise ValueError("no chain of sets leads from the saddle to the jump set")
     chain_rows = [
@@ -72,25 +73,30 @@ def propose(theorem) -> str:
 
 def _crossing(double_map: DoubleMap, source: Parallelogram) -> tuple[float, int, np.ndarray]:
     """Return p on the branch, after how many impacts it is on S+, and the image's derivative."""
-    images, impacts = source.points(_BRANCH, 0.0 * _BRANCH), 0
-    while True:
+    images = source.points(_BRANCH, 0.0 * _BRANCH)
+    for impacts in range(_MOST_IMPACTS + 1):
         following = double_map.step(images)
         near, far = (np.linalg.norm(np.diff(a, axis=1), axis=0) for a in (images, following))
         jumps = np.flatnonzero((near < _SAME) & (far > _APART))
         if jumps.size:
-            break
-        images, impacts = following, impacts + 1
-        if impacts > _MOST_IMPACTS:
-            raise ValueError("the branch is not seen to meet the jump set")
-    i = jumps[0]
-    low, high = _BRANCH[i], _BRANCH[i + 1]
-    slope = (images[:, i + 1] - images[:, i]) / (high - low)
-    start = _image(double_map, source, low, impacts + 1)
+            i = int(jumps[0])
+            low, high = float(_BRANCH[i]), float(_BRANCH[i + 1])
+            slope = (images[:, i + 1] - images[:, i]) / (high - low)
+            return _before_jump(double_map, source, low, high, impacts + 1), impacts, slope
+        images = following
+    raise ValueError("the branch is not seen to meet the jump set")
+
+
+def _before_jump(
+    double_map: DoubleMap, source: Parallelogram, low: float, high: float, impacts: int
+) -> float:
+    """Return the p before which the image moves little from that of `low`, by bisection."""
+    start = _image(double_map, source, low, impacts)
     for _ in range(50):
         middle = (low + high) / 2.0
-        same = np.linalg.norm(_image(double_map, source, middle, impacts + 1) - start) < _SAME
+        same = np.linalg.norm(_image(double_map, source, middle, impacts) - start) < _SAME
         low, high = (middle, high) if same else (low, middle)
-    return low, impacts, slope
+    return low
 
 
 def _image(double_map: DoubleMap, source: Parallelogram, p: float, impacts: int) -> np.ndarray:

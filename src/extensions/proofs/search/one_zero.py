@@ -4,19 +4,19 @@ from fractions import Fraction
 
 from flint import ctx
 
+from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import ball_of
 
-from ..checks.certificate import NotProvedError
 from ..checks.one_zero import BITS, PLACES, over_band
 from ..enclosure.fixed_point import energy_at
-from .certificate_text import ball_header, bisected, fixed, rows
+from .certificate_text import Theorem, ball_header, bisected, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]
 _LAST = Fraction("2.4")  # theta beyond which no band is tried
 _DECIMALS = 22  # of theta at a zero
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return a certificate of the bands of theta up to the theorem's energy.
 
     Each band is the widest of a list over which the signs are decided. Raises ValueError where
@@ -30,8 +30,8 @@ def propose(theorem) -> str:
         zeros = {}
         for name, place in PLACES.items():
 
-            def is_positive(theta, place=place):
-                return over_band(k, g, theta, theta)[place][0] > 0
+            def is_positive(theta: Fraction, place: int = place) -> bool:
+                return over_band(k, g, theta, theta)[:2][place][0] > 0
 
             zeros[name] = bisected(is_positive, edges[1], edges[-1], _DECIMALS)
     return (

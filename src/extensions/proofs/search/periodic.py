@@ -10,7 +10,7 @@ from study.enclosure.surface import Surface
 
 from ..checks.periodic import newton_image
 from . import approximate_orbits
-from .certificate_text import ball_header, header, row, rows
+from .certificate_text import Theorem, ball_header, header, row, rows
 
 BITS = 160
 DIGITS = 36  # the checker compares thirty of them with the orbit
@@ -27,7 +27,7 @@ def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[ar
     return points
 
 
-def propose(theorem, points: Sequence | None = None) -> str:
+def propose(theorem: Theorem, points: Sequence | None = None) -> str:
     """Return a certificate of an orbit near points (x, y), by default those of a symmetric orbit.
 
     Its radius is the largest for which the checker accepts it.
@@ -45,7 +45,7 @@ def centre_rows(points: Sequence) -> str:
     return rows("points", (row(point, DIGITS) for point in points))
 
 
-def with_largest_radius(theorem, before: str, after: str = "") -> str:
+def with_largest_radius(theorem: Theorem, before: str, after: str = "") -> str:
     """Return a text with the largest radius of one digit that the checker accepts, or the smallest.
 
     The line with the radius stands between `before` and `after`. What holds for a radius must hold
@@ -57,7 +57,7 @@ def with_largest_radius(theorem, before: str, after: str = "") -> str:
     return texts[bisect_left(texts, True, hi=len(texts) - 1, key=holds)]
 
 
-def propose_only_fixed_point(theorem) -> str:
+def propose_only_fixed_point(theorem: Theorem) -> str:
     """Return the certificate that there is one fixed point at each energy up to the theorem's."""
     k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
     theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100

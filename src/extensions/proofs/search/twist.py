@@ -13,24 +13,24 @@ from study.enclosure.surface import Surface
 from ..checks.birkhoff import complex_map
 from ..checks.periodic import enclose
 from . import approximate_orbits
-from .certificate_text import bisected, decimal, header
+from .certificate_text import Theorem, bisected, decimal, header
 from .periodic import BITS, centre_rows, polished, with_largest_radius
 
 _TWIST_DIGITS = 13  # the checker compares nine of them with the twist
 _ENERGY_DECIMALS = 13
 
 
-def propose(theorem) -> str:
+def propose(theorem: Theorem) -> str:
     """Return a certificate of the twist of an elliptic orbit, with the largest radius."""
     surface = theorem.bounds["surface"]
     with ctx.workprec(BITS):
         points = polished(surface, approximate_orbits.points_of(theorem, "elliptic"))
-        value = decimal(estimate(surface, points), _TWIST_DIGITS)
+        value = decimal(_approximate_twist(surface, points), _TWIST_DIGITS)
         before = header("twist", surface) + f"twist = {value}\n" + centre_rows(points)
     return with_largest_radius(theorem, before)
 
 
-def propose_zero(theorem, energies: tuple[Fraction, Fraction]) -> str:
+def propose_zero(theorem: Theorem, energies: tuple[Fraction, Fraction]) -> str:
     """Return a certificate of a zero of the fixed point's twist between two energies."""
     k, g = theorem.bounds["k"], theorem.bounds["g"]
     start = approximate_orbits.points(Surface(k, g, energies[0]), 1, "elliptic")
@@ -51,16 +51,16 @@ def bisect_zero(
     fixed point at one of them. Returns the band, and the fixed point at its lower end.
     """
 
-    def is_positive(energy):
+    def is_positive(energy: Fraction) -> bool:
         nonlocal point
         point = polished(Surface(k, g, energy), point)
-        return estimate(Surface(k, g, energy), point) > 0
+        return _approximate_twist(Surface(k, g, energy), point) > 0
 
     low, high = bisected(is_positive, low, high, _ENERGY_DECIMALS)
     return Surface(k, g, low, high - low), polished(Surface(k, g, low), point)
 
 
-def estimate(surface: Surface, points: Sequence) -> arb:
+def _approximate_twist(surface: Surface, points: Sequence) -> arb:
     """Estimate tau_1 of `checks.birkhoff` at the first point (x, y) of a nearly exact orbit."""
     z, map_ = complex_map(surface, enclose(surface, points), 3)
     w = z.conjugate()

@@ -10,6 +10,8 @@ where the columns of C follow the tangent map and are made orthogonal again at e
 1987). The bound grows as the orbit stretches; bits below it are dropped.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from flint import arb, arb_mat, ctx
 
@@ -36,7 +38,7 @@ class Run:
     MOST_BITS are needed.
     """
 
-    def __init__(self, start: Start, impacts: int, bits: int):
+    def __init__(self, start: Start, impacts: int, bits: int) -> None:
         if bits > MOST_BITS:
             raise ValueError(
                 f"{impacts} impacts of this orbit need {bits} bits, more than {MOST_BITS}"
@@ -45,10 +47,9 @@ class Run:
         self.values = np.empty((impacts, 4))
         self.count, self.precision = 0, bits
         with ctx.workprec(bits):
-            self.centre = [a.mid() for a in start.balls()]
-            self.radii = [
-                abs(a - m).upper() for a, m in zip(start.balls(), self.centre, strict=True)
-            ]
+            x, y = start.balls()
+            self.centre = x.mid(), y.mid()
+            self.radii = [abs(x - x.mid()).upper(), abs(y - y.mid()).upper()]
         self.frame = arb_mat([[1, 0], [0, 1]])
 
     def step(self) -> None:
@@ -70,7 +71,7 @@ class Run:
             raise ShortOfBitsError
         self.precision = min(self.precision, 64 * ((known_bits + GUARD_BITS) // 64 + 1))
         with ctx.workprec(self.precision):
-            self.centre = [(+image.x).mid(), (+image.y).mid()]
+            self.centre = (+image.x).mid(), (+image.y).mid()
             errors = [image.x - self.centre[0], image.y - self.centre[1]]
         with ctx.workprec(FRAME_BITS):
             self.frame = frame
@@ -79,15 +80,16 @@ class Run:
         self.values[self.count] = self._rounded(before)
         self.count += 1
 
-    def _box(self, bits):
+    def _box(self, bits: int) -> tuple[arb, arb]:
         """Return balls around the true x and y."""
         with ctx.workprec(bits):
-            rows = zip(self.centre, self.frame.table(), strict=True)
-            return [
-                arb((+z).mid(), (_bound(row, self.radii) + (+z).rad()).upper()) for z, row in rows
-            ]
+            x, y = (
+                arb((+z).mid(), (_bound(row, self.radii) + (+z).rad()).upper())
+                for z, row in zip(self.centre, self.frame.table(), strict=True)
+            )
+            return x, y
 
-    def _jacobian(self):
+    def _jacobian(self) -> list[list[arb]]:
         """Enclose DP over the box around the true point, with as few bits as will do."""
         bits = FRAME_BITS
         while True:
@@ -99,7 +101,7 @@ class Run:
                         raise
             bits *= 2
 
-    def _rounded(self, before):
+    def _rounded(self, before: tuple[arb, arb]) -> list[float]:
         """Return x, xdot, udot and tau of the impact just reached as doubles."""
         with ctx.workprec(RESULT_BITS + GUARD_BITS):
             k, g, _ = self.surface.constants()
@@ -109,7 +111,7 @@ class Run:
             return [_nearest(a) for a in (x, xdot, udot, (xdot - launch) / g)]
 
 
-def _orthogonal_frame(columns, radii):
+def _orthogonal_frame(columns: arb_mat, radii: list[arb]) -> tuple[arb_mat, arb_mat]:
     """Return an exact orthogonal frame along the longer of two columns, and its inverse."""
     sizes = [(abs(columns[0, j]) + abs(columns[1, j])).upper() * radii[j] for j in (0, 1)]
     j = 0 if sizes[0] >= sizes[1] else 1
@@ -120,18 +122,18 @@ def _orthogonal_frame(columns, radii):
     return arb_mat([[a, -b], [b, a]]), arb_mat([[a, b], [-b, a]]) / square
 
 
-def _bound(row, radii):
+def _bound(row: Sequence[arb], radii: Sequence[arb]) -> arb:
     """Bound |row e| for all e with |e_j| <= |radii_j|."""
-    return sum(abs(a) * abs(r) for a, r in zip(row, radii, strict=True))
+    return sum((abs(a) * abs(r) for a, r in zip(row, radii, strict=True)), arb(0))
 
 
-def _exponent(value):
+def _exponent(value: arb) -> int:
     """Return the least e with value <= 2^e."""
     mantissa, exponent = value.upper().man_exp()
     return int(mantissa).bit_length() + int(exponent) if mantissa else -MOST_BITS
 
 
-def _nearest(value):
+def _nearest(value: arb) -> float:
     """Return the double nearest to every number of a ball."""
     low, high = float(value.lower()), float(value.upper())
     if low == high:

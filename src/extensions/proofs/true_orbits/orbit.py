@@ -75,10 +75,11 @@ def true_orbit(
     3
     """
     surface = Surface(k, g, energy)
-    if (x is None) == (start is None):
+    if start is None and x is not None:
+        start = {"x": x, "y": y}
+    elif start is None or x is not None:
         raise ValueError("give either x and y, or start")
-    exact_start = Start(surface, {"x": x, "y": y} if start is None else start)
-    run = follow(exact_start, impacts, progress)
+    run = follow(Start(surface, start), impacts, progress)
     data = variables("impact", run.values.T)
     impact = "impact", np.arange(1, run.impacts + 1), attributes_of("number of impacts")
     return xr.Dataset(data, coords={"impact": impact}, attrs={"bits": run.bits})

@@ -14,9 +14,9 @@ class Start:
     ValueError if a number is not exact, or the start is on or beyond the rim.
     """
 
-    def __init__(self, surface: Surface, start: Exact | Mapping[str, Exact]):
+    def __init__(self, surface: Surface, start: Exact | Mapping[str, Exact]) -> None:
         self.surface = surface
-        values = start if isinstance(start, dict) else {"start": start}
+        values = start if isinstance(start, Mapping) else {"start": start}
         if set(values) not in ({"start"}, {"x", "y"}, {"x", "xdot"}):
             raise ValueError(
                 "a start is a fraction of the section's radius, or x and y, or x and xdot"
@@ -25,7 +25,7 @@ class Start:
         if not self._is_inside():
             raise ValueError(f"the start {self} is not inside the section's rim at {surface}")
 
-    def __str__(self):
+    def __str__(self) -> str:
         return ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
 
     def _is_inside(self) -> bool:
@@ -53,8 +53,3 @@ class Start:
         xdot = numbers["xdot"]
         udot = ((2 * energy + x * (2 * g - k * x) - xdot * xdot) / k).sqrt()
         return x, xdot - k * udot
-
-    def floats(self) -> float | dict[str, float]:
-        """Return the start in the form that `dynamics.orbits.start_state` takes."""
-        numbers = {name: float(value) for name, value in self.numbers.items()}
-        return numbers.get("start", numbers)
