@@ -151,7 +151,7 @@ def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
         """Return the variables that points of curves and events share."""
         x, y = np.array([_first_impact(*pair) for pair in pairs]).reshape(-1, 2).T * g
         levels = [point.p for _, point in pairs]
-        times = [family.system.time(point) for family, point in pairs]
+        times = [point.data.time for _, point in pairs]
         return {
             f"{before}energy": (dim, [along.energy(p) * (g * g) for p in levels], "energy", ENERGY),
             f"{before}k": (dim, [along.k_and_rho(p)[0] for p in levels], "Euler inertia, eq. (5)"),
