@@ -1,6 +1,6 @@
 """Search for all families: brute force on a grid, branch switching, parents and partners."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -104,24 +104,24 @@ class Search:
                     self.add(*start)
             yield done
 
-    def complete(self, report: Callable[[int], None] = lambda done: None) -> None:
+    def complete(self) -> Iterator[int]:
         """Add families that branch off or go on beyond a grazing, and name all ends.
 
-        `report` is called with the number of families done, of a growing list.
+        Yields the number of families done, of a growing list.
 
         Families without symmetry branch off at pitchforks of symmetric ones, and at period
         doublings and resonances of each other, and go on with one impact more or less where one
         grazes.
         """
         for done, family in enumerate(self.families):  # the list grows
-            report(done)
+            yield done
             self._add_branches(family, "resonance", "doubling")
             for end in family.grazings:
                 self._go_on(family, end)
         for family in list(self.families):
             self._add_branches(family, "pitchfork")
         for done, family in enumerate(self.families):
-            report(done)
+            yield done
             if not family.symmetric:
                 self._add_branches(family, "resonance", "doubling")
             for end in family.grazings:
