@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from content import content_hash
+from dataset_hash import content_hash
 from family_search import PAPER, crossings, energy_of, rho, searched, up_to_period_six
 
 from extensions.families.continuation import search

@@ -154,13 +154,13 @@ def beyond_rim(system: AsymmetricOrbits, longer: Point, levels: list[float]) -> 
     times = np.array([*times, before + after])
     found = []
     for p in levels:
-        place = _closed(system, (x, y, p), times)
+        place = _with_flight_times(system, (x, y, p), times)
         if place is not None:
             found += _entered(system, place)
     return found
 
 
-def _closed(system: AsymmetricOrbits, place: Place, times: np.ndarray) -> Place | None:
+def _with_flight_times(system: AsymmetricOrbits, place: Place, times: np.ndarray) -> Place | None:
     """Return the place of the orbit with about these times of flight at a parameter, or None."""
     x, y, p = place
     for _ in range(_STEPS_BEYOND):
