@@ -128,9 +128,9 @@ class AsymmetricOrbits(PeriodicOrbits):
         return Point(place, defect, gradients, guard, tuple(v.ravel() for v in apart), whole)
 
     def _halves(self, place: Place, first: int) -> tuple[WholeOrbit, np.ndarray, np.ndarray]:
-        """Return an orbit, and the ways ahead and back from a place.
+        """Return the orbit from a place, and the ways ahead and back in time.
 
-        They meet `first` impacts after the place. Rows of a way are X and Y there, columns the
+        The ways meet `first` impacts after the place. Rows of a way are X and Y there, columns the
         derivatives by X, Y and the parameter, and the value. The way back is the reversor's image.
         """
         at_x, at_y, p = place
@@ -156,7 +156,7 @@ class AsymmetricOrbits(PeriodicOrbits):
         return whole, ahead, back
 
     def tracked(self, place: Place, times: np.ndarray) -> tuple[WholeOrbit, Place]:
-        """Return data and defect of the orbit whose times of flight are next to given ones."""
+        """Return the orbit with about these times of flight, and its defect."""
         at_x, at_y, p = place
         k, rho = self.parameter.k_and_rho(p)
         whole = evaluate_orbit(self.period, self.parameter.kind, k, rho, at_x, at_y, times)
@@ -164,7 +164,7 @@ class AsymmetricOrbits(PeriodicOrbits):
         return whole, (x - at_x, y - at_y)
 
     def heights(self, place: Place, times: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return the result of `flight_heights`."""
+        """Return time and height of the highest point of each flight above the floor (n, 2)."""
         at_x, at_y, p = place
         k, rho = self.parameter.k_and_rho(p)
         return flight_heights(*state_at(k, rho, at_x, at_y), k, 0.0, False, times, near)
@@ -191,13 +191,13 @@ class AsymmetricOrbits(PeriodicOrbits):
         return tuple(points[np.argmin(np.sum(points * points, axis=1))].tolist())
 
     def first_impact(self, point: Point) -> tuple[float, float]:
-        """Return x and y of the point, in units where g = 1."""
+        """Return x and y of the orbit's first impact, in units where g = 1."""
         at_x, at_y, p = point.place
         k, rho = self.parameter.k_and_rho(p)
         return (1.0 + rho * at_x) / k, rho * math.sqrt((1.0 + k) / k) * at_y
 
     def first_place(self, point: Point) -> Place:
-        """Return (X, Y, parameter), X and Y in section radii."""
+        """Return (X, Y, parameter) of the orbit's first impact, X and Y in section radii."""
         return point.place
 
     def trace(self, point: Point) -> float:

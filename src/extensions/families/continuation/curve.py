@@ -77,7 +77,7 @@ def cross(a: Place, b: Place) -> Place:
 
 
 def _rows(system: System, point: Point) -> list[Place]:
-    """Return the gradients by the scaled coordinates."""
+    """Return the gradients of the equations by the scaled coordinates."""
     return [(*row[:-1], row[-1] * system.scale) for row in point.gradients]
 
 
@@ -90,7 +90,7 @@ def tangent(system: System, point: Point) -> Place:
 
 
 def moved(system: System, place: Place, vector: Place, length: float) -> Place:
-    """Return the place at a scaled vector times a length from another one."""
+    """Return the place that is a scaled vector times a length away from a place."""
     steps = (*vector[:-1], vector[-1] * system.scale)
     return tuple(x + length * step for x, step in zip(place, steps, strict=True))
 
@@ -150,7 +150,7 @@ def solve_at(system: System, place: Place, reach: float) -> Point | None:
 
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
-    """Return whether a step stays on its curve."""
+    """Return whether the new point lies on the curve of the old one, judged by how little changes."""
     before, between, after = (tangent(system, point) for point in (old, predicted, new))
     if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
         return False

@@ -130,7 +130,7 @@ def _grazing(system: OrbitSystem, last: Point) -> End:
 
 
 def _touch(system: OrbitSystem, last: Point, flight: int, at: float) -> Point | None:
-    """Return the orbit of which a flight touches the floor around a time, from one next to it."""
+    """Return the orbit near a given one whose flight touches the floor near a time, or None."""
     place: Place | None
     if isinstance(system, SymmetricOrbits) and (system.line, flight, at) == (FIX_RP, 0, 0.0):
         place = _at_rest(system, last)
@@ -142,7 +142,7 @@ def _touch(system: OrbitSystem, last: Point, flight: int, at: float) -> Point | 
 
 
 def _at_rest(system: SymmetricOrbits, last: Point) -> Place:
-    """Return the place next to an orbit at which the ball is at rest on the floor, on Fix RP."""
+    """Return the place on Fix RP next to an orbit at which the ball is at rest on the floor."""
     q, p = math.copysign(1.0, last.q), last.p
     for _ in range(_NEWTON_STEPS):
         data, (defect,) = system.tracked((q, p), last.data.times)
@@ -154,7 +154,7 @@ def _at_rest(system: SymmetricOrbits, last: Point) -> Place:
 
 
 def _touching(system: OrbitSystem, last: Point, flight: int, at: float) -> Place | None:
-    """Return the place next to an orbit at which a flight touches the floor, or None."""
+    """Return the place near an orbit from which a flight touches the floor, or None."""
     near = np.full(last.data.times.size, np.nan)
     near[flight] = at
 

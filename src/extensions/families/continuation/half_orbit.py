@@ -140,7 +140,7 @@ def _nearby_root(t, x, b, c, s, depth):
 
 @jit
 def _tangent_after_impact(tangents, j, s, k, k_p, coefficients):
-    """Return the changes of b, c and s after an impact along the j-th of `tangents`."""
+    """Return the derivatives of b, c and s after an impact along the j-th of `tangents`."""
     db, dc, ds = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
     if j == 2:
         by_k = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))  # the impact law's derivative by k

@@ -53,7 +53,7 @@ class Search:
             self._append(family, point)
 
     def held(self, system: OrbitSystem, point: Point) -> bool:
-        """Return whether a family holds a solution."""
+        """Return whether any known family holds a solution."""
         return any(
             (family.period, family.line) == (system.period, system.line)
             and self._holds(family, point)
@@ -61,7 +61,7 @@ class Search:
         )
 
     def _holds(self, family: Family, point: Point) -> bool:
-        """Return whether a family holds a solution.
+        """Return whether one family holds a solution.
 
         Its place is solved for only on those parts of the curve that come near the solution.
         """
@@ -159,7 +159,7 @@ class Search:
         return found
 
     def _go_on(self, family: Family, end: End) -> None:
-        """Add the symmetric families that go on where an impact of this one grazes."""
+        """Add the symmetric families beyond the end of a symmetric one at which an impact grazes."""
         if any(self._meet(family, end, *other) for other in self._grazing_ends()):
             return
         if end.kind == "touch":  # one or two more impacts in each of several rounds
@@ -178,7 +178,7 @@ class Search:
                             self.add(*start)
 
     def _go_on_without_symmetry(self, family: Family, end: End) -> None:
-        """Add the families without symmetry that go on where an impact of this one grazes."""
+        """Add the families without symmetry beyond an end at which an impact grazes."""
         period = family.period + (1 if end.kind == "touch" else -1)
         if not 1 <= period <= self.longest:
             return
@@ -246,7 +246,7 @@ class Search:
 
     @staticmethod
     def _meet(first: Family, end: End, second: Family, other: End) -> int:
-        """Return in how many rounds of the shorter of two orbits they meet, 0 if they do not.
+        """Return in how many rounds of the shorter orbit two grazing ends are one, 0 if they are not.
 
         One of them touches the floor in a flight where an impact of the other one grazes. Without
         its grazing impacts the longer orbit is the shorter one, traversed once or, where it grazes
@@ -266,7 +266,7 @@ class Search:
         return 0
 
     def _name_partner(self, family: Family, end: End) -> None:
-        """Find the family whose flight touches the floor where an impact of this one grazes."""
+        """Name the family whose flight touches the floor where an impact of this one grazes."""
         for other, touch in self._grazing_ends():
             rounds = self._meet(family, end, other, touch)
             if rounds:

@@ -36,7 +36,7 @@ def starts_beside(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -
 
 
 def _beside_pitchfork(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
-    """Return an orbit without symmetry beside a pitchfork of a symmetric one."""
+    """Return the orbit that branches off at the pitchfork of a symmetric orbit, a small way aside."""
     point = _innermost(system, system.point(parent.first_place(event.point)))
     if point is None:
         return []
@@ -50,20 +50,20 @@ def _innermost(system: AsymmetricOrbits, point: Point | None) -> Point | None:
 
 
 def _beside_doubling(system: AsymmetricOrbits, event: Event) -> list[Point]:
-    """Return orbits of twice the period beside a period doubling."""
+    """Return the orbit that branches off at a period doubling, a small way aside."""
     (a, c), (b, d), _ = event.point.data.derivatives.tolist()  # of P^n
     return _aside(system, event.point.place, _kernel(a + 1.0, b, c, d + 1.0), _ASIDE, _ASIDE)
 
 
 def _kernel(a: float, b: float, c: float, d: float) -> Vector:
-    """Return a vector of which a singular matrix makes nothing."""
+    """Return a null vector of the singular matrix with the rows (a, b) and (c, d)."""
     return (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
 
 
 def _aside(
     system: AsymmetricOrbits, place: Place, across: Vector, distance: float, reach: float
 ) -> list[Point]:
-    """Return the orbit beside a place in a direction, unless it is a more symmetric one."""
+    """Return the orbit at a distance from a place in a direction, unless it is more symmetric."""
     size = math.sqrt(dot(across, across))
     if not 0.0 < size < math.inf:
         return []
@@ -131,7 +131,7 @@ def _moved_outward(
 
 
 def _entered(system: AsymmetricOrbits, place: Place) -> list[Point]:
-    """Return the orbit next to a place, at its point that is farthest from the rim, if any."""
+    """Return the orbit next to a place, if any, starting at its point farthest from the rim."""
     point = system.point(place)
     if point is None or not max(map(abs, point.defect)) < FAR:
         return []
@@ -194,14 +194,14 @@ class _Touch(NamedTuple):
     before: float  # time from the last impact to the touch
 
     def point(self, turn: float, speed: float) -> Vector:
-        """Return the point with a contact speed over the largest one, turned from the touch's."""
+        """Return the point at an angle from the touch, with a contact speed over the largest one."""
         size = math.sqrt((1.0 - speed) * (1.0 + speed)) / (1.0 + turn * turn)
         cosine, sine = size * (1.0 - turn) * (1.0 + turn), size * 2.0 * turn
         x, y = self.rim
         return cosine * x - sine * y, cosine * y + sine * x
 
     def mismatch(self, turn: float, p: float, speed: float) -> Vector:
-        """Return the difference of the ends of the ways ahead and back."""
+        """Return by how much the ways ahead and back from the slow impact miss each other."""
         x, y = self.point(turn, speed)
         kind, (k, rho) = self.parameter.kind, self.parameter.k_and_rho(p)
         ahead = evaluate_orbit(self.times.size, kind, k, rho, x, y, self.times)
@@ -210,7 +210,7 @@ class _Touch(NamedTuple):
         return x - back_x, y + back_y
 
     def solved(self, p: float, speed: float) -> tuple[float, float] | None:
-        """Return turn and parameter, next to a given one, at which both ways meet, or None."""
+        """Return angle and parameter, next to a given one, at which both ways meet, or None."""
         turn = 0.0
         for _ in range(_STEPS_BEYOND):
             x, y = self.mismatch(turn, p, speed)
@@ -246,7 +246,7 @@ def beyond_touch(system: AsymmetricOrbits, place: Place, symmetric: bool) -> lis
 
 
 def _touch(system: AsymmetricOrbits, place: Place, least: int) -> _Touch | None:
-    """Return the first touch of the orbit from a place, or None with fewer than `least`."""
+    """Return the first touch of the orbit from a place; None if it has fewer than `least`."""
     at_x, at_y, p = place
     k, rho = system.parameter.k_and_rho(p)
     orbit = evaluate_orbit(system.period - 1, system.parameter.kind, k, rho, at_x, at_y, NO_GUESS)

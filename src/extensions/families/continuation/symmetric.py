@@ -95,7 +95,7 @@ class SymmetricOrbits(PeriodicOrbits):
     )
 
     def _evaluate(self, place: Place, times: np.ndarray = NO_GUESS) -> HalfOrbit:
-        """Return the half orbit at a place, with times of flight next to given ones."""
+        """Return the half orbit at a place, with about these times of flight if they are given."""
         q, p = place
         k, rho = self.parameter.k_and_rho(p)
         return evaluate(self.line, self.period, self.parameter.kind, k, rho, q, times)
@@ -119,12 +119,12 @@ class SymmetricOrbits(PeriodicOrbits):
         return Point(place, (half.h,), ((half.h_q, half.h_p),), guard, apart, half)
 
     def tracked(self, place: Place, times: np.ndarray) -> tuple[HalfOrbit, Place]:
-        """Return data and defect of the half orbit whose times of flight are next to given ones."""
+        """Return the half orbit with about these times of flight, and its defect."""
         half = self._evaluate(place, times)
         return half, (half.h,)
 
     def heights(self, place: Place, times: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return the result of `flight_heights`."""
+        """Return time and height of the highest point of each flight above the floor (n, 2)."""
         q, p = place
         k, rho = self.parameter.k_and_rho(p)
         x, v, w, depth = line_state(self.line, k, rho, q)
