@@ -150,7 +150,7 @@ def solve_at(system: System, place: Place, reach: float) -> Point | None:
 
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
-    """Return whether the new point lies on the curve of the old one, judged by how little changes."""
+    """Return whether the new point lies on the curve of the old one, by how little changes."""
     before, between, after = (tangent(system, point) for point in (old, predicted, new))
     if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
         return False

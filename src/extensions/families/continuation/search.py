@@ -159,7 +159,7 @@ class Search:
         return found
 
     def _go_on(self, family: Family, end: End) -> None:
-        """Add the symmetric families beyond the end of a symmetric one at which an impact grazes."""
+        """Add the symmetric families beyond a symmetric one's end at which an impact grazes."""
         if any(self._meet(family, end, *other) for other in self._grazing_ends()):
             return
         if end.kind == "touch":  # one or two more impacts in each of several rounds
@@ -246,7 +246,7 @@ class Search:
 
     @staticmethod
     def _meet(first: Family, end: End, second: Family, other: End) -> int:
-        """Return in how many rounds of the shorter orbit two grazing ends are one, 0 if they are not.
+        """Return in how many rounds of the shorter orbit two grazing ends are one, 0 if they differ.
 
         One of them touches the floor in a flight where an impact of the other one grazes. Without
         its grazing impacts the longer orbit is the shorter one, traversed once or, where it grazes

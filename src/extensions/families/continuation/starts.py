@@ -36,7 +36,7 @@ def starts_beside(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -
 
 
 def _beside_pitchfork(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
-    """Return the orbit that branches off at the pitchfork of a symmetric orbit, a small way aside."""
+    """Return the orbit that branches off at a pitchfork of a symmetric one, a small way aside."""
     point = _innermost(system, system.point(parent.first_place(event.point)))
     if point is None:
         return []
@@ -194,7 +194,7 @@ class _Touch(NamedTuple):
     before: float  # time from the last impact to the touch
 
     def point(self, turn: float, speed: float) -> Vector:
-        """Return the point at an angle from the touch, with a contact speed over the largest one."""
+        """Return the point at an angle from the touch, with a contact speed over the largest."""
         size = math.sqrt((1.0 - speed) * (1.0 + speed)) / (1.0 + turn * turn)
         cosine, sine = size * (1.0 - turn) * (1.0 + turn), size * 2.0 * turn
         x, y = self.rim
