@@ -246,7 +246,7 @@ class Search:
 
     @staticmethod
     def _meet(first: Family, end: End, second: Family, other: End) -> int:
-        """Return in how many rounds of the shorter orbit two grazing ends are one, 0 if they differ.
+        """Return in how many rounds of the shorter orbit two grazing ends meet, 0 if they do not.
 
         One of them touches the floor in a flight where an impact of the other one grazes. Without
         its grazing impacts the longer orbit is the shorter one, traversed once or, where it grazes
