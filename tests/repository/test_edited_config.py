@@ -9,6 +9,9 @@ import pytest
 from documents import SCENES
 from project import ROOT, Tree, run, shipped
 
+# What a test contains that reads the config of the repository: the file's name, or a command there.
+READS_CONFIG = re.compile(r'"config\.yaml"|cwd=ROOT|from commands import|figures_page|\bmain\(\[')
+
 
 def edited(document):
     """Another energy and ball, a scene of each kind, a variant and a sweep, edited and new."""
@@ -45,10 +48,6 @@ def clone(tmp_path):
     tree.write(edited(shipped()))
     tree.warm()
     return tree
-
-
-# What a test contains that reads the config of the repository: the file's name, or a command there.
-READS_CONFIG = re.compile(r'"config\.yaml"|cwd=ROOT|from commands import')
 
 
 @pytest.mark.slow
