@@ -28,7 +28,9 @@ def pytest_configure(config):
     if hasattr(config, "workerinput") or config.option.collectonly:
         return
     # If this fails, a test says why, and each worker compiles what it needs.
-    subprocess.run([sys.executable, str(ROOT / "tests" / "warm.py")], check=False, cwd=ROOT)
+    subprocess.run(
+        [sys.executable, str(ROOT / "tests" / "compile_kernels.py")], check=False, cwd=ROOT
+    )
 
 
 @pytest.fixture(scope="session")

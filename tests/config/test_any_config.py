@@ -2,10 +2,10 @@
 
 import pytest
 import yaml
-from anything import FUZZ, JSON, edited, spoilt
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from project import SHIPPED, shipped
+from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
 from pipeline.config.build_specs import build_specs

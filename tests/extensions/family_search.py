@@ -24,7 +24,8 @@ def searched(ball, low, high, longest, levels):
     step = (ends[1] - ends[0]) / levels
     for _ in found.sweep([ends[0] + (i + 0.5) * step for i in range(levels)]):
         pass
-    found.complete()
+    for _ in found.complete():
+        pass
     return found
 
 

@@ -8,7 +8,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from content import content_hash
+from dataset_hash import content_hash
 from project import ROOT
 
 from pipeline.records import artifacts

@@ -58,12 +58,6 @@ def test_a_generated_file_is_up_to_date(file, module):
     assert text_of(file) == module.page(), f"renew it: python -m {module.__name__}"
 
 
-@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md", "docs/api.md"])
-def test_lines_are_short(document):
-    lines = text_of(document).splitlines()
-    assert [line for line in lines if len(line) > 100 and not line.startswith("|")] == []
-
-
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_links_lead_to_files(document):
     folder = (ROOT / document).parent

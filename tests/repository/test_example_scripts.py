@@ -1,4 +1,4 @@
-"""The scripts of docs/examples are short, and make the pictures beside them."""
+"""The scripts of docs/examples make the pictures beside them."""
 
 import json
 import re
@@ -8,6 +8,7 @@ import matplotlib
 import numpy as np
 import pytest
 from project import ROOT
+from slowly import slowly
 
 from pipeline.declaration import extensions
 from pipeline.records import artifacts
@@ -31,15 +32,15 @@ def test_the_page_shows_each_script_and_its_picture():
     assert len(SCRIPTS) == 8 and sorted(file.stem for file in FOLDER.glob("*.png")) == SCRIPTS
 
 
-@pytest.mark.parametrize("name", SCRIPTS)
+DEAR = "bifurcation", "scan"  # they take seconds
+
+
+@pytest.mark.parametrize("name", [*slowly(*DEAR), *(s for s in SCRIPTS if s not in DEAR)])
 def test_a_script_makes_its_picture(name, tmp_path, monkeypatch):
     script = FOLDER / f"{name}.py"
-    lines = script.read_text(encoding="utf-8").splitlines()
-    if needed := set(re.findall(r"^from extensions\.(\w+)", "\n".join(lines), re.M)) - {
-        *extensions()
-    }:
-        pytest.skip(f"{name} needs the extension {needed}")
-    assert len(lines) <= 15 and lines[0].startswith("# %% ")
+    imported = re.findall(r"^from extensions\.(\w+)", script.read_text(encoding="utf-8"), re.M)
+    if missing := {*imported} - {*extensions()}:
+        pytest.skip(f"{name} needs the extension {missing}")
     if name == "dataset":
         save_orbits_of_figure_2(tmp_path)
     monkeypatch.chdir(tmp_path)

@@ -3,27 +3,65 @@
 import json
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from pipeline.records.files import write_whole
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.fixed_point import rotation
-from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, TIME, described
+from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, TIME, variables
 
+from .continuation.asymmetric import NO_LINE
 from .continuation.curve import Point
 from .continuation.families import Family
 from .continuation.half_orbit import ENERGY as BY_ENERGY
-from .continuation.half_orbit import FIX_RP, INERTIA
+from .continuation.half_orbit import FIX_R, FIX_RP, INERTIA
 from .continuation.search import Search
 from .continuation.symmetric import CELLS, Parameter
 
-_LINES = {0: "Fix R", 1: "Fix RP", -1: "none"}
-_EVENT = "fold, doubling, pitchfork, or resonance of that order"
-_END = "range, fold, resonance, doubling, pitchfork, touch, rim or closed"
+_LINES = {FIX_R: "Fix R", FIX_RP: "Fix RP", NO_LINE: "none"}
 _CHECKPOINT = 20  # levels between two checkpoints
+
+# Name -> meaning of variables on `family`, `point`, `event` and (family, side). Names in _OF_PLACES
+# are those on `point`, and on `event` with event_ before them.
+_OF_FAMILIES = {
+    "period": "number of impacts",
+    "line": "symmetry line of the points, none for orbits without symmetry",
+    "row_size": "points of each family",
+}
+_OF_PLACES = {
+    "energy": ("energy", ENERGY),
+    "k": "Euler inertia, eq. (5)",
+    "x": ("position of the orbit's first impact", LENGTH),
+    "y": ("xdot - k udot just before it", SPEED),
+}
+_OF_POINTS = {
+    "total_time": ("total time", TIME),
+    "place": "position q on the symmetry line",
+    "trace": "trace of the Jacobian of P^n on the energy surface",
+    "rotation_number": "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
+    "type": "type of stability",
+}
+_OF_EVENTS = {
+    "event_time": ("total time", TIME),
+    "event_family": "family of the event",
+    "event_kind": "fold, doubling, pitchfork, or resonance of that order",
+    "event_turns": "p of a resonance p/q, else 1",
+    "event_order": "period of the branches over that of the family",
+    "event_point": "place on the family's curve, an index of its points",
+}
+_OF_ENDS = {
+    "end_kind": "range, fold, resonance, doubling, pitchfork, touch, rim or closed",
+    "end_energy": ("energy", ENERGY),
+    "end_k": "Euler inertia, eq. (5)",
+    "end_family": "the parent, or the family on the other side of a grazing; -1 if none",
+    "end_turns": "p of the parent's rotation number p/q there",
+    "end_order": "q of the parent's rotation number p/q there, 2 at a doubling",
+    "end_impact": "flight of the half orbit that touches the floor; -1 if none",
+}
 
 
 def families(
@@ -92,25 +130,21 @@ def families(
         low, high = span
     search = Search(along, period)
     grid = [low + (high - low) * ((i + 0.5) / levels) for i in range(levels)]
+    report = progress or (lambda share, text: None)
     checkpoint = None if folder is None else Path(folder, "families.json")
     key = [parameter, ball.k, energy / unit, *span, period, levels]
-    first = _resume(search, checkpoint, key)
+    first = _resumed(search, checkpoint, key)
     for done in search.sweep(grid, first):
-        if progress is not None:
-            progress(0.5 * done / levels, f"{len(search.families)} families")
+        report(0.5 * done / levels, f"{len(search.families)} families")
         if checkpoint is not None and done % _CHECKPOINT == 0:
-            _keep(search, checkpoint, key, done)
-
-    def report(done: int) -> None:
-        if progress is not None:
-            count = len(search.families)
-            progress(0.5 + 0.5 * done / count, f"{done} of {count} families have their branches")
-
-    search.complete(report)
-    if checkpoint is not None:
-        checkpoint.unlink(missing_ok=True)
-        if checkpoint.parent.is_dir():
-            checkpoint.parent.rmdir()
+            content = {"key": key, "done": done, "starts": search.starts}
+            write_whole(checkpoint, json.dumps(content))
+    for done in search.complete():
+        count = len(search.families)
+        report(0.5 + 0.5 * done / count, f"{done} of {count} families have their branches")
+    if checkpoint is not None and checkpoint.is_file():
+        checkpoint.unlink()
+        checkpoint.parent.rmdir()
     data = xr.Dataset(_variables(ball, along, search.families))
     unresolved = sum(end.kind == "unresolved" for f in search.families for end in f.ends)
     data.attrs |= {"parameter": parameter, "period": period, "levels": levels, "cells": CELLS}
@@ -118,7 +152,7 @@ def families(
     return data
 
 
-def _resume(search: Search, checkpoint: Path | None, key: list) -> int:
+def _resumed(search: Search, checkpoint: Path | None, key: list) -> int:
     """Continue from a checkpoint of the same search; return the number of levels done."""
     if checkpoint is None or not checkpoint.is_file():
         return 0
@@ -129,105 +163,70 @@ def _resume(search: Search, checkpoint: Path | None, key: list) -> int:
     return kept["done"]
 
 
-def _keep(search: Search, checkpoint: Path, key: list, done: int) -> None:
-    """Write a checkpoint; the file appears whole."""
-    checkpoint.parent.mkdir(parents=True, exist_ok=True)
-    part = checkpoint.with_suffix(".new")
-    content = {"key": key, "done": done, "starts": search.starts}
-    part.write_text(json.dumps(content), encoding="utf-8")
-    part.replace(checkpoint)
-
-
 def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
     """Return the variables of the dataset of some families, in the paper's units."""
-    g = ball.g
     points = [(family, point) for family in families for point in family.points]
-    events = [(family, event) for family in families for event in family.events]
-    marks = [(family, event.point) for family, event in events]
+    events = [event for family in families for event in family.events]
+    marks = [(family, event.point) for family in families for event in family.events]
     ends = [end for family in families for end in family.ends]
     traces = np.array([family.system.trace(point) for family, point in points])
 
-    def of_points(dim: str, pairs: list[tuple[Family, Point]], before: str = "") -> dict:
-        """Return the variables that points of curves and events share."""
-        x, y = np.array([_first_impact(*pair) for pair in pairs]).reshape(-1, 2).T * g
-        levels = [point.p for _, point in pairs]
-        times = [family.system.time(point) for family, point in pairs]
-        return {
-            f"{before}energy": (dim, [along.energy(p) * (g * g) for p in levels], "energy", ENERGY),
-            f"{before}k": (dim, [along.k_and_rho(p)[0] for p in levels], "Euler inertia, eq. (5)"),
-            f"{before}x": (dim, x, "position of the orbit's first impact", LENGTH),
-            f"{before}y": (dim, y, "xdot - k udot just before it", SPEED),
-            f"{before}time" if before else "total_time": (dim, times, "total time", TIME),
-        }
-
-    def whole(values: Iterable[int]) -> np.ndarray:
+    def whole(values: list[int]) -> np.ndarray:
         """Return whole numbers as an array, which has their type even if it is empty."""
-        return np.fromiter(values, dtype=np.int64)
+        return np.array(values, dtype=np.int64)
 
-    def of_ends(values: list) -> tuple:
-        """Return dims and values of a variable of the ends."""
-        return ("family", "side"), np.array(values).reshape(-1, 2)
-
-    table = {
-        "period": ("family", [f.period for f in families], "number of impacts"),
-        "line": (
-            "family",
-            [_LINES[f.line] for f in families],
-            "symmetry line of the points, none for orbits without symmetry",
-        ),
-        "row_size": ("family", [len(f.points) for f in families], "points of each family"),
-        **of_points("point", points),
-        "place": ("point", [z.q for _, z in points], "position q on the symmetry line"),
-        "trace": ("point", traces, "trace of the Jacobian of P^n on the energy surface"),
-        "rotation_number": (
-            "point",
-            [rotation(trace) for trace in traces.tolist()],
-            "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
-        ),
-        "type": ("point", _types(traces), "type of stability"),
-        **of_points("event", marks, "event_"),
-        "event_family": ("event", whole(f.number for f, _ in events), "family of the event"),
-        "event_kind": ("event", np.array([e.kind for _, e in events], dtype=str), _EVENT),
-        "event_turns": ("event", whole(e.turns for _, e in events), "p of a resonance p/q, else 1"),
-        "event_order": (
-            "event",
-            whole(event.order for _, event in events),
-            "period of the branches over that of the family",
-        ),
-        "event_point": (
-            "event",
-            [event.at for _, event in events],
-            "place on the family's curve, an index of its points",
-        ),
-        "end_kind": (*of_ends([end.kind for end in ends]), _END),
-        "end_energy": (*of_ends([along.energy(end.p) * (g * g) for end in ends]), "energy", ENERGY),
-        "end_k": (*of_ends([along.k_and_rho(end.p)[0] for end in ends]), "Euler inertia, eq. (5)"),
-        "end_family": (
-            *of_ends([end.family for end in ends]),
-            "the parent, or the family on the other side of a grazing; -1 if none",
-        ),
-        "end_turns": (
-            *of_ends([end.turns for end in ends]),
-            "p of the parent's rotation number p/q there",
-        ),
-        "end_order": (
-            *of_ends([end.order for end in ends]),
-            "q of the parent's rotation number p/q there, 2 at a doubling",
-        ),
-        "end_impact": (
-            *of_ends([end.impact for end in ends]),
-            "flight of the half orbit that touches the floor; -1 if none",
-        ),
-    }
-    data = described(table)
+    of_families = (
+        [family.period for family in families],
+        [_LINES[family.line] for family in families],
+        [len(family.points) for family in families],
+    )
+    of_points = (
+        [point.data.time for _, point in points],
+        [point.q for _, point in points],
+        traces,
+        [rotation(trace) for trace in traces.tolist()],
+        _types(traces),
+    )
+    of_events = (
+        [event.point.data.time for event in events],
+        whole([family.number for family, _ in marks]),
+        np.array([event.kind for event in events], dtype=str),
+        whole([event.turns for event in events]),
+        whole([event.order for event in events]),
+        [event.at for event in events],
+    )
+    of_ends = (
+        [end.kind for end in ends],
+        [along.energy(end.p) * (ball.g * ball.g) for end in ends],
+        [along.k_and_rho(end.p)[0] for end in ends],
+        [end.family for end in ends],
+        [end.turns for end in ends],
+        [end.order for end in ends],
+        [end.impact for end in ends],
+    )
+    both_ends = [np.array(values).reshape(-1, 2) for values in of_ends]
+    of_places = {f"event_{name}": meaning for name, meaning in _OF_PLACES.items()}
+    data = (
+        variables("family", of_families, _OF_FAMILIES)
+        | variables("point", _places(ball, along, points), _OF_PLACES)
+        | variables("point", of_points, _OF_POINTS)
+        | variables("event", _places(ball, along, marks), of_places)
+        | variables("event", of_events, _OF_EVENTS)
+        | variables(("family", "side"), both_ends, _OF_ENDS)
+    )
     data["row_size"][2]["sample_dimension"] = "point"
     return data
 
 
-def _first_impact(family: Family, point: Point) -> tuple[float, float]:
-    """Return x and y of the orbit's first impact; on Fix RP, of the one before the flight."""
-    x, y = family.system.first_impact(point)
-    return x, -y if family.line == FIX_RP else y
+def _places(ball: Ball, along: Parameter, points: list[tuple[Family, Point]]) -> tuple:
+    """Return energy and k of orbits, and x and y of their first impacts."""
+    g = ball.g
+    impacts = [family.system.first_impact(point) for family, point in points]
+    # On Fix RP this is the impact before the flight.
+    signs = np.array([-1.0 if family.line == FIX_RP else 1.0 for family, _ in points])
+    x, y = np.array(impacts).reshape(-1, 2).T * g
+    energies = [along.energy(point.p) * (g * g) for _, point in points]
+    return energies, [along.k_and_rho(point.p)[0] for _, point in points], x, signs * y
 
 
 def _types(traces: np.ndarray) -> list[str]:

@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from content import content_hash
+from dataset_hash import content_hash
 
 from extensions.atlas import blocks, cell, grid
 from pseudorigid import Ball, lyapunov_spectrum

@@ -5,14 +5,14 @@ import subprocess
 import sys
 
 import pytest
-from content import content_hash
+from dataset_hash import content_hash
 from project import ROOT
 
 from extensions.claims.analyses.clusters import clusters
 from pseudorigid import Ball
 
 SMALL = """
-from content import content_hash
+from dataset_hash import content_hash
 from pseudorigid import Ball
 from extensions.claims.analyses import clusters, control, flux, jumps, rotation, spread
 from extensions.atlas import blocks, last_curve

@@ -9,7 +9,6 @@ from slowly import slowly
 
 from extensions.families import chains
 from extensions.families.continuation import loci
-from extensions.families.continuation.half_orbit import B
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import rows
 
@@ -101,7 +100,7 @@ def test_an_entry_that_does_not_vanish_is_not_followed():
     limits = loci.Limits((0.1, 0.3), (0.1, 40.0))
     start = loci.chain_events(0.2, 6)["doubling"]
     assert len(loci.follow(6, start, limits)) > 20
-    assert loci.follow(6, start._replace(entry=B), limits) == []
+    assert loci.follow(6, start._replace(entry="b"), limits) == []
 
 
 def test_births_are_the_closed_form_and_jumps_begin_where_the_proof_says(curves):

@@ -49,15 +49,15 @@ def is_orbit_in_60_digits(ball, energy, family, point):
             return False
         missing = max(abs(a - b) for a, b in zip(orbit[0][:2], orbit[-1][:2], strict=True))
         time = sum(tau for *_, tau in orbit)
-        return missing < mpf("1e-30") and abs(time - family.system.time(point)) < 1e-6
+        return missing < mpf("1e-30") and abs(time - point.data.time) < 1e-6
 
 
 def is_row(family, point, row):
     """Whether an orbit has a total time and a trace."""
     time, trace = row
-    return abs(family.system.time(point) - time) < 1e-6 and abs(
-        family.system.trace(point) - trace
-    ) < 1e-3 * (1.0 + abs(trace))
+    return abs(point.data.time - time) < 1e-6 and abs(family.system.trace(point) - trace) < 1e-3 * (
+        1.0 + abs(trace)
+    )
 
 
 def unmatched(found, ball, energy):
@@ -86,7 +86,7 @@ def unmatched(found, ball, energy):
             (energy, period, f.number)
             for f, z in orbits
             if any(is_row(f, z, row) for row in rows)  # held twice, as in the next line
-            or sum(is_row(f, z, (h.system.time(y), h.system.trace(y))) for h, y in orbits) > 1
+            or sum(is_row(f, z, (y.data.time, h.system.trace(y))) for h, y in orbits) > 1
             or not is_orbit_in_60_digits(ball, energy, f, z)
         ]
     return missed, extra

@@ -1,22 +1,14 @@
 """Energies of events along families are right to 12 digits, against computations in 60 digits."""
 
 import pytest
-from exact_orbits import (
-    after,
-    apex,
-    at_rest,
-    derivative,
-    event_energy,
-    fall,
-    on_section,
-)
+from exact_orbits import after, apex, at_rest, derivative, event_energy, fall, on_section
 from family_search import PAPER, energy_of, rho, searched, six_born_at, up_to_period_six
 from mpmath import mp, mpf
 
 from extensions.families.continuation.curve import solve_at
-from extensions.families.continuation.half_orbit import ENERGY
+from extensions.families.continuation.half_orbit import ENERGY, FIX_R
 from extensions.families.continuation.search import Search
-from extensions.families.continuation.symmetric import Parameter
+from extensions.families.continuation.symmetric import Parameter, SymmetricOrbits
 
 K, G = mpf("0.2"), mpf("0.04")
 
@@ -44,8 +36,8 @@ def fixed_energy(trace):
 def test_resonances_of_the_fixed_point_are_right_to_12_digits():
     """Against the closed form in 60 digits; the search does not use it."""
     found = Search(Parameter(ENERGY, 0.2, rho(PAPER, -0.003), rho(PAPER, 0.0599)), 8)
-    point = solve_at(found.systems[1, 0], (-0.25, rho(PAPER, 0.01)), 0.1)
-    found.add(1, 0, point)
+    system = SymmetricOrbits(FIX_R, 1, found.parameter)
+    found.add(system, solve_at(system, (-0.25, rho(PAPER, 0.01)), 0.1))
     energies = {
         event.order: energy_of(found, event.point.p)
         for event in found.families[0].events
@@ -76,13 +68,18 @@ def test_the_births_of_the_three_period_six_orbits_are_right_to_12_digits(six):
         assert abs(born / exact - 1) < mpf("1e-12")
 
 
+def energy_and_place(found, event):
+    """The energy of an event, and the position of its half orbit's start along the line."""
+    q, p = event.point.place
+    unit = mpf(repr(PAPER.g)) / PAPER.k
+    return energy_of(found, p), (1.0 + p * 2.0 * q / (1.0 + q**2)) * unit
+
+
 def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits(six):
     with mp.workdps(60):
         family = six_born_at(six, 0, "resonance")
         event = next(e for e in family.events if e.kind == "doubling")
-        unit = mpf(repr(PAPER.g)) / PAPER.k
-        energy, x = energy_of(six, event.point.p), (1.0 + event.point.p * 2.0 * event.point.q
-                                                   / (1.0 + event.point.q**2)) * unit  # fmt: skip
+        energy, x = energy_and_place(six, event)
 
         def on_fix_r(energy, x, y):
             return on_section(K, G, energy, x, y, 3)
@@ -92,9 +89,8 @@ def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits(six
         family = six_born_at(six, 1, "touch")
         events = [e for e in family.events if e.kind == "doubling"]
         event = min(events, key=lambda e: e.point.p)
-        energy = energy_of(six, event.point.p)
-        a = (1.0 + event.point.p * 2.0 * event.point.q / (1.0 + event.point.q**2)) * unit
-        (guess, *_) = family.system.times(event.point.data)
+        energy, a = energy_and_place(six, event)
+        guess = event.point.data.times[0]
 
         def on_fix_rp(energy, a, eta):
             return apex(K, G, after(K, G, fall(K, G, energy, a, eta, guess), 2))

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from extensions.atlas.cell import cell
+from extensions.families.causes import causes, extrema
 from extensions.families.families import families
-from extensions.families.shares import causes, elliptic_orbits, extrema, shares
+from extensions.families.shares import Line, elliptic_orbits, shares
 from pseudorigid import Ball
 
 BALL, SPAN = Ball(0.2, 0.04), [0.0075, 0.0095]
@@ -41,7 +42,7 @@ def test_the_six_islands_are_those_of_the_sweep(held, data):
 
 
 def test_elliptic_orbits_close(held):
-    found = elliptic_orbits(BALL, held, "energy", 0.009)
+    found = elliptic_orbits(Line(BALL, 0.01, "energy", held), 0.009)
     assert sorted(points.shape[1] for _, points in found) == [1, 6]
     for _, points in found:
         x, y = points[:, -1]
@@ -56,36 +57,53 @@ def test_extrema_stand_out_from_their_intervals():
     assert extrema(share, share - wide, share + wide) == []
 
 
-def test_nothing_is_a_cause_for_lying_near():
-    """A chain that does not account for half of the change is no cause, whatever its events."""
-    share = np.array([[0.30, 0.05], [0.10, 0.04], [0.30, 0.05]])
-    total = share.sum(axis=1)
+@pytest.fixture(scope="module")
+def minimum():
+    """Families, values, shares of two chains with a minimum, and the number of the first one.
+
+    An event of the first chain, which is small, lies at the minimum; those of the other one are far
+    away.
+    """
     held = families(BALL, 0.01, "energy", [0.007, 0.008], 6, 2)
     (number,) = np.flatnonzero(held["end_kind"].values[:, 1] == "resonance")[:1]
+    last = held.sizes["family"] - 1
+    assert number != last
     at = float(held["end_energy"].values[number, 1])
-    values = np.array([at - 0.001, at, at + 0.001])
-    by_family = np.zeros((3, held.sizes["family"]))
-    by_family[:, number] = share[:, 1]
-    by_family[:, -1] = share[:, 0] if number != held.sizes["family"] - 1 else 0.0
-    held["event_energy"].values[held["event_family"].values == held.sizes["family"] - 1] = 9.0
-    held["end_energy"].values[-1] = 9.0
+    held["event_energy"].values[held["event_family"].values == last] = 9.0
+    held["end_energy"].values[last] = 9.0
+    chains = np.zeros((3, held.sizes["family"]))
+    chains[:, number], chains[:, last] = [0.05, 0.04, 0.05], [0.30, 0.10, 0.30]
+    return held, at + np.array([-0.001, 0.0, 0.001]), chains, number
+
+
+def caused(minimum, curves=(), swapped=False):
+    """The rows of the extrema and slopes of this minimum."""
+    held, values, chains, number = minimum
+    if swapped:
+        chains = chains.copy()
+        chains[:, [number, -1]] = chains[:, [-1, number]]
+    total = chains.sum(axis=1)
     bounds = total, total - 0.01, total + 0.01
-    table = causes(held, "energy", values, bounds, by_family, [], 0.0005)
-    assert list(table["cause_event"][1]) == ["unexplained"]
-    assert table["slope_change"][1] == pytest.approx([-0.21, 0.21])
-    assert table["slope_part"][1][:, 0] == pytest.approx([20 / 21, 20 / 21])
-    # The last curve beyond a resonance counts only if it breaks within a step of the extremum, and
-    # the orbits beyond the resonance were half of the fall.
+    return causes(held, "energy", values, bounds, chains, curves, 0.0005)
+
+
+def test_a_chain_that_lies_near_is_no_cause_unless_it_accounts_for_half_of_the_change(minimum):
+    ((row,), slopes) = caused(minimum)
+    assert row["cause_event"] == "unexplained"
+    assert [slope["slope_change"] for slope in slopes] == pytest.approx([-0.21, 0.21])
+    assert [slope["slope_part"][0] for slope in slopes] == pytest.approx([20 / 21, 20 / 21])
+    ((row,), _) = caused(minimum, swapped=True)
+    assert row["cause_family"] == minimum[-1]
+
+
+@pytest.mark.parametrize(
+    ("place", "beyond", "is_cause"),
+    [(-0.0003, 0.15, True), (-0.0003, 0.08, False), (-0.0006, 0.15, False), (np.nan, 0.15, False)],
+)
+def test_a_curve_is_a_cause_if_it_breaks_near_and_half_of_the_change_was_beyond_it(
+    minimum, place, beyond, is_cause
+):
     event = "last curve beyond 1/5 breaks"
-    for broken, beyond, cause in (
-        (at - 0.0003, [0.15, 0.0, 0.0], event),
-        (at - 0.0003, [0.08, 0.0, 0.0], "unexplained"),
-        (at - 0.0006, [0.15, 0.0, 0.0], "unexplained"),
-        (np.nan, [0.15, 0.0, 0.0], "unexplained"),
-    ):
-        curves = [(event, broken, np.array(beyond))]
-        table = causes(held, "energy", values, bounds, by_family, curves, 0.0005)
-        assert list(table["cause_event"][1]) == [cause]
-    by_family[:, number], by_family[:, -1] = share[:, 0], share[:, 1]
-    table = causes(held, "energy", values, bounds, by_family, [], 0.0005)
-    assert table["cause_family"][1] == [number]
+    curve = event, minimum[1][1] + place, np.array([beyond, 0.0, 0.0])
+    ((row,), _) = caused(minimum, [curve])
+    assert row["cause_event"] == (event if is_cause else "unexplained")

@@ -14,11 +14,11 @@ from pathlib import Path
 
 import netCDF4
 import pytest
-from anything import FUZZ, JSON, PATHS, edited, spoilt
 from archives import against
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from project import Tree
+from random_documents import FUZZ, JSON, PATHS, edited, spoilt
 from slowly import slowly
 from verdicts import accepting, verified
 

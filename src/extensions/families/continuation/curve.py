@@ -8,7 +8,7 @@ of an equation the gradient points the other way, which shows if a step has gone
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -38,7 +38,7 @@ class Point(NamedTuple):
     gradients: tuple[Place, ...]  # of each equation
     guard: np.ndarray  # quantities that change little in a step
     apart: tuple[np.ndarray, ...]  # vectors that vanish only where the curve ends
-    data: np.ndarray  # what else is known of the point
+    data: Any  # the orbit: what a System knows of the point besides
 
     @property
     def q(self) -> float:
@@ -77,7 +77,7 @@ def cross(a: Place, b: Place) -> Place:
 
 
 def _rows(system: System, point: Point) -> list[Place]:
-    """Return the gradients by the scaled coordinates."""
+    """Return the gradients of the equations by the scaled coordinates."""
     return [(*row[:-1], row[-1] * system.scale) for row in point.gradients]
 
 
@@ -90,7 +90,7 @@ def tangent(system: System, point: Point) -> Place:
 
 
 def moved(system: System, place: Place, vector: Place, length: float) -> Place:
-    """Return the place at a scaled vector times a length from another one."""
+    """Return the place that is a scaled vector times a length away from a place."""
     steps = (*vector[:-1], vector[-1] * system.scale)
     return tuple(x + length * step for x, step in zip(place, steps, strict=True))
 
@@ -127,23 +127,21 @@ def correct(system: System, place: Place, along: Place, reach: float) -> Point |
     first, previous, previous_defect = place, math.inf, math.inf
     for _ in range(_NEWTON_STEPS):
         point = system.point(place)
-        if point is None:
-            return None
-        step = cramer([*_rows(system, point), along], (*point.defect, 0.0))
-        if step is None:
+        step = cramer([*_rows(system, point), along], (*point.defect, 0.0)) if point else None
+        if point is None or step is None:
             return None
         size, defect = max(map(abs, step)), max(map(abs, point.defect))
         defect_falls = len(along) > 2 and defect < _FALL * previous_defect
-        at_rounding = previous <= _ROUNDING and size >= 0.25 * previous and not defect_falls
-        if size <= 4e-17 or at_rounding:
-            return point if defect < _DEFECT else None
-        if not (size < 0.7 * previous or defect_falls):
-            return None
-        previous, previous_defect = size, defect
+        stalls = previous <= _ROUNDING and size >= 0.25 * previous and not defect_falls
+        converged = size <= 4e-17 or stalls
+        if converged:
+            break
+        falls = size < 0.7 * previous or defect_falls
+        previous, previous_defect, converged = size, defect, size <= _ROUNDING
         place = moved(system, place, step, 1.0)
-        if not distance(system, first, place) <= 2.0 * reach:
+        if not (falls and distance(system, first, place) <= 2.0 * reach):
             return None
-    return point if previous <= _ROUNDING and max(map(abs, point.defect)) < _DEFECT else None
+    return point if converged and defect < _DEFECT else None
 
 
 def solve_at(system: System, place: Place, reach: float) -> Point | None:
@@ -152,7 +150,7 @@ def solve_at(system: System, place: Place, reach: float) -> Point | None:
 
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
-    """Return whether a step stays on its curve."""
+    """Return whether the new point lies on the curve of the old one, by how little changes."""
     before, between, after = (tangent(system, point) for point in (old, predicted, new))
     if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
         return False
@@ -189,8 +187,8 @@ def trace(system: System, start: Point, sign: float, collapsed: Callable[[Point]
         along = tuple(sign * x for x in tangent(system, old))
         place = moved(system, old.place, along, step)
         predicted = system.point(place)
-        new = correct(system, place, along, step) if predicted is not None else None
-        if new is None or not _acceptable(system, old, predicted, new, step):
+        new = correct(system, place, along, step) if predicted else None
+        if not (predicted and new and _acceptable(system, old, predicted, new, step)):
             step *= 0.5
             if step < LEAST_STEP:
                 return Curve(points, "blocked")

@@ -11,9 +11,9 @@ import numpy as np
 from pseudorigid.kernel.arithmetic import sincos
 
 from .asymmetric import NO_LINE, AsymmetricOrbits
-from .curve import Place, Point, System, cramer, locate, part_of_chord, trace_both_ways
-from .half_orbit import FIX_RP, H_P
-from .symmetric import COLLAPSED, Orbits
+from .curve import Place, Point, cramer, locate, part_of_chord, trace_both_ways
+from .half_orbit import FIX_RP
+from .symmetric import COLLAPSED, SymmetricOrbits
 
 # Largest |trace - 2| at a collapse. Where an impact grazes, rounds of an orbit come near each other
 # too.
@@ -25,6 +25,8 @@ _SLOW = 1e-3  # contact speed, in units where g = 1, of an impact that all but g
 _ROUNDING = 1e-14  # of a value, over its gradient
 _NEWTON_STEPS = 30  # to a touch
 FAR = 1e-4  # a touch farther than this from the last point of a curve is another one
+
+OrbitSystem = SymmetricOrbits | AsymmetricOrbits
 
 
 class Event(NamedTuple):
@@ -42,20 +44,19 @@ class End:
     """How a family ends."""
 
     kind: str  # range, resonance, doubling, pitchfork, touch, rim, closed, unresolved
-    p: float
-    q: float
-    family: int = -1  # the parent, or the family on the other side of the grazing
-    turns: int = 0
-    order: int = 0
+    point: Point  # the last one of the curve, or the touching orbit
+    p: float  # parameter of the event or grazing, or of the point
     impact: int = -1  # the flight that touches, or the impact that grazes, along the half orbit
-    point: Point | None = None
+    family: int = -1  # the parent, or the family on the other side of the grazing
+    turns: int = 0  # p and q of the parent's rotation number p/q
+    order: int = 0
 
 
 @dataclass
 class Family:
     """A curve of periodic orbits."""
 
-    system: Orbits | AsymmetricOrbits
+    system: OrbitSystem
     points: list[Point]
     ends: list[End]
     events: list[Event] = field(default_factory=list)
@@ -71,8 +72,18 @@ class Family:
         """Symmetry line on which the positions lie."""
         return self.system.line
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether the orbits meet the symmetry lines."""
+        return self.line != NO_LINE
 
-def follow(system: Orbits | AsymmetricOrbits, start: Point, longest: int) -> Family:
+    @property
+    def grazings(self) -> list[End]:
+        """The ends at which an impact grazes."""
+        return [end for end in self.ends if end.kind in ("rim", "touch")]
+
+
+def follow(system: OrbitSystem, start: Point, longest: int) -> Family:
     """Follow the family of a solution to both its ends, and find its events.
 
     Resonances are those whose children have periods up to `longest`, and those of orders 3 and 4,
@@ -85,7 +96,7 @@ def follow(system: Orbits | AsymmetricOrbits, start: Point, longest: int) -> Fam
 
     points, reasons = trace_both_ways(system, start, collapsed)
     ends = [
-        _grazing(system, last) if reason == "blocked" else End(reason, last.p, last.q, point=last)
+        _grazing(system, last) if reason == "blocked" else End(reason, last, last.p)
         for reason, last in zip(reasons, (points[0], points[-1]), strict=True)
     ]
     family = Family(system, points, ends)
@@ -93,82 +104,87 @@ def follow(system: Orbits | AsymmetricOrbits, start: Point, longest: int) -> Fam
     return family
 
 
-def _grazing(system: Orbits | AsymmetricOrbits, last: Point) -> End:
+def _grazing(system: OrbitSystem, last: Point) -> End:
     """Return the grazing end that is next to the last point of a blocked curve.
 
     It is a touch, where a flight meets the floor without an impact and is solved for, or at the
     rim, where the speed of an impact vanishes.
     """
-    speed, times = system.speed(last), system.times(last.data)
+    speed, times = last.data.lowest_speed, last.data.times
     heights = system.heights(last.place, times, np.full(times.size, np.nan))
     touching = not np.all(np.isnan(heights[:, 1]))
     flight = int(np.nanargmax(heights[:, 1])) if touching else -1
-    if system.line == NO_LINE:
-        at_rim = speed < 2.0 * _SLOW
-    else:
+    symmetric = system.line != NO_LINE
+    if symmetric:
         at_rim = not touching or 0.5 * speed * speed < -float(heights[flight, 1])
+    else:
+        at_rim = speed < 2.0 * _SLOW
     if at_rim:
-        return End("rim", last.p, last.q, point=last)
-    end = _touch(system, last, times, flight, float(heights[flight, 0])) if touching else None
-    if end is not None:
-        return end
-    if system.line == NO_LINE:
-        return End("unresolved", last.p, last.q, point=last)
-    kind = "rim" if speed < _SLOW else "unresolved"
-    return End(kind, last.p, last.q, impact=flight, point=last)
+        return End("rim", last, last.p)
+    point = _touch(system, last, flight, float(heights[flight, 0])) if touching else None
+    if point is not None:
+        return End("touch", point, point.p, flight)
+    if symmetric and speed < _SLOW:
+        return End("rim", last, last.p, flight)
+    return End("unresolved", last, last.p, flight if symmetric else -1)
 
 
-def _touch(
-    system: Orbits | AsymmetricOrbits, last: Point, times: np.ndarray, flight: int, at: float
-) -> End | None:
-    """Solve for the orbit of which a flight touches the floor, from a point next to it."""
-    near = np.full(times.size, np.nan)
+def _touch(system: OrbitSystem, last: Point, flight: int, at: float) -> Point | None:
+    """Return the orbit near a given one whose flight touches the floor near a time, or None."""
+    place: Place | None
+    if isinstance(system, SymmetricOrbits) and (system.line, flight, at) == (FIX_RP, 0, 0.0):
+        place = _at_rest(system, last)
+    else:
+        place = _touching(system, last, flight, at)
+    if place is None or not _is_next_to(place, last):
+        return None
+    return last._replace(place=place, data=system.tracked(place, last.data.times)[0])
+
+
+def _at_rest(system: SymmetricOrbits, last: Point) -> Place:
+    """Return the place on Fix RP next to an orbit at which the ball is at rest on the floor."""
+    q, p = math.copysign(1.0, last.q), last.p
+    for _ in range(_NEWTON_STEPS):
+        data, (defect,) = system.tracked((q, p), last.data.times)
+        step = -defect / data.h_p
+        p += step
+        if abs(step) < 1e-15 * p:
+            break
+    return q, p
+
+
+def _touching(system: OrbitSystem, last: Point, flight: int, at: float) -> Place | None:
+    """Return the place near an orbit from which a flight touches the floor, or None."""
+    near = np.full(last.data.times.size, np.nan)
     near[flight] = at
 
     def values(place: Place) -> Place:
-        data, defect = system.tracked(place, times)
-        heights = system.heights(place, system.times(data), near)
-        return *defect, float(heights[flight, 1])
+        data, defect = system.tracked(place, last.data.times)
+        return *defect, float(system.heights(place, data.times, near)[flight, 1])
 
-    place = last.place
-    if system.line == FIX_RP and flight == 0 and at == 0.0:  # the ball is at rest on the floor
-        q, p = math.copysign(1.0, last.q), last.p
-        for _ in range(_NEWTON_STEPS):
-            data, (defect,) = system.tracked((q, p), times)
-            step = -defect / float(data[H_P])
-            p += step
-            if abs(step) < 1e-15 * p:
-                break
-        best = q, p
-    else:
-        least, best = math.inf, place
-        for _ in range(_NEWTON_STEPS):
-            here = values(place)
-            error = sum(map(abs, here))
-            if error < least:
-                least, best = error, place
-            elif least < 1e-12:
-                break
-            columns = []
-            for i in range(len(place)):
-                step = 1e-7 * (place[-1] if i == len(place) - 1 else 1.0)
-                beside = values(tuple(z + step * (i == j) for j, z in enumerate(place)))
-                columns.append([(b - a) / step for a, b in zip(here, beside, strict=True)])
-            step = cramer(list(zip(*columns, strict=True)), here)
-            if step is None:
-                return None
-            place = tuple(z + dz for z, dz in zip(place, step, strict=True))
-            if not _is_next_to(place, last):
-                return None
-        # The largest gradients, times the rounding of the place, are the rounding of the values.
-        scales = [max(1.0, abs(z)) for z in best]
-        sizes = sum(z * abs(x) for z, row in zip(scales, columns, strict=True) for x in row)
-        if not least < max(1e-11, _ROUNDING * sizes):
+    least, best, place = math.inf, last.place, last.place
+    for _ in range(_NEWTON_STEPS):
+        here = values(place)
+        error = sum(map(abs, here))
+        if error < least:
+            least, best = error, place
+        elif least < 1e-12:
+            break
+        columns = []
+        for i in range(len(place)):
+            step = 1e-7 * (place[-1] if i == len(place) - 1 else 1.0)
+            beside = values(tuple(z + step * (i == j) for j, z in enumerate(place)))
+            columns.append([(b - a) / step for a, b in zip(here, beside, strict=True)])
+        newton = cramer(list(zip(*columns, strict=True)), here)
+        if newton is None:
             return None
-    if not _is_next_to(best, last):
-        return None
-    point = last._replace(place=best, data=system.tracked(best, times)[0])
-    return End("touch", point.p, point.q, impact=flight, point=point)
+        place = tuple(z + dz for z, dz in zip(place, newton, strict=True))
+        if not _is_next_to(place, last):
+            return None
+    # The largest gradients, times the rounding of the place, are the rounding of the values.
+    scales = [max(1.0, abs(z)) for z in best]
+    sizes = sum(z * abs(x) for z, row in zip(scales, columns, strict=True) for x in row)
+    return best if least < max(1e-11, _ROUNDING * sizes) else None
 
 
 def _is_next_to(place: Place, last: Point) -> bool:
@@ -204,7 +220,10 @@ def _find_events(family: Family, longest: int) -> None:
 
 
 def _zeros(
-    system: System, points: list[Point], numbers: Sequence[int], value: Callable[[Point], float]
+    system: OrbitSystem,
+    points: list[Point],
+    numbers: Sequence[int],
+    value: Callable[[Point], float],
 ) -> Iterator[tuple[int, float, Point]]:
     """Yield the zeros of a function between points of a curve that are given by their numbers.
 

@@ -18,38 +18,61 @@ have A D - B C = 1, and the trace of the whole orbit is 2 (A D + B C). Hence
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from pseudorigid.kernel import flight
 from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.kernel.flight import (
-    amplitude_bound,
-    first_impact,
-    gap,
-    longest_stride,
-    rises_to_its_root,
-)
+from pseudorigid.kernel.flight import first_impact, longest_stride, rises_to_its_root
 from pseudorigid.kernel.impact import flight_derivatives, impact_coefficients, rebound
 
 FIX_R, FIX_RP = 0, 1  # symmetry lines
 ENERGY, INERTIA = 0, 1  # parameters: rho at fixed k, and k at fixed E
-LONGEST_PERIOD = 24
-# Entries of the result of `evaluate`. From TIMES on stand the times of flight, from PLACES on the
-# points (x, y) after each impact, or (xi, eta) of the apex after it for orbits from Fix RP.
-H, H_Q, H_P, A, B, C, D, XI, X_END, TIME, LOWEST_SPEED, TIMES = range(12)
-PLACES = TIMES + LONGEST_PERIOD // 2 + 2
-SIZE = PLACES + LONGEST_PERIOD + 4
 _MOST_STEPS = 10_000
 
 
+class HalfOrbit(NamedTuple):
+    """A half orbit, its defect, and the derivatives of its end."""
+
+    exists: bool  # False if an impact ends the last flight before its apex
+    h: float  # the defect, and its derivatives by q and by the parameter
+    h_q: float
+    h_p: float
+    a: float  # A, B, C and D: the end's derivatives by the start
+    b: float
+    c: float
+    d: float
+    xi: float  # position of the start along its line
+    x_end: float  # position of the end along its line
+    time: float  # total time of the whole orbit
+    lowest_speed: float  # lowest contact speed
+    times: np.ndarray  # (flights,) times of flight
+    points: np.ndarray  # (n, 2) in canonical coordinates: impacts from Fix R, apices from Fix RP
+
+
 @jit
-def place(k, rho, q):
-    """Return a, r, and the derivatives of u and r by q, at a parameter q of a line."""
+def gap(t, x, b, c, s):
+    """Return the gap, its two derivatives, position and rate after a time of flight."""
+    return flight.gap(t, x, b, c, s, 1.0, quadrant(t))
+
+
+@jit
+def parameter_derivatives(parameter, k, rho):
+    """Return the derivatives of rho and of k by the parameter, ENERGY or INERTIA."""
+    energy = 0.5 * (rho - 1.0) * (rho + 1.0) / k
+    return (1.0, 0.0) if parameter == ENERGY else (energy / rho, 1.0)
+
+
+@jit
+def _place(k, rho, q, rho_p, k_p):
+    """Return a and r at q on a line, their derivatives by q, and that of a by the parameter."""
     square = 1.0 + q * q
-    r = (1.0 - q) * (1.0 + q) / square
-    u = 2.0 * q / square
-    return (1.0 + rho * u) / k, u, r, 2.0 * r / square, -4.0 * q / (square * square)
+    u, r = 2.0 * q / square, (1.0 - q) * (1.0 + q) / square
+    u_q, r_q = 2.0 * r / square, -4.0 * q / (square * square)
+    a = (1.0 + rho * u) / k
+    return a, r, rho * u_q / k, r_q, u * rho_p / k - k_p * a / k
 
 
 @jit
@@ -58,7 +81,7 @@ def line_state(line, k, rho, q):
 
     The depth, which is minus the gap there, is 0 on Fix R.
     """
-    a, _, r, _, _ = place(k, rho, q)
+    a, r, _, _, _ = _place(k, rho, q, 0.0, 0.0)
     if line == FIX_R:
         w = rho * r / (k * math.sqrt(1.0 + k))
         return a, k * w, w, 0.0
@@ -68,19 +91,19 @@ def line_state(line, k, rho, q):
 @jit
 def landing(a, theta):
     """Return the state (x, v, w) at the end of a fall of length theta from an apex on Fix RP."""
-    _, _, _, x, w = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
+    _, _, _, x, w = gap(theta, a, 0.0, 0.0, 0.0)
     return x, theta, max(w, -theta)
 
 
 @jit
 def _fall(a, depth):
     """Return the time from rest at the apex, with strain -a and gap -depth, to the impact."""
-    amplitude = amplitude_bound(a, 0.0)
+    amplitude = flight.amplitude_bound(a, 0.0)
     t = math.sqrt(2.0 * depth / (1.0 + amplitude))
     low, high = 0.0, math.inf
     landing = False
     for _ in range(_MOST_STEPS):
-        f, df, ddf, _, q = gap(t, a, 0.0, 0.0, 0.0, 1.0, quadrant(t))
+        f, df, ddf, _, q = gap(t, a, 0.0, 0.0, 0.0)
         f -= depth
         if f < 0.0:
             low = t
@@ -104,15 +127,25 @@ def _fall(a, depth):
 
 
 @jit
-def nearby_root(t, x, b, c, s, depth):
+def _nearby_root(t, x, b, c, s, depth):
     """Return the root of the gap, less `depth`, that Newton's method reaches from t."""
     for _ in range(50):
-        f, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
+        f, df, _, _, _ = gap(t, x, b, c, s)
         after = t - (f - depth) / df
         if abs(after - t) <= 4e-16 * abs(t):
             return after
         t = after
     return t
+
+
+@jit
+def _tangent_after_impact(tangents, j, s, k, k_p, coefficients):
+    """Return the derivatives of b, c and s after an impact along the j-th of `tangents`."""
+    db, dc, ds = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
+    if j == 2:
+        by_k = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))  # the impact law's derivative by k
+        db, dc = db - by_k, dc + by_k
+    return db, dc, ds
 
 
 @jit
@@ -125,18 +158,15 @@ def fly(x, v, w, k, k_p, coefficients, guess, tangents):
     """
     b, c, s = rebound(v, w, k, coefficients)
     if guess > 0.0:
-        tau = nearby_root(guess, x, b, c, s, 0.0)
-        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+        tau = _nearby_root(guess, x, b, c, s, 0.0)
+        _, _, _, p, rate = gap(tau, x, b, c, s)
     else:
         tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
     sine, cosine, tau_x, tau_s, tau_c = flight_derivatives(x, b, c, s, 1.0, tau, quadrant(tau))
     x, v = p, b + tau
     w = max(rate, -v)
-    more = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))  # the impact law's derivative by k
     for j in range(3):
-        db, dc, ds = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
-        if j == 2:
-            db, dc = db - more, dc + more
+        db, dc, ds = _tangent_after_impact(tangents, j, s, k, k_p, coefficients)
         dx = tangents[j, 0]
         dt = tau_x * dx + tau_s * ds + tau_c * dc
         tangents[j, 0] = cosine * dx - sine * dc - w * dt
@@ -146,22 +176,21 @@ def fly(x, v, w, k, k_p, coefficients, guess, tangents):
 
 
 @jit
-def half_length(line, period):
-    """Return the number of times that the map is applied along a half orbit."""
-    return period // 2 if line == FIX_R else period // 2 - 1
+def ends_at_apex(line, period):
+    """Return whether half orbits end at the apex of a flight, on Fix RP."""
+    return line == FIX_RP or period % 2 == 1
 
 
 @jit
-def scan(line, k, rho, q, longest, out):
-    """Write the defects of half orbits of all periods up to `longest` to out (n, longest + 1).
+def scan(line, k, rho, q, longest):
+    """Return the defects (n, longest + 1) of half orbits of all periods up to `longest`.
 
     `q` (n,) are starts. A defect is NaN where the line has no such half orbit: for odd periods
     from Fix RP, and where an impact ends the last flight before its apex.
     """
     coefficients = impact_coefficients(k)
+    out = np.full((q.size, longest + 1), math.nan)
     for i in range(q.size):
-        for n in range(longest + 1):
-            out[i, n] = math.nan
         x, v, w, depth = line_state(line, k, rho, q[i])
         if line == FIX_RP:
             x, v, w = landing(x, _fall(x, depth))
@@ -170,124 +199,140 @@ def scan(line, k, rho, q, longest, out):
             b, c, s = rebound(v, w, k, coefficients)
             tau, p, u, _ = first_impact(x, b, c, s, 1.0)
             if 0.0 < -b < tau:  # the apex
-                _, _, _, _, rate = gap(-b, x, b, c, s, 1.0, quadrant(-b))
+                _, _, _, _, rate = gap(-b, x, b, c, s)
                 out[i, period] = -k * rate
             x, v = p, b + tau
             w = max(u, -v)
             if line == FIX_R and period + 1 <= longest:
                 out[i, period + 1] = v - k * w
             period += 2
+    return out
 
 
 @jit
-def evaluate(line, period, parameter, k, rho, q, guess, out):
-    """Compute one half orbit and its derivatives into out (SIZE,).
+def _start_on_fix_r(k, rho, q, rho_p, k_p):
+    """Return position, its derivative by q, state and tangents (3, 3) of the start at q on Fix R.
 
-    `parameter` is ENERGY or INERTIA: what H_P differentiates by, rho or k. If `guess` is not empty,
+    The rows of the tangents are the derivatives of the state by the position along the line, up to
+    a factor, by the coordinate across it, and by the parameter.
+    """
+    a, r, a_q, r_q, a_p = _place(k, rho, q, rho_p, k_p)
+    root = math.sqrt(1.0 + k)
+    w = rho * r / (k * root)
+    w_q = rho * r_q / (k * root)
+    w_p = w * (rho_p / rho) - k_p * (w * (1.0 / k + 0.5 / (1.0 + k)))
+    by_q = a_q, k * w_q, w_q
+    across = 0.0, 1.0 / (1.0 + k), -1.0 / (1.0 + k)
+    by_parameter = a_p, k * w_p + k_p * w, w_p
+    return a, a_q, (a, k * w, w), np.array((by_q, across, by_parameter))
+
+
+@jit
+def _start_on_fix_rp(k, rho, q, rho_p, k_p, guess):
+    """Return xi, its derivative by q, state and tangents (3, 3) after the fall from q on Fix RP.
+
+    The rows of the tangents are as in `_start_on_fix_r`. If `guess` is above 0, the fall ends at
+    the root of the gap next to it.
+    """
+    a, r, a_q, r_q, a_p = _place(k, rho, q, rho_p, k_p)
+    depth = 0.5 * (rho * r) * (rho * r) / k
+    theta = _nearby_root(guess, a, 0.0, 0.0, 0.0, depth) if guess > 0.0 else _fall(a, depth)
+    x, v, w = landing(a, theta)
+    _, slope, _, _, _ = gap(theta, a, 0.0, 0.0, 0.0)
+    _, _, _, cosine, sine = gap(theta, 1.0, 0.0, 0.0, 0.0)
+    depth_q = rho * r * rho * r_q / k
+    depth_p = rho * r * r * rho_p / k - k_p * depth / k
+    # theta solves -depth + theta^2/2 + a (1 - cos theta) = 0.
+    theta_q = (depth_q - a_q * (1.0 - cosine)) / slope
+    theta_across = sine / (k * slope)
+    theta_p = (depth_p - a_p * (1.0 - cosine)) / slope
+    by_q = a_q * cosine - w * theta_q, theta_q, a_q * sine + x * theta_q
+    across = sine / k - w * theta_across, theta_across, -cosine / k + x * theta_across
+    by_parameter = a_p * cosine - w * theta_p, theta_p, a_p * sine + x * theta_p
+    return a, a_q, (x, v, w), np.array((by_q, across, by_parameter))
+
+
+@jit
+def _end_at_apex(x, v, w, k, k_p, coefficients, tangents):
+    """Return the end (xi, eta) at the apex of the next flight, and the derivatives (3, 2) of both.
+
+    The other results are the time to the apex, and whether no impact ends the flight before.
+    """
+    b, c, s = rebound(v, w, k, coefficients)
+    t = -b
+    reached = 0.0 < t < first_impact(x, b, c, s, 1.0)[0]
+    _, _, _, along, rate = gap(t, x, b, c, s)
+    _, _, _, cosine, sine = gap(t, 1.0, 0.0, 0.0, 0.0)
+    ends = np.empty((3, 2))
+    for j in range(3):
+        db, dc, _ = _tangent_after_impact(tangents, j, s, k, k_p, coefficients)
+        dx = tangents[j, 0]
+        ends[j, 0] = cosine * dx - sine * dc + rate * db
+        ends[j, 1] = -k * (sine * dx + cosine * dc - along * db)
+    ends[2, 1] -= k_p * rate
+    return along, -k * rate, ends, t, reached
+
+
+@jit
+def evaluate(line, period, parameter, k, rho, q, guess):
+    """Return a half orbit from q on a line as a HalfOrbit.
+
+    `parameter` is ENERGY or INERTIA: what h_p differentiates by, rho or k. If `guess` is not empty,
     it has approximate times of flight, from whose neighbourhood the times are taken, whether an
-    earlier impact ends the flight or not; otherwise impacts are the first ones. Returns whether
-    the half orbit exists: it does not if the last flight ends before its apex.
+    earlier impact ends the flight or not; otherwise impacts are the first ones.
     """
     coefficients = impact_coefficients(k)
     tracked = guess.size > 0
-    a, u, r, u_q, r_q = place(k, rho, q)
-    energy = 0.5 * (rho - 1.0) * (rho + 1.0) / k
-    rho_p, k_p = (1.0, 0.0) if parameter == ENERGY else (energy / rho, 1.0)
-    a_q, a_p = rho * u_q / k, u * rho_p / k - k_p * a / k
-    # Derivatives of x, v and w by the start's place along its line and across it, and by the
-    # parameter.
-    tangents = np.empty((3, 3))
+    rho_p, k_p = parameter_derivatives(parameter, k, rho)
+    maps = period // 2 - 1 if line == FIX_RP else period // 2  # applied along the half orbit
+    to_apex = ends_at_apex(line, period)
+    times = np.empty(line + maps + int(to_apex))
+    points = np.empty((period // 2 + 1, 2))
+    n = line  # the number of flights so far
     total = 0.0
-    n_times = 0
     if line == FIX_R:
-        root = math.sqrt(1.0 + k)
-        x, w = a, rho * r / (k * root)
-        v = k * w
-        w_q = rho * r_q / (k * root)
-        w_p = w * (rho_p / rho) - k_p * (w * (1.0 / k + 0.5 / (1.0 + k)))
-        tangents[0, 0], tangents[0, 1], tangents[0, 2] = a_q, k * w_q, w_q
-        tangents[1, 0], tangents[1, 1], tangents[1, 2] = 0.0, 1.0 / (1.0 + k), -1.0 / (1.0 + k)
-        tangents[2, 0], tangents[2, 1], tangents[2, 2] = a_p, k * w_p + k_p * w, w_p
+        xi, a_q, (x, v, w), tangents = _start_on_fix_r(k, rho, q, rho_p, k_p)
     else:
-        depth = 0.5 * (rho * r) * (rho * r) / k
-        theta = nearby_root(guess[0], a, 0.0, 0.0, 0.0, depth) if tracked else _fall(a, depth)
-        out[TIMES] = theta
-        n_times = 1
-        total = theta
-        slope = gap(theta, a, 0.0, 0.0, 0.0, 1.0, quadrant(theta))[1]
-        x, v, w = landing(a, theta)
-        _, _, _, cosine, sine = gap(theta, 1.0, 0.0, 0.0, 0.0, 1.0, quadrant(theta))
-        depth_q = rho * r * rho * r_q / k
-        depth_p = rho * r * r * rho_p / k - k_p * depth / k
-        # f = -depth + t^2/2 + a (1 - cos t)
-        t_q = (depth_q - a_q * (1.0 - cosine)) / slope
-        t_n = sine / (k * slope)
-        t_p = (depth_p - a_p * (1.0 - cosine)) / slope
-        for j, (dx, dw, dt) in enumerate(
-            (
-                (a_q * cosine, a_q * sine, t_q),
-                (sine / k, -cosine / k, t_n),
-                (a_p * cosine, a_p * sine, t_p),
-            )
-        ):
-            tangents[j, 0], tangents[j, 1], tangents[j, 2] = dx - w * dt, dt, dw + x * dt
+        near = guess[0] if tracked else 0.0
+        xi, a_q, (x, v, w), tangents = _start_on_fix_rp(k, rho, q, rho_p, k_p, near)
+        times[0] = total = v  # where g = 1, the time of the fall
     lowest = v + w
-    out[PLACES], out[PLACES + 1] = a, 0.0
-    n_places = 1
-    for _ in range(half_length(line, period)):
+    points[0, 0], points[0, 1] = xi, 0.0
+    for i in range(1, maps + 1):
         if line == FIX_RP:
             b, c, s = rebound(v, w, k, coefficients)
-            _, _, _, apex, apex_rate = gap(-b, x, b, c, s, 1.0, quadrant(-b))
-            out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = apex, -k * apex_rate
-        near = guess[n_times] if tracked else 0.0
+            _, _, _, apex, rate = gap(-b, x, b, c, s)
+            points[i, 0], points[i, 1] = apex, -k * rate
+        near = guess[n] if tracked else 0.0
         x, v, w, tau = fly(x, v, w, k, k_p, coefficients, near, tangents)
         if line == FIX_R:
-            out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = x, v - k * w
-        n_places += 1
+            points[i, 0], points[i, 1] = x, v - k * w
+        times[n] = tau
+        n += 1
         total += tau
-        out[TIMES + n_times] = tau
-        n_times += 1
         lowest = min(lowest, v + w)
     exists = True
-    ends = np.empty((3, 2))  # derivatives of the end along its line and across it
-    if line == FIX_R and period % 2 == 0:
-        h, along = v - k * w, x
-        for j in range(3):
-            ends[j, 0], ends[j, 1] = tangents[j, 0], tangents[j, 1] - k * tangents[j, 2]
-        ends[2, 1] -= k_p * w
-    else:
-        b, c, s = rebound(v, w, k, coefficients)
-        t = -b
-        tau = first_impact(x, b, c, s, 1.0)[0]
-        exists = t > 0.0 and (t < tau or tracked)
-        _, _, _, along, rate = gap(t, x, b, c, s, 1.0, quadrant(t))
-        _, _, _, cosine, sine = gap(t, 1.0, 0.0, 0.0, 0.0, 1.0, quadrant(t))
-        more = k_p * 2.0 * s / ((1.0 + k) * (1.0 + k))
-        h = -k * rate
-        for j in range(3):
-            db, dc, _ = rebound(tangents[j, 1], tangents[j, 2], k, coefficients)
-            if j == 2:
-                db, dc = db - more, dc + more
-            dx = tangents[j, 0]
-            ends[j, 0] = cosine * dx - sine * dc + rate * db
-            ends[j, 1] = -k * (sine * dx + cosine * dc - along * db)
-        ends[2, 1] -= k_p * rate
+    if to_apex:
+        x_end, h, ends, t, reached = _end_at_apex(x, v, w, k, k_p, coefficients, tangents)
+        exists = reached or (tracked and t > 0.0)
+        times[n] = t
         total += t
-        out[TIMES + n_times] = t
-        n_times += 1
         if line == FIX_RP:
-            out[PLACES + 2 * n_places], out[PLACES + 2 * n_places + 1] = along, h
-    out[H], out[H_Q], out[H_P] = h, ends[0, 1], ends[2, 1]
-    out[A], out[B], out[C], out[D] = ends[0, 0] / a_q, ends[1, 0], ends[0, 1] / a_q, ends[1, 1]
-    out[XI], out[X_END], out[TIME], out[LOWEST_SPEED] = a, along, 2.0 * total, lowest
-    return exists
+            points[-1, 0], points[-1, 1] = x_end, h
+    else:
+        x_end, h = x, v - k * w
+        ends = np.column_stack((tangents[:, 0], tangents[:, 1] - k * tangents[:, 2]))
+        ends[2, 1] -= k_p * w
+    a, c, h_q = ends[0, 0] / a_q, ends[0, 1] / a_q, ends[0, 1]
+    b, d, h_p = ends[1, 0], ends[1, 1], ends[2, 1]
+    return HalfOrbit(exists, h, h_q, h_p, a, b, c, d, xi, x_end, 2.0 * total, lowest, times, points)
 
 
 @jit
-def maximum(t, x, b, c, s):
+def _maximum(t, x, b, c, s):
     """Return the time near t at which the gap has a maximum, by Newton's method."""
     for _ in range(50):
-        _, df, ddf, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
+        _, df, ddf, _, _ = gap(t, x, b, c, s)
         after = t - df / ddf
         if abs(after - t) <= 4e-16 * abs(t):
             return after
@@ -296,8 +341,37 @@ def maximum(t, x, b, c, s):
 
 
 @jit
-def flight_heights(x, v, w, k, depth, to_apex, times, near, out):
-    """Write the time and height of each flight's highest touch of the floor to out (flights, 2).
+def _highest_touch(x, b, c, s, tau, depth, to_apex):
+    """Return the time and height of the highest local maximum of the gap in a flight, or NaN.
+
+    The flight has the length tau, and the floor lies below its start by `depth`. With `to_apex` its
+    end counts too.
+    """
+    at, highest = math.nan, math.nan
+    if depth > 0.0 and 1.0 + x < 0.0:
+        at, highest = 0.0, -depth
+    steps = int(tau / 0.02) + 8
+    before = 0.0
+    for j in range(1, steps + 1):
+        t = tau * j / steps
+        _, df, _, _, _ = gap(t, x, b, c, s)
+        if before > 0.0 and df <= 0.0:
+            peak = _maximum(t - 0.5 * tau / steps, x, b, c, s)
+            if not 0.0 < peak < tau * (1.0 + 1e-9):
+                peak = t
+            height = gap(peak, x, b, c, s)[0] - depth
+            if not height <= highest:
+                at, highest = peak, height
+        before = df
+    f, _, ddf, _, _ = gap(tau, x, b, c, s)
+    if to_apex and ddf < 0.0 and not f - depth <= highest:
+        at, highest = tau, f - depth
+    return at, highest
+
+
+@jit
+def flight_heights(x, v, w, k, depth, to_apex, times, near):
+    """Return the time and height of each flight's highest touch of the floor as (flights, 2).
 
     The flights begin with the impact of the state (x, v, w), or at rest at a depth below which the
     floor lies, and have these `times`; if `to_apex`, the last one ends at its apex. The height is
@@ -306,33 +380,17 @@ def flight_heights(x, v, w, k, depth, to_apex, times, near, out):
     maximum are NaN.
     """
     coefficients = impact_coefficients(k)
+    heights = np.empty((times.size, 2))
     for i in range(times.size):
         b, c, s = rebound(v, w, k, coefficients)
         tau = times[i]
-        out[i, 0], out[i, 1] = math.nan, math.nan
         if near[i] > 0.0:
-            t = maximum(near[i], x, b, c, s)
-            out[i, 0], out[i, 1] = t, gap(t, x, b, c, s, 1.0, quadrant(t))[0] - depth
+            t = _maximum(near[i], x, b, c, s)
+            heights[i, 0], heights[i, 1] = t, gap(t, x, b, c, s)[0] - depth
         else:
-            if depth > 0.0 and 1.0 + x < 0.0:
-                out[i, 0], out[i, 1] = 0.0, -depth
-            steps = int(tau / 0.02) + 8
-            before = 0.0
-            for j in range(1, steps + 1):
-                t = tau * j / steps
-                _, df, _, _, _ = gap(t, x, b, c, s, 1.0, quadrant(t))
-                if before > 0.0 and df <= 0.0:
-                    peak = maximum(t - 0.5 * tau / steps, x, b, c, s)
-                    if not 0.0 < peak < tau * (1.0 + 1e-9):
-                        peak = t
-                    height = gap(peak, x, b, c, s, 1.0, quadrant(peak))[0] - depth
-                    if not height <= out[i, 1]:
-                        out[i, 0], out[i, 1] = peak, height
-                before = df
-            f, _, ddf, _, _ = gap(tau, x, b, c, s, 1.0, quadrant(tau))
-            at_apex = to_apex and i == times.size - 1
-            if at_apex and ddf < 0.0 and not f - depth <= out[i, 1]:
-                out[i, 0], out[i, 1] = tau, f - depth
-        _, _, _, p, rate = gap(tau, x, b, c, s, 1.0, quadrant(tau))
+            last = to_apex and i == times.size - 1
+            heights[i, 0], heights[i, 1] = _highest_touch(x, b, c, s, tau, depth, last)
+        _, _, _, p, rate = gap(tau, x, b, c, s)
         x, v, w = p, b + tau, max(rate, -(b + tau))
         depth = 0.0
+    return heights

@@ -14,9 +14,9 @@ from pseudorigid.dynamics import fixed_point
 
 from .curve import Place, Point, correct, solve_at, trace_both_ways
 from .families import Event, Family
-from .half_orbit import ENERGY, FIX_R, LOWEST_SPEED, A, C, D, scan
+from .half_orbit import ENERGY, FIX_R, scan
 from .search import Search
-from .symmetric import COLLAPSED, Orbits, Parameter, PeriodicOrbits
+from .symmetric import COLLAPSED, Parameter, PeriodicOrbits, SymmetricOrbits
 
 # Steps of the differences from which Newton's method takes the gradients.
 _STEP = 1e-6
@@ -38,14 +38,14 @@ class Start(NamedTuple):
     """An event of a family at one k."""
 
     line: int
-    entry: int  # of the derivatives: A, B, C or D
+    entry: str  # name of the derivative that vanishes: a, b, c or d of a HalfOrbit
     place: Place
 
 
 class Locus(PeriodicOrbits):
     """Orbits of one period at which an entry of their derivatives vanishes, as a `System`."""
 
-    def __init__(self, line: int, period: int, entry: int, limits: Limits):
+    def __init__(self, line: int, period: int, entry: str, limits: Limits):
         super().__init__(line, period, Parameter(ENERGY, math.nan, *limits.k))
         self.entry = entry
         self._energies = limits.energy
@@ -55,11 +55,11 @@ class Locus(PeriodicOrbits):
         q, rho, k = place
         if not (k > 0.0 and rho > 0.0):
             return None
-        orbits = Orbits(self.line, self.period, Parameter(ENERGY, k, 0.0, math.inf))
+        orbits = SymmetricOrbits(self.line, self.period, Parameter(ENERGY, k, 0.0, math.inf))
         point = orbits.point((q, rho))
         if point is None:
             return None
-        defect = point.defect[0], float(point.data[self.entry])
+        defect = point.defect[0], getattr(point.data, self.entry)
         return point._replace(place=place, defect=defect)
 
     def point(self, place: Place) -> Point | None:
@@ -68,13 +68,15 @@ class Locus(PeriodicOrbits):
         if not (place[2] > 0.0 and low <= energy_at(place) <= high):
             return None
         centre = self._orbit(place)
+        if centre is None:
+            return None
         columns = []
         for i in range(3):
             ahead, behind = (
                 self._orbit(tuple(z + step * (i == j) for j, z in enumerate(place)))
                 for step in (_STEP, -_STEP)
             )
-            if centre is None or ahead is None or behind is None:
+            if ahead is None or behind is None:
                 return None
             ends = zip(ahead.defect, behind.defect, strict=True)
             columns.append([(a - b) / (2.0 * _STEP) for a, b in ends])
@@ -95,7 +97,7 @@ def follow(period: int, start: Start, limits: Limits) -> list[Point]:
         return []
 
     def collapsed(point: Point) -> bool:
-        return system.separation(point) < COLLAPSED or point.data[LOWEST_SPEED] < _SLOW
+        return system.separation(point) < COLLAPSED or point.data.lowest_speed < _SLOW
 
     return trace_both_ways(system, first, collapsed)[0]
 
@@ -106,11 +108,9 @@ def lost_impact(k: float, period: int, rho: float) -> float:
     At this impact, on Fix R at the section's rim, the ball is at rest on the floor. NaN if there is
     no such orbit.
     """
-    out = np.empty((1, period + 1))
 
     def defect(value: float) -> float:
-        scan(FIX_R, k, value, _AT_REST, period, out)
-        return float(out[0, period])
+        return float(scan(FIX_R, k, value, _AT_REST, period)[0, period])
 
     last, here = rho * (1.0 + _STEP), rho
     at_last, at = defect(last), defect(here)
@@ -134,12 +134,12 @@ def chain_events(k: float, order: int) -> dict[str, Start]:
     rho = math.sqrt(1.0 + 2.0 * k * fixed_point.resonance(k, 1, order))
     parameter = Parameter(ENERGY, k, max(_REACH[0] * rho, 1e-3), _REACH[1] * rho)
     search = Search(parameter, order)
-    system = search.systems[1, FIX_R]
+    system = SymmetricOrbits(FIX_R, 1, parameter)
     x = fixed_point.place(k, fixed_point.half_time(k, parameter.energy(rho)))
     parent = solve_at(system, (system.position(rho, x), rho), _NEAR)
     if parent is None:
         return {}
-    search.add(1, FIX_R, parent)
+    search.add(system, parent)
     fixed = search.families[0]
     for event in list(fixed.events):
         if (event.kind, event.turns, event.order) == ("resonance", 1, order):
@@ -162,7 +162,7 @@ def chain_events(k: float, order: int) -> dict[str, Start]:
         starts["fold"] = _start(family, folds[-1], k)
     rims = [end.p for end in family.ends if end.kind == "rim"]
     if rims:
-        starts["rim"] = Start(family.line, -1, (-1.0, rims[0], k))
+        starts["rim"] = Start(family.line, "", (-1.0, rims[0], k))
     return starts
 
 
@@ -176,6 +176,7 @@ def _from_birth(family: Family) -> list[Event]:
 
 def _start(family: Family, event: Event, k: float) -> Start:
     """Return where to start following an event; a doubling is at a zero of A or of D."""
-    data = event.point.data
-    entry = C if event.kind == "fold" else min((A, D), key=lambda i: abs(float(data[i])))
+    half = event.point.data
+    at_doubling = "a" if abs(half.a) <= abs(half.d) else "d"
+    entry = "c" if event.kind == "fold" else at_doubling
     return Start(family.line, entry, (event.point.q, event.point.p, k))

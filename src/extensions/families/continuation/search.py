@@ -1,16 +1,17 @@
 """Search for all families: brute force on a grid, branch switching, parents and partners."""
 
-from collections.abc import Callable, Iterator
-from itertools import product
+from collections.abc import Iterator
 
 import numpy as np
 
-from .asymmetric import NO_LINE, AsymmetricOrbits
+from .asymmetric import AsymmetricOrbits
 from .curve import Point, at_parameter, solve_at
-from .families import End, Event, Family, follow
+from .families import End, Event, Family, OrbitSystem, follow
 from .half_orbit import FIX_R, FIX_RP
 from .starts import beyond_rim, beyond_touch, starts_beside
-from .symmetric import CELLS, Orbits, Parameter, lines, roots
+from .symmetric import CELLS, Parameter, SymmetricOrbits, lines, roots
+
+Start = tuple[OrbitSystem, Point]
 
 # Distances in the parameter's range at which branches are sought beside an event, and distances in
 # q from the parent's point between which they are.
@@ -25,50 +26,42 @@ _GRID = (2.0 * np.arange(CELLS) + 1.0) / CELLS - 1.0  # positions on a symmetry 
 
 
 class Search:
-    """All families that brute force on a grid of the parameter and branch switching find.
-
-    A system of orbits is named by its period and its line, which is NO_LINE for orbits without
-    symmetry.
-    """
+    """All families that brute force on a grid of the parameter and branch switching find."""
 
     def __init__(self, parameter: Parameter, longest: int):
         self.parameter, self.longest = parameter, longest
-        self.systems: dict[tuple[int, int], Orbits | AsymmetricOrbits] = {}
-        for period in range(1, longest + 1):
-            for line in lines(period):
-                self.systems[period, line] = Orbits(line, period, parameter)
-            self.systems[period, NO_LINE] = AsymmetricOrbits(period, parameter)
         self.families: list[Family] = []
-        self.starts: list[tuple[int, int, float, float]] = []  # of each symmetric family
+        self.starts: list[tuple[int, int, float, float]] = []  # period, line, q, p of each family
         self._curves: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     def resume(self, starts: list[tuple[int, int, float, float]]) -> None:
-        """Follow the families again of which an earlier search kept the starts."""
+        """Follow the symmetric families again of which an earlier search kept the starts."""
         for period, line, q, p in starts:
-            point = self.systems[period, line].point((q, p))
+            system = SymmetricOrbits(line, period, self.parameter)
+            point = system.point((q, p))
             if point is None:
                 raise ValueError("the starts are not those of this search")
-            self._append(follow(self.systems[period, line], point, self.longest), point)
+            self._append(follow(system, point, self.longest), point)
 
-    def add(self, period: int, line: int, point: Point) -> None:
+    def add(self, system: OrbitSystem, point: Point) -> None:
         """Follow the family of a solution unless a known family holds it."""
-        if self.held(period, line, point):
+        if self.held(system, point):
             return
-        family = follow(self.systems[period, line], point, self.longest)
+        family = follow(system, point, self.longest)
         # Next to its end at a shorter orbit a known family has no points; farther away it has.
-        middle = family.points[len(family.points) // 2]
-        if not self.held(period, line, middle):
+        if not self.held(system, family.points[len(family.points) // 2]):
             self._append(family, point)
 
-    def held(self, period: int, line: int, point: Point) -> bool:
-        """Return whether a family holds a solution."""
+    def held(self, system: OrbitSystem, point: Point) -> bool:
+        """Return whether any known family holds a solution."""
         return any(
-            (family.period, family.line) == (period, line) and self._holds(family, point)
+            (family.period, family.line) == (system.period, system.line)
+            and self._holds(family, point)
             for family in self.families
         )
 
     def _holds(self, family: Family, point: Point) -> bool:
-        """Return whether a family holds a solution.
+        """Return whether one family holds a solution.
 
         Its place is solved for only on those parts of the curve that come near the solution.
         """
@@ -79,7 +72,8 @@ class Search:
             low, high = places[i : i + 2].min(axis=0), places[i : i + 2].max(axis=0)
             margin = _MARGIN + (high - low)
             if np.any((low - margin < point.q) & (point.q < high + margin)):
-                at = at_parameter(family.system, *family.points[i : i + 2], point.p)
+                first, last = family.points[i : i + 2]
+                at = at_parameter(family.system, first, last, point.p)
                 if at is not None and family.system.same(at, point):
                     return True
         return False
@@ -110,113 +104,28 @@ class Search:
                     self.add(*start)
             yield done
 
-    def complete(self, report: Callable[[int], None] = lambda done: None) -> None:
+    def complete(self) -> Iterator[int]:
         """Add families that branch off or go on beyond a grazing, and name all ends.
 
-        `report` is called with the number of families done, of a growing list.
+        Yields the number of families done, of a growing list.
 
         Families without symmetry branch off at pitchforks of symmetric ones, and at period
         doublings and resonances of each other, and go on with one impact more or less where one
         grazes.
         """
         for done, family in enumerate(self.families):  # the list grows
-            report(done)
+            yield done
             self._add_branches(family, "resonance", "doubling")
-            for end in family.ends:
-                if end.kind in ("rim", "touch"):
-                    self._go_on(family, end)
+            for end in family.grazings:
+                self._go_on(family, end)
         for family in list(self.families):
             self._add_branches(family, "pitchfork")
         for done, family in enumerate(self.families):
-            report(done)
-            if family.line == NO_LINE:
+            yield done
+            if not family.symmetric:
                 self._add_branches(family, "resonance", "doubling")
-            for end in family.ends:
-                if end.kind in ("rim", "touch"):
-                    self._go_on_without_symmetry(family, end)
-        self._link()
-
-    def _add_branches(self, family: Family, *kinds: str) -> None:
-        for event in family.events:
-            if event.kind in kinds:
-                for start in self.branches(family, event):
-                    self.add(*start)
-
-    def branches(self, family: Family, event: Event) -> list[tuple[int, int, Point]]:
-        """Return (period, line, point) of the orbits next to an event that branch off there."""
-        period = family.period * event.order
-        if period > self.longest:
-            return []
-        if event.kind == "pitchfork" or family.line == NO_LINE:
-            starts = starts_beside(self.systems[period, NO_LINE], family.system, event)
-            return [(period, NO_LINE, start) for start in starts]
-        found = []
-        for p in self._levels_beside(event.point.p):
-            near = solve_at(family.system, (event.point.q, p), 0.05)
-            if near is None:  # past a fold of the parent
-                near = event.point
-            for line, q in family.system.symmetric_points(near):
-                found += self._beside(period, line, q, p)
-        return found
-
-    def _go_on(self, family: Family, end: End) -> None:
-        """Add the symmetric families that go on where an impact of this one grazes."""
-        if any(self._meet(family, end, *other) for other in self._grazing_ends()):
-            return
-        longer = end.kind == "touch"
-        rounds = range(1, self.longest // family.period + 1) if longer else (1,)
-        periods = [
-            n
-            for r in rounds
-            for less in range(1, 2 * r + 1)
-            for n in ((r * family.period + less,) if longer else (family.period - less,))
-            if 1 <= n <= self.longest
-        ]
-        for line, q in family.system.symmetric_points(end.point):
-            # At rest on the floor an orbit passes from one line to the other.
-            sides = (FIX_R, FIX_RP) if abs(q) > _AT_REST else (line,)
-            for p in self._levels_beside(end.p):
-                for period, side in product(dict.fromkeys(periods), sides):
-                    for start in self._beside(period, side, q, p):
-                        self.add(*start)
-
-    def _go_on_without_symmetry(self, family: Family, end: End) -> None:
-        """Add the families without symmetry that go on where an impact of this one grazes."""
-        period = family.period + (1 if end.kind == "touch" else -1)
-        if not 1 <= period <= self.longest:
-            return
-        for other in self._grazing_ends():
-            if NO_LINE in (family.line, other[0].line) and self._meet(family, end, *other):
-                return
-        system, starts = self.systems[period, NO_LINE], []
-        last = family.points[0 if end is family.ends[0] else -1]
-        if end.kind == "touch":
-            place = family.system.first_place(last)
-            starts = beyond_touch(system, place, symmetric=family.line != NO_LINE)
-        elif family.line == NO_LINE:
-            starts = beyond_rim(system, family.system, last, self._levels_beside(end.p))
-        for start in starts:
-            self.add(period, NO_LINE, start)
-
-    def _levels_beside(self, p: float) -> list[float]:
-        """Return parameters on both sides of one, within the range."""
-        low, high = self.parameter.low, self.parameter.high
-        beside = (p + sign * part * (high - low) for part in _BESIDE for sign in (-1.0, 1.0))
-        return [value for value in beside if low < value < high]
-
-    def _beside(self, period: int, line: int, q: float, p: float) -> list[tuple[int, int, Point]]:
-        """Return (period, line, point) of the orbits on both sides of a point of a line."""
-        if line not in lines(period):
-            return []
-        grids = (q + _OFFSETS, q - _OFFSETS)
-        return [
-            start
-            for grid in grids
-            for start in roots(self.parameter, p, line, grid[np.abs(grid) < 1.0], [period])
-        ]
-
-    def _link(self) -> None:
-        """Name the parents of families that begin at an event of another one, and partners."""
+            for end in family.grazings:
+                self._go_on_without_symmetry(family, end)
         for family in self.families:
             for end in family.ends:
                 if end.kind == "collapse":
@@ -226,45 +135,118 @@ class Search:
                 if end.kind == "rim":
                     self._name_partner(family, end)
 
+    def _add_branches(self, family: Family, *kinds: str) -> None:
+        for event in family.events:
+            if event.kind in kinds:
+                for start in self.branches(family, event):
+                    self.add(*start)
+
+    def branches(self, family: Family, event: Event) -> list[Start]:
+        """Return the orbits next to an event that branch off there."""
+        period = family.period * event.order
+        if period > self.longest:
+            return []
+        if event.kind == "pitchfork" or not family.symmetric:
+            system = AsymmetricOrbits(period, self.parameter)
+            return [(system, start) for start in starts_beside(system, family.system, event)]
+        found: list[Start] = []
+        for p in self._levels_beside(event.point.p):
+            near = solve_at(family.system, (event.point.q, p), 0.05)
+            if near is None:  # past a fold of the parent
+                near = event.point
+            for line, q in family.system.symmetric_points(near):
+                found += self._beside(period, line, q, p)
+        return found
+
+    def _go_on(self, family: Family, end: End) -> None:
+        """Add the symmetric families beyond a symmetric one's end at which an impact grazes."""
+        if any(self._meet(family, end, *other) for other in self._grazing_ends()):
+            return
+        if end.kind == "touch":  # one or two more impacts in each of several rounds
+            rounds = range(1, self.longest // family.period + 1)
+            periods = [r * family.period + more for r in rounds for more in range(1, 2 * r + 1)]
+        else:
+            periods = [family.period - 1, family.period - 2]
+        periods = [n for n in dict.fromkeys(periods) if 1 <= n <= self.longest]
+        for line, q in family.system.symmetric_points(end.point):
+            # At rest on the floor an orbit passes from one line to the other.
+            sides = (FIX_R, FIX_RP) if abs(q) > _AT_REST else (line,)
+            for p in self._levels_beside(end.p):
+                for period in periods:
+                    for side in sides:
+                        for start in self._beside(period, side, q, p):
+                            self.add(*start)
+
+    def _go_on_without_symmetry(self, family: Family, end: End) -> None:
+        """Add the families without symmetry beyond an end at which an impact grazes."""
+        period = family.period + (1 if end.kind == "touch" else -1)
+        if not 1 <= period <= self.longest:
+            return
+        for other in self._grazing_ends():
+            one_without = not (family.symmetric and other[0].symmetric)
+            if one_without and self._meet(family, end, *other):
+                return
+        system, starts = AsymmetricOrbits(period, self.parameter), []
+        last = family.points[0 if end is family.ends[0] else -1]
+        if end.kind == "touch":
+            starts = beyond_touch(system, family.system.first_place(last), family.symmetric)
+        elif not family.symmetric:
+            starts = beyond_rim(system, last, self._levels_beside(end.p))
+        for start in starts:
+            self.add(system, start)
+
+    def _levels_beside(self, p: float) -> list[float]:
+        """Return parameters on both sides of one, within the range."""
+        low, high = self.parameter.low, self.parameter.high
+        beside = (p + sign * part * (high - low) for part in _BESIDE for sign in (-1.0, 1.0))
+        return [value for value in beside if low < value < high]
+
+    def _beside(self, period: int, line: int, q: float, p: float) -> list[Start]:
+        """Return the symmetric orbits of a period on both sides of a point of a line."""
+        if line not in lines(period):
+            return []
+        return [
+            start
+            for grid in (q + _OFFSETS, q - _OFFSETS)
+            for start in roots(self.parameter, p, line, grid[np.abs(grid) < 1.0], [period])
+        ]
+
     def _name_parent(self, family: Family, end: End) -> None:
-        """Find the event of a shorter or more symmetric orbit at which a family ends."""
+        """Name the event of a shorter or more symmetric orbit at which a family ends."""
         origins = [item for item in self._origins(family, end) if item[0] < _NEAR_EVENT]
         end.kind = "unresolved"
         if origins:
-            _, parent, event, q = min(origins, key=lambda item: item[0])
-            end.kind, end.family = event.kind, parent.number
+            _, parent, event = min(origins, key=lambda item: item[0])
+            end.kind, end.family, end.p = event.kind, parent.number, event.point.p
             end.turns, end.order = event.turns, event.order
-            end.p, end.q = event.point.p, q
 
-    def _origins(self, family: Family, end: End) -> Iterator[tuple[float, Family, Event, float]]:
-        """Yield how far events are at which a family may end, their families, they, and their q."""
+    def _origins(self, family: Family, end: End) -> Iterator[tuple[float, Family, Event]]:
+        """Yield how far events are at which a family may end, their families and the events."""
         period = family.system.shorter(end.point)
         at_pitchfork = period == family.period
-        symmetric = family.line != NO_LINE
         for parent in self.families:
-            if (parent.period, parent.line != NO_LINE) != (period, symmetric or at_pitchfork):
+            if (parent.period, parent.symmetric) != (period, family.symmetric or at_pitchfork):
                 continue
             for event in parent.events:
                 if event.order != family.period // period:
                     continue
                 away = abs(event.point.p - end.p) / (self.parameter.high - self.parameter.low)
-                if symmetric:
+                if family.symmetric:
                     for line, q in parent.system.symmetric_points(event.point):
                         if line == family.line:
-                            yield away + abs(q - end.q), parent, event, q
+                            yield away + abs(q - end.point.q), parent, event
                 elif not at_pitchfork or event.kind == "pitchfork":
-                    time = event.order * parent.system.time(event.point)
-                    q = parent.system.first_place(event.point)[0] if at_pitchfork else end.q
-                    yield away + abs(time - family.system.time(end.point)), parent, event, q
+                    time = event.order * event.point.data.time
+                    yield away + abs(time - end.point.data.time), parent, event
 
     def _grazing_ends(self) -> Iterator[tuple[Family, End]]:
-        """Yield the ends at which an impact grazes."""
+        """Yield the ends of all families at which an impact grazes."""
         for family in self.families:
-            yield from ((family, end) for end in family.ends if end.kind in ("rim", "touch"))
+            yield from ((family, end) for end in family.grazings)
 
     @staticmethod
     def _meet(first: Family, end: End, second: Family, other: End) -> int:
-        """Return in how many rounds of the shorter of two orbits they meet, 0 if they do not.
+        """Return in how many rounds of the shorter orbit two grazing ends meet, 0 if they do not.
 
         One of them touches the floor in a flight where an impact of the other one grazes. Without
         its grazing impacts the longer orbit is the shorter one, traversed once or, where it grazes
@@ -278,17 +260,17 @@ class Search:
             return 0
         for rounds in range(1, first.period // second.period + 1):
             grazing_impacts = first.period - rounds * second.period
-            time = first.system.time(end.point) - rounds * second.system.time(other.point)
+            time = end.point.data.time - rounds * other.point.data.time
             if 1 <= grazing_impacts <= 2 * rounds and abs(time) < _NEAR_TIME:
                 return rounds
         return 0
 
     def _name_partner(self, family: Family, end: End) -> None:
-        """Find the family whose flight touches the floor where an impact of this one grazes."""
+        """Name the family whose flight touches the floor where an impact of this one grazes."""
         for other, touch in self._grazing_ends():
             rounds = self._meet(family, end, other, touch)
             if rounds:
                 end.family, end.p = other.number, touch.p
-                if rounds == 1 and (family.line == NO_LINE) == (other.line == NO_LINE):
+                if rounds == 1 and family.symmetric == other.symmetric:
                     touch.family = family.number
                 return

@@ -1,17 +1,18 @@
 """Starts of families without symmetry: beside events of other ones, and beyond grazings."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from pseudorigid.kernel.arithmetic import quadrant, sincos
-from pseudorigid.kernel.flight import gap
+from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.impact import impact_coefficients, rebound
 
-from .asymmetric import FLIGHTS, POINTS, ROOM, TOTAL, AsymmetricOrbits, evaluate_orbit, state_at
+from .asymmetric import AsymmetricOrbits, evaluate_orbit, state_at
 from .curve import Place, Point, correct, cramer, dot, tangent
-from .families import FAR, Event
-from .symmetric import COLLAPSED, NO_GUESS, Orbits
+from .families import FAR, Event, OrbitSystem
+from .half_orbit import gap
+from .symmetric import COLLAPSED, NO_GUESS, Parameter
 
 _ASIDE = 3e-3  # distance from an event, in section radii, at which its branch is entered
 _FARTHER = 1.0, 3.0, 9.0  # that distance at resonances, in this unit
@@ -27,44 +28,42 @@ _ASTRAY = 0.05  # longest Newton step towards an orbit without a slow impact, in
 Vector = tuple[float, float]
 
 
-def starts_beside(
-    system: AsymmetricOrbits, parent: Orbits | AsymmetricOrbits, event: Event
-) -> list[Point]:
+def starts_beside(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
     """Return orbits of a system beside the event of another one at which they branch off."""
     if event.kind == "pitchfork":
         return _beside_pitchfork(system, parent, event)
     return (_beside_doubling if event.kind == "doubling" else _beside_resonance)(system, event)
 
 
-def _beside_pitchfork(system: AsymmetricOrbits, parent: Orbits, event: Event) -> list[Point]:
-    """Return an orbit without symmetry beside a pitchfork of a symmetric one."""
-    point = system.point(parent.first_place(event.point))
-    if point is None:
-        return []
-    # Start at the orbit's point that is farthest from the rim, where derivatives are bounded.
-    point = system.point((*system.innermost(point), event.point.p))
+def _beside_pitchfork(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
+    """Return the orbit that branches off at a pitchfork of a symmetric one, a small way aside."""
+    point = _innermost(system, system.point(parent.first_place(event.point)))
     if point is None:
         return []
     (a, b, _), (c, d, _) = point.gradients
     return _aside(system, point.place, _kernel(a, b, c, d), _ASIDE, _ASIDE)
 
 
+def _innermost(system: AsymmetricOrbits, point: Point | None) -> Point | None:
+    """Return an orbit from its point farthest from the rim, where derivatives are bounded."""
+    return system.point((*system.innermost(point), point.p)) if point is not None else None
+
+
 def _beside_doubling(system: AsymmetricOrbits, event: Event) -> list[Point]:
-    """Return orbits of twice the period beside a period doubling."""
-    a, c, b, d = event.point.data[:4].tolist()  # of P^n
-    across = _kernel(a + 1.0, b, c, d + 1.0)
-    return _aside(system, event.point.place, across, _ASIDE, _ASIDE)
+    """Return the orbit that branches off at a period doubling, a small way aside."""
+    (a, c), (b, d), _ = event.point.data.derivatives.tolist()  # of P^n
+    return _aside(system, event.point.place, _kernel(a + 1.0, b, c, d + 1.0), _ASIDE, _ASIDE)
 
 
 def _kernel(a: float, b: float, c: float, d: float) -> Vector:
-    """Return a vector of which a singular matrix makes nothing."""
+    """Return a null vector of the singular matrix with the rows (a, b) and (c, d)."""
     return (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
 
 
 def _aside(
     system: AsymmetricOrbits, place: Place, across: Vector, distance: float, reach: float
 ) -> list[Point]:
-    """Return the orbit beside a place in a direction, unless it is a more symmetric one."""
+    """Return the orbit at a distance from a place in a direction, unless it is more symmetric."""
     size = math.sqrt(dot(across, across))
     if not 0.0 < size < math.inf:
         return []
@@ -82,7 +81,7 @@ def _beside_resonance(system: AsymmetricOrbits, event: Event) -> list[Point]:
     parameter is chosen so that P^n brings the point back to its ray. Between two points that P^n
     moves in opposite directions along their rays is an orbit.
     """
-    a, c = event.point.data[:2].tolist()  # of the parent's map
+    a, c = event.point.data.derivatives[0].tolist()  # of the parent's map
     sine, cosine = sincos(2.0 * math.pi * event.turns / event.order)
     conjugate = (a - cosine) / sine, c / sine
     size = _ASIDE / math.sqrt(1.0 + dot(conjugate, conjugate))
@@ -115,8 +114,8 @@ def _moved_outward(
         at_y = y + (p - parent.p) * drift[1] + outward[1]
         if not at_x * at_x + at_y * at_y < 1.0:
             return None
-        data, (dx, dy) = system.tracked((at_x, at_y, p), NO_GUESS)
-        a, c, b, d, x_p, y_p = data[:TOTAL].tolist()
+        whole, (dx, dy) = system.tracked((at_x, at_y, p), NO_GUESS)
+        (a, c), (b, d), (x_p, y_p) = whole.derivatives.tolist()
         x_p += (a - 1.0) * drift[0] + b * drift[1]
         y_p += c * drift[0] + (d - 1.0) * drift[1]
         turned = (outward[0] * dy - outward[1] * dx) / wedge
@@ -131,109 +130,143 @@ def _moved_outward(
     return None
 
 
-def _entered(system: AsymmetricOrbits, place: Place) -> Point | None:
-    """Return the orbit next to a place, at its point that is farthest from the rim, or None."""
+def _entered(system: AsymmetricOrbits, place: Place) -> list[Point]:
+    """Return the orbit next to a place, if any, starting at its point farthest from the rim."""
     point = system.point(place)
     if point is None or not max(map(abs, point.defect)) < FAR:
-        return None
-    point = system.point((*system.innermost(point), place[2]))
-    along = tangent(system, point) if point is not None else (math.nan,)
+        return []
+    point = _innermost(system, point)
+    if point is None:
+        return []
+    along = tangent(system, point)
     if not all(map(math.isfinite, along)):
-        return None
+        return []
     start = correct(system, point.place, along, FAR)
-    return start if start is not None and system.separation(start) > COLLAPSED else None
+    return [start] if start is not None and system.separation(start) > COLLAPSED else []
 
 
-def beyond_rim(
-    system: AsymmetricOrbits, longer: AsymmetricOrbits, point: Point, levels: list[float]
-) -> list[Point]:
+def beyond_rim(system: AsymmetricOrbits, longer: Point, levels: list[float]) -> list[Point]:
     """Return orbits that lack the slowest impact of a longer one, at values of the parameter."""
-    period, points = system.period, longer.orbit(point.data)
+    points, times = longer.data.points[:-1], longer.data.times
     slowest = int(np.argmax(np.sum(points * points, axis=1)))
-    place = points[(slowest + 1) % longer.period]
-    times = np.roll(longer.times(point.data), -slowest - 1)
-    times = np.append(times[: period - 1], times[period - 1] + times[period])
+    x, y = points[(slowest + 1) % len(points)].tolist()
+    *times, before, after = np.roll(times, -slowest - 1)
+    times = np.array([*times, before + after])
     found = []
     for p in levels:
-        x, y = place.tolist()
+        place = _with_flight_times(system, (x, y, p), times)
+        if place is not None:
+            found += _entered(system, place)
+    return found
+
+
+def _with_flight_times(system: AsymmetricOrbits, place: Place, times: np.ndarray) -> Place | None:
+    """Return the place of the orbit with about these times of flight at a parameter, or None."""
+    x, y, p = place
+    for _ in range(_STEPS_BEYOND):
+        if not x * x + y * y < 1.0:
+            return None
+        whole, defect = system.tracked((x, y, p), times)
+        (a, c), (b, d), _ = whole.derivatives.tolist()
+        step = cramer([(a - 1.0, b), (c, d - 1.0)], defect)
+        if step is None:
+            return None
+        x, y = x + step[0], y + step[1]
+        size = max(map(abs, step))
+        if size < 1e-10:
+            return x, y, p
+        if not size < _ASTRAY:
+            return None
+    return None
+
+
+class _Touch(NamedTuple):
+    """A flight that touches the floor, in which an orbit nearby has another, slow impact.
+
+    Where this impact is slow its point is next to the section's rim. From there n - 1 impacts
+    ahead, and one impact back in time, must lead to the same point: both depend smoothly on the
+    contact speed, although P^n does not.
+    """
+
+    parameter: Parameter
+    rim: Vector  # the point of the rim at the touch
+    times: np.ndarray  # (n - 1,) of the flights from the touch on
+    before: float  # time from the last impact to the touch
+
+    def point(self, turn: float, speed: float) -> Vector:
+        """Return the point at an angle from the touch, with a contact speed over the largest."""
+        size = math.sqrt((1.0 - speed) * (1.0 + speed)) / (1.0 + turn * turn)
+        cosine, sine = size * (1.0 - turn) * (1.0 + turn), size * 2.0 * turn
+        x, y = self.rim
+        return cosine * x - sine * y, cosine * y + sine * x
+
+    def mismatch(self, turn: float, p: float, speed: float) -> Vector:
+        """Return by how much the ways ahead and back from the slow impact miss each other."""
+        x, y = self.point(turn, speed)
+        kind, (k, rho) = self.parameter.kind, self.parameter.k_and_rho(p)
+        ahead = evaluate_orbit(self.times.size, kind, k, rho, x, y, self.times)
+        back = evaluate_orbit(1, kind, k, rho, x, -y, np.array([self.before]))
+        (x, y), (back_x, back_y) = ahead.points[-1].tolist(), back.points[-1].tolist()
+        return x - back_x, y + back_y
+
+    def solved(self, p: float, speed: float) -> tuple[float, float] | None:
+        """Return angle and parameter, next to a given one, at which both ways meet, or None."""
+        turn = 0.0
         for _ in range(_STEPS_BEYOND):
-            if not x * x + y * y < 1.0:
-                break
-            data, defect = system.tracked((x, y, p), times)
-            a, c, b, d = data[:4].tolist()
-            step = cramer([(a - 1.0, b), (c, d - 1.0)], defect)
+            x, y = self.mismatch(turn, p, speed)
+            x1, y1 = self.mismatch(turn + _DIFFERENCE, p, speed)
+            x2, y2 = self.mismatch(turn, p * (1.0 + _DIFFERENCE), speed)
+            step = cramer([(x1 - x, x2 - x), (y1 - y, y2 - y)], (x, y))
             if step is None:
-                break
-            x, y = x + step[0], y + step[1]
-            if not max(map(abs, step)) < _ASTRAY:
-                break
-            if max(map(abs, step)) < 1e-10:
-                found.append(_entered(system, (x, y, p)))
-                break
-    return [start for start in found if start is not None]
+                return None
+            turn, p = turn + _DIFFERENCE * step[0], p * (1.0 + _DIFFERENCE * step[1])
+            if not (abs(turn) < 0.1 and self.parameter.low < p < self.parameter.high):
+                return None
+            if sum(map(abs, step)) < 1.0:
+                return turn, p
+        return None
 
 
 def beyond_touch(system: AsymmetricOrbits, place: Place, symmetric: bool) -> list[Point]:
     """Return orbits with one impact more than one that touches the floor, next to the touch.
 
     `place` is on a touching orbit of period n - 1, where n is the period of `system`. A symmetric
-    orbit must touch the floor in two flights. Where the new impact is slow, its point is next to
-    the section's rim. From there n - 1 impacts ahead, and one impact back in time, must lead to the
-    same point: both depend smoothly on the contact speed, although P^n does not.
+    orbit must touch the floor in two flights.
     """
-    period, kind = system.period - 1, system.parameter.kind
-    out, back = np.empty(ROOM), np.empty(ROOM)
-    k, rho = system.parameter.k_and_rho(place[2])
-    evaluate_orbit(period, kind, k, rho, *place[:2], NO_GUESS, out)
-    times = out[FLIGHTS : FLIGHTS + period].copy()
-    points = out[POINTS : POINTS + 2 * period].reshape(-1, 2).tolist()
-    heights = system.heights(place, times, np.full(period, np.nan))
-    (flights,) = np.nonzero(heights[:, 1] > -FAR)
-    if flights.size < (2 if symmetric else 1):
+    touch = _touch(system, place, 2 if symmetric else 1)
+    if touch is None:
         return []
-    flight = int(flights[0])
-    at = float(heights[flight, 0])
-    unit = _rim_point(k, rho, *points[flight], at)
-    ahead = np.roll(times, -flight)
-    ahead[0] -= at
-
-    def on_rim(turn: float, speed: float) -> tuple[float, float]:
-        size = math.sqrt((1.0 - speed) * (1.0 + speed)) / (1.0 + turn * turn)
-        cosine, sine = size * (1.0 - turn) * (1.0 + turn), size * 2.0 * turn
-        return cosine * unit[0] - sine * unit[1], cosine * unit[1] + sine * unit[0]
-
-    def mismatch(turn: float, p: float, speed: float) -> tuple[float, float]:
-        x, y = on_rim(turn, speed)
-        k, rho = system.parameter.k_and_rho(p)
-        evaluate_orbit(period, kind, k, rho, x, y, ahead, out)
-        evaluate_orbit(1, kind, k, rho, x, -y, np.array([at]), back)
-        x, y = out[POINTS + 2 * period : POINTS + 2 * period + 2].tolist()
-        return x - float(back[POINTS + 2]), y + float(back[POINTS + 3])
-
     found = []
     for speed in _SPEEDS:
-        turn, p = 0.0, place[2]
-        for _ in range(_STEPS_BEYOND):
-            x, y = mismatch(turn, p, speed)
-            x1, y1 = mismatch(turn + _DIFFERENCE, p, speed)
-            x2, y2 = mismatch(turn, p * (1.0 + _DIFFERENCE), speed)
-            step = cramer([(x1 - x, x2 - x), (y1 - y, y2 - y)], (x, y))
-            if step is None:
-                break
-            turn, p = turn + _DIFFERENCE * step[0], p * (1.0 + _DIFFERENCE * step[1])
-            if not (abs(turn) < 0.1 and system.limits[0] < p < system.limits[1]):
-                break
-            if sum(map(abs, step)) < 1.0:
-                found.append(_entered(system, (*on_rim(turn, speed), p)))
-                break
-    return [start for start in found if start is not None]
+        solution = touch.solved(place[2], speed)
+        if solution is not None:
+            turn, p = solution
+            found += _entered(system, (*touch.point(turn, speed), p))
+    return found
 
 
-def _rim_point(k: float, rho: float, at_x: float, at_y: float, t: float) -> tuple[float, float]:
+def _touch(system: AsymmetricOrbits, place: Place, least: int) -> _Touch | None:
+    """Return the first touch of the orbit from a place; None if it has fewer than `least`."""
+    at_x, at_y, p = place
+    k, rho = system.parameter.k_and_rho(p)
+    orbit = evaluate_orbit(system.period - 1, system.parameter.kind, k, rho, at_x, at_y, NO_GUESS)
+    heights = system.heights(place, orbit.times, np.full(orbit.times.size, np.nan))
+    (flights,) = np.nonzero(heights[:, 1] > -FAR)
+    if flights.size < least:
+        return None
+    flight = int(flights[0])
+    before = float(heights[flight, 0])
+    x, y = orbit.points[flight].tolist()
+    times = np.roll(orbit.times, -flight)
+    times[0] -= before
+    return _Touch(system.parameter, _rim_point(k, rho, x, y, before), times, before)
+
+
+def _rim_point(k: float, rho: float, at_x: float, at_y: float, t: float) -> Vector:
     """Return the point of the rim where the flight from (X, Y) touches the floor after a time."""
     x, v, w = state_at(k, rho, at_x, at_y)
     b, c, s = rebound(v, w, k, impact_coefficients(k))
-    position = gap(t, x, b, c, s, 1.0, quadrant(t))[3]
+    _, _, _, position, _ = gap(t, x, b, c, s)
     X = (k * position - 1.0) / rho
     Y = (1.0 + k) * (b + t) / (rho * math.sqrt((1.0 + k) / k))
     size = math.sqrt(X * X + Y * Y)

@@ -1,7 +1,8 @@
 """Symmetric periodic orbits as zeros of a function of a position and a parameter."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -11,23 +12,10 @@ from .half_orbit import (
     ENERGY,
     FIX_R,
     FIX_RP,
-    H_P,
-    H_Q,
-    LOWEST_SPEED,
-    PLACES,
-    SIZE,
-    TIME,
-    TIMES,
-    X_END,
-    XI,
-    A,
-    B,
-    C,
-    D,
-    H,
+    HalfOrbit,
+    ends_at_apex,
     evaluate,
     flight_heights,
-    half_length,
     landing,
     line_state,
     scan,
@@ -76,28 +64,14 @@ def lines(period: int) -> tuple[int, ...]:
 class PeriodicOrbits:
     """Orbits of one period, as a `System` of `curve`: what symmetric and other ones share."""
 
-    # Parts of a point's data: the total time, the lowest contact speed, and the times of flight.
-    total_time: int
-    lowest_speed: int
-    flights: slice
+    # Kinds of event, and functions of a point that change their sign there.
+    monitors: Sequence[tuple[str, Callable[[Point], float]]]
 
     def __init__(self, line: int, period: int, parameter: Parameter):
         self.line, self.period, self.parameter = line, period, parameter
         self.limits = parameter.low, parameter.high
         self.scale = parameter.high - parameter.low
         self.divisors = [d for d in range(1, period) if period % d == 0]
-
-    def time(self, point: Point) -> float:
-        """Return the total time of the orbit."""
-        return float(point.data[self.total_time])
-
-    def speed(self, point: Point) -> float:
-        """Return the lowest contact speed, in units where g = 1."""
-        return float(point.data[self.lowest_speed])
-
-    def times(self, data: np.ndarray) -> np.ndarray:
-        """Return the times of flight in a point's data."""
-        return data[self.flights].copy()
 
     def separation(self, point: Point) -> float:
         """Return how far the orbit is from a shorter or more symmetric one, in section radii."""
@@ -110,73 +84,62 @@ class PeriodicOrbits:
         return next(near, self.period)
 
 
-class Orbits(PeriodicOrbits):
+class SymmetricOrbits(PeriodicOrbits):
     """Symmetric orbits of one period from one symmetry line. A place is (q, parameter)."""
 
-    total_time, lowest_speed = TIME, LOWEST_SPEED
+    monitors = (
+        ("fold", attrgetter("data.c")),
+        ("pitchfork", attrgetter("data.b")),
+        ("doubling", attrgetter("data.a")),
+        ("doubling", attrgetter("data.d")),
+    )
 
-    def __init__(self, line: int, period: int, parameter: Parameter):
-        super().__init__(line, period, parameter)
-        flights = half_length(line, period) + line + (1 if period % 2 else line)
-        self.flights = slice(TIMES, TIMES + flights)
-        self._places = slice(PLACES, PLACES + 2 * (period // 2 + 1))
+    def _evaluate(self, place: Place, times: np.ndarray = NO_GUESS) -> HalfOrbit:
+        """Return the half orbit at a place, with about these times of flight if they are given."""
+        q, p = place
+        k, rho = self.parameter.k_and_rho(p)
+        return evaluate(self.line, self.period, self.parameter.kind, k, rho, q, times)
 
     def point(self, place: Place) -> Point | None:
         """Return the half orbit at a position and parameter, or None where there is none."""
         q, p = place
         if not (-1.0 < q < 1.0 and p > 0.0):
             return None
-        k, rho = self.parameter.k_and_rho(p)
-        out = np.empty(SIZE)
-        if not evaluate(self.line, self.period, self.parameter.kind, k, rho, q, NO_GUESS, out):
+        half = self._evaluate(place)
+        if not half.exists:
             return None
-        a, b, c, d = out[A : A + 4].tolist()
-        ratio = math.sqrt(k * (1.0 + k))  # y/x of the section
-        b, c = b * ratio, c / ratio
-        size = math.sqrt(a * a + b * b + c * c + d * d)
-        guard = np.concatenate(([a / size, b / size, c / size, d / size], out[self.flights]))
-        # In section radii, so that the vectors do not turn when the section grows.
-        places = out[self._places].reshape(-1, 2) * np.array([k / rho, k / (rho * ratio)])
-        apart = tuple((places[d:] - places[:-d]).ravel() for d in self.divisors)
-        h, h_q, h_p = out[H], out[H_Q], out[H_P]
-        return Point((q, p), (float(h),), ((float(h_q), float(h_p)),), guard, apart, out)
-
-    def tracked(self, place: Place, times: np.ndarray) -> tuple[np.ndarray, Place]:
-        """Return data and defect of the half orbit whose times of flight are next to given ones."""
-        q, p = place
         k, rho = self.parameter.k_and_rho(p)
-        out = np.empty(SIZE)
-        evaluate(self.line, self.period, self.parameter.kind, k, rho, q, times, out)
-        return out, (float(out[H]),)
+        ratio = math.sqrt(k * (1.0 + k))  # y/x of the section
+        a, b, c, d = half.a, half.b * ratio, half.c / ratio, half.d
+        size = math.sqrt(a * a + b * b + c * c + d * d)
+        guard = np.concatenate(([a / size, b / size, c / size, d / size], half.times))
+        # In section radii, so that the vectors do not turn when the section grows.
+        points = half.points * np.array([k / rho, k / (rho * ratio)])
+        apart = tuple((points[d:] - points[:-d]).ravel() for d in self.divisors)
+        return Point(place, (half.h,), ((half.h_q, half.h_p),), guard, apart, half)
+
+    def tracked(self, place: Place, times: np.ndarray) -> tuple[HalfOrbit, Place]:
+        """Return the half orbit with about these times of flight, and its defect."""
+        half = self._evaluate(place, times)
+        return half, (half.h,)
 
     def heights(self, place: Place, times: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return the result of `flight_heights`."""
+        """Return time and height of the highest point of each flight above the floor (n, 2)."""
         q, p = place
         k, rho = self.parameter.k_and_rho(p)
         x, v, w, depth = line_state(self.line, k, rho, q)
-        out = np.empty((times.size, 2))
-        to_apex = self.period % 2 == 1 or self.line == FIX_RP
-        flight_heights(x, v, w, k, depth, to_apex, times, near, out)
-        return out
+        to_apex = ends_at_apex(self.line, self.period)
+        return flight_heights(x, v, w, k, depth, to_apex, times, near)
 
     def trace(self, point: Point) -> float:
         """Return the trace of the whole orbit's Jacobian in canonical coordinates."""
-        a, b, c, d = point.data[A : D + 1].tolist()
+        half = point.data
+        a, b, c, d = half.a, half.b, half.c, half.d
         return 2.0 + 4.0 * b * c if abs(b * c) < abs(a * d) else 4.0 * a * d - 2.0
 
     def residue(self, point: Point) -> float:
         """Return the size of (trace - 2)/4, which vanishes at folds and pitchforks."""
-        return abs(float(point.data[B] * point.data[C]))
-
-    @property
-    def monitors(self) -> list[tuple[str, Callable[[Point], float]]]:
-        """Kinds of event, and functions of a point that change their sign there."""
-
-        def entry(index: int) -> Callable[[Point], float]:
-            return lambda point: float(point.data[index])
-
-        kinds = ("fold", C), ("pitchfork", B), ("doubling", A), ("doubling", D)
-        return [(kind, entry(index)) for kind, index in kinds]
+        return abs(point.data.b * point.data.c)
 
     def position(self, p: float, xi: float) -> float:
         """Return the parameter q of a position x, or xi, on a symmetry line."""
@@ -187,7 +150,7 @@ class Orbits(PeriodicOrbits):
     def symmetric_points(self, point: Point) -> list[tuple[int, float]]:
         """Return (line, q) of the two points at which an orbit meets the symmetry lines."""
         end = FIX_RP if self.period % 2 else self.line
-        return [(self.line, point.q), (end, self.position(point.p, float(point.data[X_END])))]
+        return [(self.line, point.q), (end, self.position(point.p, point.data.x_end))]
 
     def positions(self, point: Point) -> list[float]:
         """Return the q of an orbit's points on the line on which its half orbit starts."""
@@ -200,9 +163,9 @@ class Orbits(PeriodicOrbits):
     def first_impact(self, point: Point) -> tuple[float, float]:
         """Return x and y of the half orbit's first impact, in units where g = 1."""
         if self.line == FIX_R:
-            return float(point.data[XI]), 0.0
+            return point.data.xi, 0.0
         k, _ = self.parameter.k_and_rho(point.p)
-        x, v, w = landing(float(point.data[XI]), float(point.data[TIMES]))
+        x, v, w = landing(point.data.xi, float(point.data.times[0]))
         return x, v - k * w
 
     def first_place(self, point: Point) -> Place:
@@ -214,25 +177,22 @@ class Orbits(PeriodicOrbits):
 
 def roots(
     parameter: Parameter, p: float, line: int, grid: np.ndarray, periods: list[int]
-) -> list[tuple[int, int, Point]]:
-    """Return (period, line, point) of the orbits that sign changes on a grid of a line show."""
-    k, rho = parameter.k_and_rho(p)
-    longest = max(periods, default=0)
-    values = np.empty((grid.size, longest + 1))
-    scan(line, k, rho, grid, longest, values)
+) -> list[tuple[SymmetricOrbits, Point]]:
+    """Return the orbits that sign changes on a grid of a line show, each with its system."""
     found = []
+    values = scan(line, *parameter.k_and_rho(p), grid, max(periods, default=0))
     for period in periods:
-        system = Orbits(line, period, parameter)
+        system = SymmetricOrbits(line, period, parameter)
         column = values[:, period]
-        (cell,) = np.nonzero(column[:-1] * column[1:] <= 0.0)
-        for i in cell.tolist():
-            point = root_between(system, p, *sorted((grid[i], grid[i + 1])))
+        (cells,) = np.nonzero(column[:-1] * column[1:] <= 0.0)
+        for i in cells.tolist():
+            point = _root_between(system, p, *sorted((grid[i], grid[i + 1])))
             if point is not None and system.separation(point) > NEAR:
-                found.append((period, line, point))
+                found.append((system, point))
     return found
 
 
-def root_between(system: Orbits, p: float, low: float, high: float) -> Point | None:
+def _root_between(system: SymmetricOrbits, p: float, low: float, high: float) -> Point | None:
     """Return the solution between two positions with opposite signs; None if it is a jump."""
     width = high - low
     first = system.point((low, p))

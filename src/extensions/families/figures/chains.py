@@ -1,17 +1,22 @@
 """Births of chains and their losses of stability, drawn over the regular share of a plane."""
 
 from itertools import cycle
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
 
 from extensions.atlas.figures import atlas, raster
 from extensions.atlas.figures.atlas import LEFT
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import Sheet
 
 _SIZE = 6.0  # points: text beside lines
 BOTTOM = 395  # pixels below the frame
 _DASHES, _DOTS = (4.0, 1.6), (1.2, 1.6)  # in widths of a line
 # The kinds of curve: their style and meaning.
-_KINDS = {
+_KINDS: dict[str, tuple[dict[str, Any], str]] = {
     "resonance": ({"lw": 1.3}, "the fixed point's rotation number is 1/q: a chain branches off"),
     "fold": ({"lw": 0.6}, "fold: an elliptic orbit of the chain is born or ends"),
     "doubling": ({"lw": 1.0, "ls": (0, _DASHES)}, "its first period doubling"),
@@ -25,7 +30,7 @@ _HUES = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, s
 
 
 @style.pinned()
-def draw(sweep, data, curves):
+def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
     """Draw the curves of chains over a plane of k and E/g^2 in shades of grey."""
     sheet = atlas.sheet_above(BOTTOM, sweep)
     text = "Births of the chains 1/q, and their ends, over the regular share"
@@ -46,7 +51,7 @@ def draw(sweep, data, curves):
     return sheet.figure
 
 
-def _key(sheet, hues):
+def _key(sheet: Sheet, hues: dict[int, str]) -> None:
     """Explain colours, lines and circles below the frame."""
     y = BOTTOM - 150
     for i, (order, color) in enumerate(hues.items()):

@@ -1,17 +1,20 @@
 """Families of periodic orbits against the energy or the inertia, below the regular share."""
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import around, inside, linear
-from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
+from pseudorigid.figures.axes.panel import Axis, Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 125, 1000  # pixels
-# Colours by period; a longer period has that of the period less a multiple of their number.
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
 _NAMES = {"doubling": "period doubling"}  # of marks in the key
@@ -21,15 +24,15 @@ _BEYOND = "; triangles: beyond the axis"
 
 
 @style.pinned()
-def draw(scene, families, shares):
+def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Figure:
     """Draw regular share, positions and residues of families over one axis of E or k.
 
     Lines of elliptic orbits are thick, of hyperbolic ones thin, of inverse hyperbolic ones dashed.
     Above are the fixed point's resonances. Families of a period above scene["drawn"] are left out.
     """
     sheet = Sheet(style.COLUMN, 2400)
-    low, high = scene["span"]
-    name = "Energy $E$" if scene["parameter"] == "energy" else "Euler inertia $k$"
+    (low, high), parameter = scene["span"], scene["parameter"]
+    name = "Energy $E$" if parameter == "energy" else "Euler inertia $k$"
     across = linear(low, high, 7, name)
     above = Window(sheet, (_LEFT, 1945, _RIGHT, 2250), across.blank(), _share_axis(shares))
     highest = above.up.limits[1]
@@ -46,10 +49,10 @@ def draw(scene, families, shares):
     title(sheet, middle.frame, "Position $x$ of the orbit's point on a symmetry line")
     for panel in (above, middle, below):
         panel.minor()
-    _resonances((above, middle, below), scene, families)
-    at, share = (shares[name].values for name in (scene["parameter"], "regular"))
-    ends = (shares[f"regular_{end}"].values for end in ("low", "high"))
-    above.estimates(at, share, *ends, style.BLUE)
+    _resonances((above, middle, below), parameter, families)
+    at, share = (shares[name].values for name in (parameter, "regular"))
+    least, most = (shares[f"regular_{end}"].values for end in ("low", "high"))
+    above.estimates(at, share, least, most, style.BLUE)
     above.dots(at[beyond], 0.0 * at[beyond] + 0.98 * highest, style.BLUE, 2.6, marker="^")
     for end in rim[1:]:
         middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
@@ -59,29 +62,31 @@ def draw(scene, families, shares):
     for level in (0.0, 1.0):
         below.line([low, high], [level, level], color=style.FRAME, lw=0.5)
     for i in shown:
-        _family(middle, scene, families, i, x)
-        _family(below, scene, families, i, residue)
-    leaves = [_exits(below, scene, families, i, residue) for i in shown]
+        _family(middle, parameter, families, i, x)
+        _family(below, parameter, families, i, residue)
+    leaves = [_exits(below, parameter, families, i, residue) for i in shown]
     title(sheet, below.frame, "Residue $(2-$trace$)/4$" + _BEYOND * any(leaves))
-    marks = _events(middle, scene, families, set(shown))
+    marks = _events(middle, parameter, families, set(shown))
     _keys(sheet, families, shown, marks)
-    fixed = {name: scene["ball"][name] for name in "kg" if name != scene["parameter"]}
-    setting = style.setting(scene | {"ball": fixed}, energy=scene["parameter"] == "k")
+    fixed = {name: scene["ball"][name] for name in "kg" if name != parameter}
+    setting = style.setting(scene | {"ball": fixed}, energy=parameter == "k")
     sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
     return sheet.figure
 
 
-def _share_axis(shares):
+def _share_axis(shares: xr.Dataset) -> Axis:
     """Return an axis to above the largest share, or that of the upper two thirds if far smaller."""
     values = shares["regular_high"].values
     largest, later = float(values.max()), float(values[values.size // 3 :].max())
     return linear(0.0, min(1.0, 1.1 * (later if 4.0 * later < largest else largest)), 4)
 
 
-def _family(panel, scene, families, index, values):
+def _family(
+    panel: Window, parameter: str, families: xr.Dataset, index: int, values: np.ndarray
+) -> None:
     """Draw one family, in pieces of one type of stability."""
     span = rows(families)[index]
-    across = families[scene["parameter"]].values[span]
+    across = families[parameter].values[span]
     up, types = values[span], families["type"].values[span]
     hue = _hue(int(families["period"].values[index]))
     changes = [0, *(np.flatnonzero(types[1:] != types[:-1]) + 1).tolist(), types.size]
@@ -92,10 +97,12 @@ def _family(panel, scene, families, index, values):
         panel.line(across[first:end], up[first:end], color=hue, lw=_WIDTHS[kind], **dashes)
 
 
-def _exits(panel, scene, families, index, residue):
+def _exits(
+    panel: Window, parameter: str, families: xr.Dataset, index: int, residue: np.ndarray
+) -> int:
     """Mark where a family leaves the axis of residues, and return how often it does."""
     span = rows(families)[index]
-    at, values = families[scene["parameter"]].values[span], residue[span]
+    at, values = families[parameter].values[span], residue[span]
     hue, count = _hue(int(families["period"].values[index])), 0
     for end, inner, marker in ((_RESIDUES[1], 1.56, "^"), (_RESIDUES[0], -0.56, "v")):
         beyond = (values > end) == (end > 0.0)
@@ -106,16 +113,17 @@ def _exits(panel, scene, families, index, residue):
     return count
 
 
-def _hue(period):
+def _hue(period: int) -> str:
+    """Return the colour of a period; there are fewer colours than periods."""
     return style.MANY_HUES[(period - 1) % len(style.MANY_HUES)]
 
 
-def _events(panel, scene, families, shown):
+def _events(panel: Window, parameter: str, families: xr.Dataset, shown: set[int]) -> set[str]:
     """Mark events, and ends where an impact grazes; return which kinds there are."""
     marked = set()
     number = families["event_family"].values
     chosen = np.isin(number, sorted(shown))
-    across = families[f"event_{scene['parameter']}"].values
+    across = families[f"event_{parameter}"].values
     up, kinds = families["event_x"].values, families["event_kind"].values
     for kind, marker in _MARKS.items():
         at = chosen & (kinds == kind)
@@ -128,13 +136,13 @@ def _events(panel, scene, families, shown):
     for index in sorted(shown):
         for side, last in ((0, spans[index].start), (1, spans[index].stop - 1)):
             if families["end_kind"].values[index, side] in ("touch", "rim"):
-                x, y = (families[name].values[last] for name in (scene["parameter"], "x"))
+                x, y = (families[name].values[last] for name in (parameter, "x"))
                 panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker="x")
                 marked.add("grazing")
     return marked
 
 
-def _rim(scene):
+def _rim(scene: dict[str, Any]) -> np.ndarray:
     """Return values of the parameter, and both ends of the symmetry line y = 0 there."""
     low, high = scene["span"]
     value = low + (high - low) * (np.arange(401) / 400.0)
@@ -144,11 +152,11 @@ def _rim(scene):
     return np.array([value, g / k - radius, g / k + radius])
 
 
-def _resonances(panels, scene, families):
+def _resonances(panels: Sequence[Window], parameter: str, families: xr.Dataset) -> None:
     """Draw an upright line at each resonance of the fixed point up to order 8, with its name."""
     order = families["event_order"].values
     chosen = (families["event_family"].values == 0) & (order > 2) & (order <= 8)
-    names = f"event_{scene['parameter']}", "event_turns", "event_order"
+    names = f"event_{parameter}", "event_turns", "event_order"
     resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
     reach = -np.inf
     for value, p, q in sorted(resonances):
@@ -159,7 +167,7 @@ def _resonances(panels, scene, families):
             reach = x
 
 
-def _keys(sheet, families, shown, marks):
+def _keys(sheet: Sheet, families: xr.Dataset, shown: list[int], marks: set[str]) -> None:
     """Explain the widths, marks and colours that are drawn."""
     types = {kind for i in shown for kind in families["type"].values[rows(families)[i]]}
     widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)

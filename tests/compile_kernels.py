@@ -1,6 +1,6 @@
 """Compile the kernels that the tests use, so that workers do not each compile them.
 
-    python tests/warm.py
+    python tests/compile_kernels.py
 
 pseudorigid.kernel.compiled says where the machine code is kept. A second call does nothing.
 """

@@ -1,0 +1,140 @@
+"""Extrema of the regular share along a line of E or k, and what causes them."""
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+LARGEST = 3  # chains named for each slope
+_HALF = 0.5  # share of a change for which a chain must account
+
+
+class Change(NamedTuple):
+    """The chain that changes most from an extremum to a value, and its event nearest to there."""
+
+    at: float  # the value
+    family: int
+    part: float  # of the change of the regular share
+    event: str
+    event_at: float
+
+
+def extrema(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[int, int, int]]:
+    """Return (index, left, right) of the minima and maxima of a curve with intervals.
+
+    At `left` and `right`, the nearest such values on both sides, the interval is disjoint from that
+    at the extremum, and the curve has not passed the extremum's value before. Of equal values the
+    first one counts.
+    """
+    found = []
+    for sign in (1.0, -1.0):
+        value = sign * share
+        below, above = (low, high) if sign > 0.0 else (-high, -low)
+        for i in range(share.size):
+            sides: list[int] = []
+            for order in (range(i - 1, -1, -1), range(i + 1, share.size)):
+                for j in order:
+                    if value[j] < value[i] or (value[j] == value[i] and j < i):
+                        break
+                    if below[j] > above[i]:
+                        sides.append(j)
+                        break
+            if len(sides) == 2:
+                found.append((i, sides[0], sides[1]))
+    return sorted(found)
+
+
+def causes(
+    families: xr.Dataset,
+    parameter: str,
+    values: np.ndarray,
+    regular: Sequence[np.ndarray],
+    chains: np.ndarray,
+    curves: Sequence[tuple[str, float, np.ndarray]],
+    step: float,
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Return the variables of each extremum and of each slope, from the shares (value, family).
+
+    `regular` holds the regular share and the ends of its interval; `curves` are event, parameter
+    and the share beyond it (value,) of curves beyond a resonance that break or form. A change is
+    that from an extremum to the nearest value that differs by more than the intervals, or to the
+    neighbouring extremum. An event is the cause of an extremum only if its chain, the one that
+    changes most, accounts for at least half of such a change and the event lies within one step of
+    the extremum. A curve that breaks or forms is such an event, whose chain is the part of the main
+    island beyond the resonance.
+    """
+    share, low, high = regular
+    found = extrema(share, low, high)
+    turning = [0, *(i for i, _, _ in found), len(values) - 1]
+
+    def parts(i: int, j: int, column: np.ndarray) -> np.ndarray:
+        """Return the changes from one value to another over that of the regular share."""
+        return (column[j] - column[i]) / (share[j] - share[i] or math.inf)
+
+    def largest_change(i: int, j: int) -> Change:
+        """Return the chain that changes most from one value to another."""
+        changed = parts(i, j, chains)
+        number = int(np.argmax(changed))
+        events = _events_of(families, parameter, number)
+        nearest = min(events, key=lambda event: abs(event[1] - values[i]), default=("", math.nan))
+        return Change(values[j], number, float(changed[number]), *nearest)
+
+    rows, slopes = [], []
+    for n, (i, left, right) in enumerate(found, 1):
+        ends = left, right, turning[n - 1], turning[n + 1]
+        changes = [largest_change(i, j) for j in ends]
+        of_curves = [
+            Change(values[j], -1, float(parts(i, j, beyond)), event, at)
+            for j in ends
+            for event, at, beyond in curves
+        ]
+        near = [
+            c for c in changes + of_curves if abs(c.event_at - values[i]) <= step * (1.0 + 1e-9)
+        ]
+        cause = max(
+            (change for change in near if change.part >= _HALF),
+            key=lambda change: change.part,
+            default=Change(math.nan, -1, 0.0, "unexplained", math.nan),
+        )
+        rows.append(
+            {
+                "extremum_at": values[i],
+                "extremum_kind": "minimum" if share[left] > share[i] else "maximum",
+                "cause_family": cause.family,
+                "cause_event": cause.event,
+                "cause_at": cause.event_at,
+            }
+            | {
+                f"side_{name}": [getattr(change, name) for change in changes[:2]]
+                for name in Change._fields
+            }
+        )
+    for i, j in pairwise(turning) if found else ():
+        changed = parts(i, j, chains)
+        most = np.argsort(-np.abs(changed), kind="stable")[:LARGEST]
+        change = {
+            "slope_from": values[i],
+            "slope_to": values[j],
+            "slope_change": share[j] - share[i],
+        }
+        slopes.append(change | {"slope_family": most, "slope_part": changed[most]})
+    return rows, slopes
+
+
+def _events_of(families: xr.Dataset, parameter: str, number: int) -> list[tuple[str, float]]:
+    """Return the events and ends of a family with their energies."""
+    found = []
+    for i in np.flatnonzero(families["event_family"].values == number).tolist():
+        kind = str(families["event_kind"].values[i])
+        if kind == "resonance":
+            turns, order = (int(families[f"event_{n}"].values[i]) for n in ("turns", "order"))
+            kind = f"resonance {turns}/{order}"
+        found.append((kind, float(families[f"event_{parameter}"].values[i])))
+    for side in (0, 1):
+        kind = str(families["end_kind"].values[number, side])
+        if kind != "range":
+            found.append((f"end: {kind}", float(families[f"end_{parameter}"].values[number, side])))
+    return found
