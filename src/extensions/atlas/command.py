@@ -23,7 +23,11 @@ def run(args: Arguments) -> int:
         args.options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *args.options]
         add_packages("slurm")
     files: figures.Drawings = {}
-    names = [n for n in sweeps if not args.sweep or {n, sweeps[n].get("over")} & {*args.sweep}]
+    names = [
+        n
+        for n in sweeps
+        if not args.sweep or {n, sweeps[n].as_mapping().get("over")} & {*args.sweep}
+    ]
     if args.word == "atlas":
         files = figures.drawings_of(args.config, "atlas", names)
     artifact_paths = paths.artifact_paths(variants)

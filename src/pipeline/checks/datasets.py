@@ -97,7 +97,9 @@ def _of_study() -> dict[str, File]:
     from study.methods.counted_methods import METHODS
 
     methods = failures.EDGE_METHODS[:1]
-    periodic = {("periodic", "fig3"): _compute("periodic", {"period": 1})}
+    periodic: dict[tuple[str, ...], xr.Dataset] = {
+        ("periodic", "fig3"): _compute("periodic", {"period": 1})
+    }
     parts = {
         "work": work.counted(2),
         "edges": failures.edges(methods, 2),

@@ -22,7 +22,7 @@ def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -
 
     The cells are an image of whole pixels: a PNG has the exact colours, and vector files are small.
     """
-    left, bottom, right, top = panel.frame
+    left, bottom, right, top = map(int, panel.frame)
     energy = log10(sweep["energy"]) if panel.across.decades else sweep["energy"]
     x = _pixels(edges(energy), panel.across.limits, right - left)
     y = _pixels(edges(sweep["k"]), panel.up.limits, top - bottom)
@@ -35,12 +35,13 @@ def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -
 
 def scale(sheet: Sheet, frame: Sequence[int], largest: float, table: str) -> None:
     """Draw the colour scale beside a frame, from 0 to `largest`."""
-    left, right = frame[2] + 25, frame[2] + 55
-    bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), frame[3] - frame[1])
+    _, bottom, edge, top = map(int, frame)
+    left, right = edge + 25, edge + 55
+    bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), top - bottom)
     column = np.repeat(palette(table), np.diff(bounds), axis=0)
-    _paste(sheet, left, frame[1], np.repeat(column[:, None], right - left, axis=1))
+    _paste(sheet, left, bottom, np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
-        y = frame[1] + tick / largest * (frame[3] - frame[1])
+        y = bottom + tick / largest * (top - bottom)
         sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
         text = style.number(tick)
         sheet.text(right + 4 * POINT, y, text, size=_SIZE)

@@ -70,8 +70,8 @@ def _flights(sheet: Sheet, frame: Frame, clusters: xr.Dataset) -> None:
         period = f"{float(clusters['period'].values[i]):.1f}"
         left, right = cut - ends[ends < cut].max(), ends[ends > cut].min() - cut
         crowded = right < min(left, _LABEL * last)
-        side = {"ha": "right", "shift": (-2, 0)} if crowded else {"ha": "left", "shift": (2, 0)}
-        panel.note(cut, (0.95 - 0.1 * i) * highest, period, **side)
+        side, shift = ("right", -2) if crowded else ("left", 2)
+        panel.note(cut, (0.95 - 0.1 * i) * highest, period, (shift, 0), side)
     corner(sheet, frame, "dashes: cuts, and the mean time between clusters")
 
 
@@ -99,5 +99,5 @@ def _marks(panel: Panel, clusters: xr.Dataset, estimates: list[np.ndarray]) -> N
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
     x, y = panel.place(places, high)
     taken = (x > right - 12 * POINT - width(text, 7.0)) & (y > top - 10 * POINT)
-    y, va = (bottom + 3 * POINT, "bottom") if taken.any() else (top - 3 * POINT, "top")
-    panel.sheet.text(right - 3 * POINT, y, text, ha="right", va=va, size=7.0)
+    place, va = (bottom + 3 * POINT, "bottom") if taken.any() else (top - 3 * POINT, "top")
+    panel.sheet.text(right - 3 * POINT, place, text, ha="right", va=va, size=7.0)

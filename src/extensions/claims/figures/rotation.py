@@ -6,7 +6,7 @@ import xarray as xr
 from extensions.claims.analyses.rotation import island, plateaus
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.figures.axes.limits import around, inside, linear, ticks
-from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, vacant
+from pseudorigid.figures.axes.panel import Axis, Entry, Panel, corner, key, letters, vacant
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
@@ -23,13 +23,15 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     sheet = Sheet(style.COLUMN, 2100)
     good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
     detail = _regular_detail(rotation)
-    entries = [
-        (good.any() or detail[0].size) and ("regular", style.BLUE, "o"),
-        not good.all() and ("chaotic", style.SEA, "o"),
-        ("fixed point", style.VERMILION, "o"),
-        plateaus(*detail) and ("islands", style.VERMILION, "", False, 1.6),
-    ]
-    key(sheet, [*filter(None, entries)], sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
+    entries: list[Entry] = []
+    if good.any() or detail[0].size:
+        entries.append(("regular", style.BLUE, "o"))
+    if not good.all():
+        entries.append(("chaotic", style.SEA, "o"))
+    entries.append(("fixed point", style.VERMILION, "o"))
+    if plateaus(*detail):
+        entries.append(("islands", style.VERMILION, "", False, 1.6))
+    key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
     spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
     frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in spans]
     letters(sheet, *frames)
@@ -82,10 +84,11 @@ def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     panel.dots(start, turns, style.BLUE, size=1.6)
     for p, q, first, last in plateaus(start, turns):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
-        side = {"ha": "left", "va": "top", "shift": (4, -2)}
+        middle, name = 0.5 * (first + last), f"{p}/{q}"
         if first > place[0] + 0.8 * (place[-1] - place[0]):
-            side = {"ha": "right", "va": "bottom", "shift": (-2, 3)}
-        panel.note(0.5 * (first + last), p / q, f"{p}/{q}", **side)
+            panel.note(middle, p / q, name, (-2, 3), "right", "bottom")
+        else:
+            panel.note(middle, p / q, name, (4, -2), "left", "top")
 
 
 def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:

@@ -45,7 +45,9 @@ def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset, paper: bool) -> Non
     shortest = np.sort(stretches(spread, first))
     low, high = shortest[shortest.size // 4], shortest[3 * (shortest.size - 1) // 4]
     axis = of_data(np.clip(shortest, low - _LONGEST * (high - low), None))
-    panel = Panel(sheet, frame, across, Axis(**axis, name="Largest exponent in the sea"))
+    panel = Panel(
+        sheet, frame, across, Axis(axis["limits"], axis["ticks"], "Largest exponent in the sea")
+    )
     if paper:
         panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
         panel.note(lengths[-1], EXPONENT, f"the paper: {EXPONENT}", ha="right", shift=(0, 5))
@@ -77,7 +79,7 @@ def _short_runs(
     share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
     room = 1.0 if paper else 1.2  # for the mean's name
     highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
-    across = Axis(**axis, name=f"Exponent of {short:,} impacts")
+    across = Axis(axis["limits"], axis["ticks"], f"Exponent of {short:,} impacts")
     step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
     ticks = tuple(step * i for i in range(int(highest / step + 1e-9) + 1))
     panel = Panel(sheet, frame, across, Axis((0.0, highest), ticks, "Share of runs"), grid=False)

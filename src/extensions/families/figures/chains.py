@@ -44,9 +44,9 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
         panel.line(energy, k, color=color, zorder=2.0, **_KINDS[kind][0])
         if kind == "resonance":
             atlas.name_curve(panel, panel.within(energy, k), energy, k, f"1/{order}")
-    for energy in atlas.PAPER_ENERGIES.values():
-        panel.dots([energy], [atlas.PAPER_K], "white", size=5.0)
-        panel.dots([energy], [atlas.PAPER_K], style.BLACK, size=2.5)
+    for drawn in atlas.PAPER_ENERGIES.values():
+        panel.dots([drawn], [atlas.PAPER_K], "white", size=5.0)
+        panel.dots([drawn], [atlas.PAPER_K], style.BLACK, size=2.5)
     _key(sheet, hues)
     return sheet.figure
 

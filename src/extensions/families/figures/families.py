@@ -43,8 +43,8 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
         up = around(np.append(x, rim[1:]), 0.04, 8)
     middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
     below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
-    *sides, top = above.frame  # its title stands above the names of resonances
-    letters(sheet, (*sides, top + 10 * POINT), middle.frame, below.frame)
+    left, bottom, right, top = above.frame  # its title stands above the names of resonances
+    letters(sheet, (left, bottom, right, top + 10 * POINT), middle.frame, below.frame)
     title(sheet, above.frame, "Regular share of the section" + _BEYOND * bool(beyond.any()), 14)
     title(sheet, middle.frame, "Position $x$ of the orbit's point on a symmetry line")
     for panel in (above, middle, below):

@@ -40,10 +40,10 @@ def draw(scene: dict[str, Any], twist: xr.Dataset) -> Figure:
         plane.dots([energy[at]], [values[at]], style.BLUE, _DOT)
         text = f"$E$ = {style.number(mark)}"
         if plane.shows(energy[at], values[at]):
-            side = {"ha": "left", "va": "bottom", "shift": (4, 2)}
             if plane.across.between(energy[at]) > _RIGHTMOST:  # below a line that mostly falls
-                side = {"ha": "right", "va": "top", "shift": (-4, -2)}
-            plane.note(energy[at], values[at], text, **side)
+                plane.note(energy[at], values[at], text, (-4, -2), "right", "top")
+            else:
+                plane.note(energy[at], values[at], text, (4, 2), "left", "bottom")
     if plane.shows(zero, 0.0):
         plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
         plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
