@@ -6,6 +6,7 @@ from keys import SCENE, texts
 from samples import SCENES, SPACE, module, motion
 from sections import BALL
 
+from pipeline import config
 from pipeline.checks.compare import picture
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -92,10 +93,12 @@ def test_no_mark_of_a_chart_lies_outside_its_frame():
 
 
 def test_a_comparison_draws_both_variants_on_axes_that_hold_both():
-    exponents = SCENE | {"picture": "exponents", "starts": [0.6], "impacts": 500}
-    blocks = [exponents | {"energy": energy} for energy in (0.01, 0.05)]
+    exponents = {"picture": "exponents", "starts": [0.6], "impacts": 500, "records": 20}
+    scenes = {"low": exponents | {"energy": 0.01}, "high": exponents | {"energy": 0.05}}
+    pictures = config.check({"ball": {"k": 0.2, "g": 0.04}, "scenes": scenes}).scenes.values()
+    blocks = [each.as_mapping() for each in pictures]
     data = [[scene_exponents(BALL, block["energy"], [0.6], 500, 20)] for block in blocks]
-    images, words = picture.on_same_axes(blocks, data)
+    images, words = picture.on_same_axes([*pictures], data)
     assert words == ", on the same axes"
     found = [{}, {}]
     for block, axes, datasets in zip(blocks, found, data, strict=True):

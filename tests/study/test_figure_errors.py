@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from pipeline import config
 from pipeline.config.studied import STUDIED, paper_scenes
 from pseudorigid import Ball, symmetric_orbits
 from study import figure_errors
@@ -41,7 +42,8 @@ def test_the_kinds_with_a_measure_are_studied():
 
 def test_a_scene_without_axes_is_left_out():
     bare = {key: value for key, value in PORTRAIT.items() if key != "axes"}
-    block = paper_scenes({"one": PORTRAIT, "two": bare}, {})[0]
+    scenes = config.check({"ball": BALL, "scenes": {"one": PORTRAIT, "two": bare}}).scenes
+    block = paper_scenes(scenes, {})[0]
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 
 

@@ -17,6 +17,7 @@ from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
 from extensions.claims.figures import rotation as rotation_figure
 from extensions.claims.figures import spread as spread_figure
+from pipeline import config
 from pipeline.checks.compare import picture
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.figures.canvas import style
@@ -81,9 +82,11 @@ def test_flux_without_regions_and_lobes_says_why():
 
 
 def test_a_comparison_says_if_axes_cannot_be_the_same():
-    low = {"energies": [-0.003], "energy": -0.003}
-    data = rotation(BALL, -0.003, [-0.003], 9, 100, (0.1, 0.2), 100)
-    blocks = [SCENE | low | {"picture": "rotation"}] * 2
+    scene = {"picture": "rotation", "energy": -0.003, "energies": [0.001], "starts": 9}
+    scene |= {"impacts": 100, "detail": [0.1, 0.2], "detail_impacts": 100}
+    document = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"low": scene}}
+    blocks = [config.check(document).scenes["low"]] * 2
+    data = rotation(BALL, -0.003, [0.001], 9, 100, (0.1, 0.2), 100)
     assert picture.on_same_axes(blocks, [[data]] * 2)[1] == ", each on its own axes"
 
 

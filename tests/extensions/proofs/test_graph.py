@@ -14,7 +14,7 @@ from slowly import slowly
 from extensions.proofs import THEOREMS
 from extensions.proofs.checks import jump
 from extensions.proofs.checks.certificate import NotProvedError
-from extensions.proofs.checks.hsets import HSet, LocalMap, covering
+from extensions.proofs.checks.hsets import HSet, LocalMap, covering_margins
 from extensions.proofs.search.chains import DoubleMap, Parallelogram
 
 SMALL = "entropy-lower"
@@ -87,9 +87,9 @@ def test_a_covering_that_is_not_decided_is_refused(reach):
     def local(slope):
         return LocalMap((zero, zero), ((slope, zero), (zero, half)), ((zero,) * 3,) * 2)
 
-    assert covering(local(2 * arb(1, 0.1)), one, one)[0] > 0
+    assert covering_margins(local(2 * arb(1, 0.1)), one, one)[0] > 0
     with pytest.raises(NotProvedError, match="not proved to land beyond"):
-        covering(local(reach), one, one)
+        covering_margins(local(reach), one, one)
 
 
 def test_a_doubled_connection_is_refused():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from certificates import numbers
 from flint import ctx
-from project import shipped
+from project import SHIPPED
 from sections import BALL
 from slowly import slowly
 from small_curve import SMALL
@@ -15,6 +15,7 @@ from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
 from extensions.proofs.proved_impacts import Impacts, _impacts_behind, of_orbits, prove_impacts
 from extensions.proofs.theorems import scenes
+from pipeline import config
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
@@ -119,11 +120,8 @@ def test_impacts_are_proved_and_errors_small():
 
 @pytest.mark.parametrize("scene", ["fig4", "fig6", "fig7"])
 def test_impacts_of_each_stage_are_proved(scene, six):
-    document = shipped()
     data = {"periodic": six, "manifolds": six.isel(orbit=0)}
-    for _, some in _impacts_behind(
-        document["scenes"][scene] | {"ball": document["ball"]}, data.get, 6
-    ):
+    for _, some in _impacts_behind(config.load(SHIPPED).scenes[scene], data.get, 6):
         assert prove_impacts("1/5", "1/25", some).verdict == "proved"
 
 
