@@ -8,7 +8,7 @@ from examples import PAPER, assert_made_or_refused_in_one_line, checked, made
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.scene import Scene
 
-COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves", "families")
+COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves", "families", "control", "graph")
 SCENES = [name for name, kind in KINDS.items() if issubclass(kind, Scene) and kind.headline]
 
 

@@ -65,6 +65,7 @@ def planted(src):
     return file, "from pseudorigid.kernel.caller import f; print(f())"
 
 
+@pytest.mark.slow
 def test_a_comment_compiles_nothing_and_constants_do_whatever_is_cached(src, printed):
     """One constant stands in another module, one in a function that a stale .pyc holds."""
     callee, show = planted(src)

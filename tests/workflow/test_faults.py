@@ -35,6 +35,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.slow
 def test_damaged_and_deleted_results_of_the_named_figures_are_made_again(done):
     before, paper = contents(done), done.path / "results" / "paper"
     deleted = ["figures/fig3.svg", "periodic_fig3.nc", "provenance/orbits_fig8.nc.json"]

@@ -23,6 +23,7 @@ def small(variants, tmp_path):
     return tree
 
 
+@pytest.mark.slow
 def test_a_scene_that_a_variant_cannot_have_is_named_with_the_reason(small):
     old = small.path / "results/low/figures/small.png"
     old.write_bytes(b"from another config")

@@ -45,7 +45,7 @@ def plain(tree, *arguments):
     return result.stdout + result.stderr
 
 
-@pytest.mark.parametrize("how", ["reproduce", "plain"])
+@pytest.mark.parametrize("how", ["reproduce", *slowly("plain")])
 def test_a_missing_drawing_behind_an_incomplete_dataset_is_made(done, how):
     drawings = {f"{PAPER}/figures/fig8.png", f"{PAPER}/figures/fig3.svg"}
     before = {path: (done.path / path).read_bytes() for path in drawings}
@@ -90,6 +90,7 @@ def test_an_edit_reaches_its_drawings_whatever_the_times(done, how, times):
     assert why.startswith("made from another config: duration 16 -> 12\n")
 
 
+@pytest.mark.slow
 def test_dry_runs_change_no_record(done):
     done.edit("fig3", duration=12)
     (done.path / PAPER / "orbits_fig2.nc").write_bytes(b"damaged")
@@ -101,6 +102,7 @@ def test_dry_runs_change_no_record(done):
     assert {file: (file.read_bytes(), file.stat().st_mtime_ns) for file in before} == before
 
 
+@pytest.mark.slow
 def test_a_run_that_leaves_a_figure_out_is_no_success(done):
     """A snakemake that makes nothing and reports success stands for any such cause."""
     remove(done, f"{PAPER}/figures/fig3.png")

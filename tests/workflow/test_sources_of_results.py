@@ -131,6 +131,7 @@ PLANTED = {
 }
 
 
+@pytest.mark.slow
 def test_changes_of_bookkeeping_do_not_reach_the_bytes(done):
     """Change all modules of BOOKKEEPING at once, and make the results of a figure again."""
     assert set(PLANTED) == set(BOOKKEEPING)

@@ -85,6 +85,7 @@ def times(tree):
     return {file.name: file.stat().st_mtime_ns for file in data(tree)}
 
 
+@pytest.mark.slow
 def test_damaged_files_alone_are_made_again(tree):
     tree.make_here("results/atlas/sweep_small.nc")
     before, content = times(tree), hashes(tree)

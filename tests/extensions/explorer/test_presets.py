@@ -24,6 +24,7 @@ def copied(person, kind):
     return name, block
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("person", [f"{DISK}&next=300"], indirect=True)
 def test_orbits_of_two_clicks_are_copied(person, tmp_path):
     person.click(0.4, 0.3)
