@@ -155,6 +155,12 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
     assert "absent  periodic" not in edited.run("absent").stdout  # it is not tried again
 
 
+def test_the_study_makes_the_data_of_the_paper_with_which_it_compares(tree):
+    tree.write(tree.document() | {"study": {"needs": shipped()["study"]["needs"]}})
+    lines = tree.run("study", "-n").stdout.splitlines()
+    assert {line.partition(":")[0] for line in lines} == {"fig3", "fig4", "fig5", "fig6", "needs"}
+
+
 @pytest.mark.slow
 def test_long_jobs_begin_first_and_seconds_are_measured_alone(tree):
     tree.write(tree.document() | {"study": shipped()["study"]})

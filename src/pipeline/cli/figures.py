@@ -64,7 +64,8 @@ def make(
     drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
     results = [*drawings.values(), *data]
     specs = build_specs(config, [group])
-    if set(results) - set(specs):
+    used = {path for spec in specs.values() for path in spec.inputs}
+    if not {*results, *used} <= specs.keys():  # some are of other sets
         specs = build_specs(config)
     inodes = {drawing: inode(drawing) for drawing in drawings.values()}
     notes = [*_hidden(_blocks(config, group, drawings.values()))]
