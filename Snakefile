@@ -1,7 +1,7 @@
 # The workflow of the paper's figures. ./reproduce runs it with the options of profiles/default, and
 # so does a plain snakemake. config.yaml has one scene for each figure. Data go to
-# results/<variant>/<stage>_<scene>.nc and drawings to results/<variant>/figures/; ./reproduce
-# publishes the drawings.
+# results/<variant>/<stage>_<scene>.nc and drawings to results/<variant>/figures/, where <variant> may
+# also be a set of scenes, as study; ./reproduce publishes the drawings.
 from snakemake.utils import min_version
 
 min_version("9.0")

@@ -3,7 +3,9 @@
 An extension is a folder of src/extensions with a module `extension.py`, which has an `Extension`
 called EXTENSION. Files beside it are found by their names:
 
+    __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
+    figures/KIND.py   the function `draw` of a kind; figures/reports.py what pictures report
     scenes.yaml       blocks of config.yaml that it ships, and variants
     rules.smk         rules of its stages and pictures
     captions.toml     captions of its pictures
@@ -64,6 +66,8 @@ class SceneSet(NamedTuple):
 
 class Command:
     """A command: its line in the list of commands, its arguments, and the module that runs it.
+
+    The module has a function run(args), which returns the exit status.
 
     Each argument is a name with the keyword arguments of argparse's add_argument. A module in
     pipeline.cli.commands has a name without a dot. `scenes` names the set of scenes that it makes,

@@ -209,7 +209,9 @@ FOLDER = {
     "figures/__init__.py": '"""Pictures of returns."""',
     "figures/returns.py": PICTURE,
     "figures/reports.py": f'"""What they report."""{REPORT}',
-    "rules.smk": "".join(RULES.values()).replace("pseudorigid.dynamics", "extensions.returns"),
+    "rules.smk": "".join(RULES.values())
+    .replace("pseudorigid.dynamics", "extensions.returns")
+    .replace("pseudorigid.figures.kinds", "extensions.returns.figures"),
     "scenes.yaml": SHIPPED,
     "captions.toml": CAPTION,
     "examples.yaml": EXAMPLE,

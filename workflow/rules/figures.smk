@@ -1,4 +1,6 @@
-# The paper's figures: one rule for each kind of picture, from the datasets of data.smk.
+# The paper's figures: one rule for each kind of picture, from the datasets of data.smk. All have the
+# same output; of_kind names the scenes of a rule: portrait makes Figures 2 and 8, motion 3 and 4,
+# tangle 5, closeup 6, exponents 7. From the rule orbits they inherit how a job is run.
 
 
 use rule orbits as draw_portrait with:

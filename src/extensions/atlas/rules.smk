@@ -1,5 +1,5 @@
 # Sweeps over a grid of k and energy (`./reproduce sweep` and `atlas`): blocks, the dataset that they
-# are joined to, and pictures; and how reliable their verdicts are.
+# are joined to (results/atlas/sweep_NAME.nc), and pictures; and how reliable their verdicts are.
 SECONDS |= {"results/atlas/verdicts.nc": 190}
 
 
