@@ -68,7 +68,7 @@ def make(
     inputs = {path for spec in specs.values() for path in spec.inputs}
     if not {*results, *inputs} <= specs.keys():  # some are of other sets
         specs = build_specs(config)
-    inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # of old files
+    inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
     notes = [*_hidden(_blocks(config, group, drawings.values()))]
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
