@@ -1,7 +1,8 @@
 """Failures of methods: near grazing, at near misses, along the chaotic orbit, and in its energy.
 
-`edges` and `missed` work with any methods, `orbits` with the compiled ones, whose orbits it follows
-for a million impacts. A failure is a wrong root, `work.is_wrong`.
+A failure is a flight time that is missing or another root's, `work.is_wrong`. The chaotic orbit is
+that of `states.chaotic`, in Figure 2's sea. `edges` and `missed` work with any methods, `orbits`
+with the compiled ones, whose own orbits it follows for a million impacts.
 """
 
 from collections.abc import Sequence
@@ -18,12 +19,12 @@ from .methods.counted_methods import OURS, engine_method, scan_method
 from .states import BALL
 from .work import dataset, is_wrong, proved_times
 
-SIDES = (1, -1)
+SIDES = (1, -1)  # signs of x + g at grazing, and of the maximum's height at near misses
 DISTANCES = range(13)  # s = 1 ... 1e-12
 DEPTHS = range(2, 15)  # heights 1e-2 ... 1e-14; lower ones are lost in the gap's rounding errors
 MILLION = 1_000_000
 RECORDS = np.array([*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION])  # impacts
-AGREE_IMPACTS = 170  # by then a rounding error has grown to order one on every orbit
+AGREE_IMPACTS = 170  # of each start; by then a rounding error has grown to order one
 AGREE_STARTS = 15  # in the sea; odd, so that the median is the value of one of them
 SEPARATION = 1e-3  # of x, which is visible
 
@@ -39,8 +40,9 @@ ORBIT_METHODS = (
 def edges(methods: Sequence[Method], count: int = 200) -> xr.Dataset:
     """Compute the share of wrong or missing roots near grazing and near misses.
 
-    `count` states are used at each distance from grazing s = xdot + udot, for near (method, side,
-    distance), and at each height of a maximum of the gap, for touch (method, side, depth).
+    near (method, side, distance) is the share for states at a distance s = xdot + udot from
+    grazing, touch (method, side, depth) for flights whose gap has a maximum of a given height.
+    `count` states are used for each side and distance or depth.
     """
 
     def failing(columns: np.ndarray) -> np.ndarray:
@@ -64,24 +66,27 @@ def edges(methods: Sequence[Method], count: int = 200) -> xr.Dataset:
 
 
 def _wrong_roots(methods: Sequence[Method], columns: np.ndarray) -> np.ndarray:
-    """Return which roots (method, n) of flights from states (3, n) are wrong or missing."""
+    """Return whether each method's roots (method, n) are wrong, of flights from states (3, n)."""
     truth = proved_times(BALL, columns)
     return np.array([is_wrong(method.solve(BALL, *columns)[0], truth) for method in methods])
 
 
 def certified_orbit(ball: Ball, state: State, impacts: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return states (3, impacts) of the certified orbit from `state`, and the flight times."""
+    """Return the states (3, impacts) from which a certified orbit's flights start, and their times.
+
+    The first one is `state`.
+    """
     track, _ = OURS.orbit(ball, state, impacts)
     return states_before(state, track), track[3]
 
 
 def states_before(state: State, track: np.ndarray) -> np.ndarray:
-    """Return the states (3, n) from which the n flights of an orbit's track start."""
+    """Return the states (3, n) from which flights start, for a track of `CountedMethod.orbit`."""
     return np.column_stack((np.array(state), track[:3, :-1]))
 
 
 def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
-    """Return the largest relative error of the energy so far, at each impact of `track`."""
+    """Return, at each impact of a track, the largest relative error of the energy up to it."""
 
     def energy(x: Result, v: Result, w: Result) -> Result:
         return (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
@@ -93,9 +98,10 @@ def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
 def orbits(impacts: int = MILLION) -> xr.Dataset:
     """Compare the methods in this package's arithmetic along the chaotic orbit.
 
-    `missed` and `evaluations` are those along the certified orbit, `drift` is that of the method's
-    own orbit. `apart` is the median over starts of the distance in x from the proved orbit, and
-    `agree` the number of impacts for which two orbits stay within SEPARATION.
+    The methods solve the flights of the certified orbit for `missed` and `evaluations`; `drift` is
+    the energy error of each method's own orbit. From AGREE_STARTS other starts, `apart` is the
+    median distance in x between a method's orbit and the proved one, and `agree` the median number
+    of impacts for which two of these orbits, the last of them proved, stay within SEPARATION.
     """
     start = states.chaotic()
     columns, truth = certified_orbit(BALL, start, impacts)
@@ -124,7 +130,7 @@ def orbits(impacts: int = MILLION) -> xr.Dataset:
 
 
 def _positions() -> np.ndarray:
-    """Return x (method, start, impact) of orbits by each of ORBIT_METHODS, last the proved ones."""
+    """Return x (method, start, impact) of the orbits by ORBIT_METHODS, and then the proved ones."""
     starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
     computed = [[m.orbit(BALL, s, AGREE_IMPACTS)[0][0] for s in starts] for m in ORBIT_METHODS]
     proved = [[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts]
@@ -132,17 +138,17 @@ def _positions() -> np.ndarray:
 
 
 def _agreement(a: np.ndarray, b: np.ndarray) -> float:
-    """Return the median over starts of the impacts before two orbits differ by SEPARATION."""
+    """Return after how many impacts two methods' orbits differ by SEPARATION, median of starts."""
     beyond = np.abs(a - b) > SEPARATION
     first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), beyond.shape[1])
     return float(np.median(first))
 
 
 def missed(methods: Sequence[Method], impacts: int = MILLION) -> xr.Dataset:
-    """Count the impacts of the certified chaotic orbit that both the coarsest scan and others miss.
+    """Count the impacts of the certified chaotic orbit that the coarsest scan and each method miss.
 
-    The methods solve only the flights for which a scan with step 0.5 gives a wrong root. What they
-    miss elsewhere is not counted, so the count, missed (method), is a lower bound.
+    The methods solve only the flights for which a scan with step 0.5 gives a wrong root. The result
+    missed (method) is therefore a lower bound of the impacts that a method misses on the orbit.
     """
     columns, certified = certified_orbit(BALL, states.chaotic(), impacts)
     hard = is_wrong(scan_method(0.5, 1e-12).solve(BALL, *columns)[0], certified)

@@ -1,18 +1,19 @@
 """The error of each figure under each compiled method, in pixels, and the cost of the method.
 
-The kind of picture names its measure of error:
+The kind of a picture decides how its error is measured:
 
     portrait  the drift of the energy over each orbit, as a change of the section's radius, which
               moves every curve; points that slide along a curve do not show
     motion    the error of height and time at the impacts, against the proved orbit
     tangle, closeup
-              the error of one impact on the branches, times 1/(1 - 1/m) for the multiplier m of an
-              impact: errors across a branch shrink by 1/m each impact, errors along it do not show
-    exponents the change of a tangent vector's exponent, averaged over the orbits
+              the error of one impact on the manifolds' branches, summed over later impacts to
+              1/(1 - 1/m) of it, for the orbit's multiplier m per impact: errors across a branch
+              shrink by 1/m each impact, errors along it do not show
+    exponents the change of the orbits' mean exponent of a tangent vector
 
 A missed impact puts a point off the orbit. A picture of orbits shows it even if the energy is
 exact; the mean exponent of a long orbit does not. The size of a pixel is that of the drawn figure,
-so this stage imports the drawings.
+so this stage imports the modules that draw.
 """
 
 import math
@@ -41,11 +42,12 @@ from .methods.counted_methods import ENGINES, OURS, SCANS, CountedMethod
 from .stages import described
 from .work import dataset, is_wrong, proved_times
 
-# The march, scans of 0.5 and 0.1, the finest scan, and all engines but the coarsest.
+# The certified march, the scans with steps 0.5 and 0.1, the finest scan, and all engines but the
+# coarsest.
 METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
-_AXIS = "unit of the axis"  # a scale: R for positions, 1/omega for times, 1 for exponents
-# Standard deviation between orbits of an exponent after 2e5 impacts, with any method: an error
-# below that of the orbits' mean does not show.
+_AXIS = "unit of the axis"  # R for positions, 1/omega for times, 1 for exponents
+# Standard deviation, between orbits, of the exponent after 2e5 impacts with any method. An error
+# below the standard error of the orbits' mean does not show.
 SCATTER = 0.004
 BRANCH_POINTS = 2000  # of a manifold, evenly by index; one miss in a thousand shows
 Block = dict[str, Any]  # a scene of the checked config
@@ -55,7 +57,7 @@ class PictureErrors(NamedTuple):
     """Errors of the methods in one figure; lists have an entry for each method."""
 
     error: list[float]  # of the picture, in pixels
-    missed: list[int]  # impacts flown past
+    missed: list[int]  # impacts flown past: no root, or another one
     evaluations: list[float]  # for one impact
     impacts: int  # computed for the comparison
     axis: str  # in whose units `pixel` is
@@ -68,9 +70,10 @@ class PictureErrors(NamedTuple):
 def needs(
     *datasets: xr.Dataset, scenes: dict[str, Block], measures: dict[str, str], inputs: list[str]
 ) -> xr.Dataset:
-    """Measure the error of each figure by each method.
+    """Compute the dataset of the stage `needs`: the error of each figure under each method.
 
-    `scenes` and `measures` are those of `figure_errors`; `inputs` name the datasets STAGE/SCENE.
+    `scenes` and `measures` are those of `figure_errors`; `inputs` has the name STAGE/SCENE of each
+    of the `datasets`.
     """
     keys = [tuple(name.split("/")) for name in inputs]
     artifacts = dict(zip(keys, datasets, strict=True))
@@ -84,9 +87,9 @@ def figure_errors(
 ) -> xr.Dataset:
     """Compute each figure's error under each method, and which methods are good enough.
 
-    `scenes` has the blocks of the checked config, with their axes, `measures` a key of MEASURES for
-    each, and `artifacts` the Dataset of (stage, name), for periodic orbits and manifolds. The
-    dataset is on (scene, method).
+    `scenes` maps names to blocks of the checked config, with their axes, and `measures` maps the
+    names to keys of MEASURES. `artifacts` maps (stage, scene) to the datasets of periodic orbits
+    and manifolds that the measures need. The result has the dims (scene, method).
     """
     rows = []
     for name, block in scenes.items():
@@ -131,12 +134,13 @@ def _portrait(block: Block) -> PictureErrors:
         tracks = [method.orbit(ball, *orbit)[0] for orbit in orbits]
         pairs = zip(orbits, tracks, strict=True)
         drift = max(energy_drift(ball, state, track)[-1] for (state, _), track in pairs)
+        # radius^2 = (2E + g^2/k)/k, so that d radius = dE/(k radius); all orbits have the same E
         error.append(drift * abs(ball.energy(*orbits[-1][0])) / (ball.k * radius) / pixel)
     return PictureErrors(error, *_misses(ball, orbits), "x", pixel, stroke=0.8)
 
 
 def _exponents(block: Block) -> PictureErrors:
-    """Measure the change of the exponents' mean."""
+    """Measure the change of the orbits' mean exponent from that of the certified march."""
     ball, orbits = _orbits(block)
     _, pixel = _pixels(exponents.plane(block))
     means = [
@@ -149,14 +153,14 @@ def _exponents(block: Block) -> PictureErrors:
 
 
 def _vector_exponent(method: CountedMethod, ball: Ball, state: State, impacts: int) -> float:
-    """Return the exponent of a tangent vector, which tends to the largest."""
+    """Return the exponent of a tangent vector, which tends to the largest Lyapunov exponent."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = states_before(state, track)
     return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
 
 
 def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
-    """Measure the error of height and time at the impacts."""
+    """Measure the error of height and time at the impacts, against the proved orbit."""
     ball = Ball(**block["ball"])
     orbit = of_type(periodic, block["type"])
     x, xdot, udot = states_of(orbit)[:, 0].tolist()
@@ -177,11 +181,11 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
-    """Measure the error of an impact on the branches, summed over later impacts."""
+    """Measure the error of one impact on the manifolds' branches, summed over later impacts."""
     ball = Ball(**block["ball"])
     pixel = 1.0 / Box(block).view.scale if "view" in block else _pixels(closeup.plane(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
-    # a decimal power, since a power function's last bit differs between machines
+    # per impact; a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
     columns = states_of(manifolds)
     columns = columns[:, ~np.isnan(columns[0])]
@@ -215,7 +219,7 @@ def _pixels(plane: Plane) -> tuple[float, float]:
 
 
 def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]]]:
-    """Return the ball of a scene of orbits, and the start of each orbit with its impacts."""
+    """Return the ball of a scene, and each orbit's initial state and number of impacts."""
     ball, starts, impacts = Ball(**block["ball"]), block["starts"], block["impacts"]
     states = [start_state(ball, block["energy"], start) for start in starts]
     each = impacts if isinstance(impacts, list) else [impacts] * len(starts)
@@ -223,20 +227,20 @@ def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]]]:
 
 
 def _misses(ball: Ball, orbits: list[tuple[State, int]]) -> tuple[list[int], list[float], int]:
-    """Return `_counts` of the flights along certified orbits."""
+    """Count misses and evaluations of each method along certified orbits, as `_counts` does."""
     pieces = (certified_orbit(ball, *orbit) for orbit in orbits)
     columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
     return _counts([method.solve(ball, *columns) for method in METHODS], truth)
 
 
 def _counts(solved: list[Flights], truth: np.ndarray) -> tuple[list[int], list[float], int]:
-    """Return the impacts missed and the evaluations a flight by each method, and all flights."""
+    """Return each method's wrong roots, its evaluations a flight, and the number of flights."""
     missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
     return missed, [float(count.mean()) for _, count in solved], truth.size
 
 
 def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Return the states after flights of given times, eq. (26)."""
+    """Return the states (3, n) after flights of times `tau` from states `columns`, eq. (26)."""
     x, xdot, udot = columns
     b, c, _ = rebound(xdot, udot, ball.k, impact_coefficients(ball.k))
     sine, cosine = sincos_each(tau)
@@ -245,7 +249,7 @@ def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray
 
 @jit
 def _growth(jacobians: np.ndarray) -> float:
-    """Return the logarithm by which a product of matrices (n, 3, 3) stretches (1, 0, 0)."""
+    """Return the log of the factor by which a product of matrices (n, 3, 3) stretches (1, 0, 0)."""
     a, b, c = 1.0, 0.0, 0.0
     total = 0.0
     for j in jacobians:

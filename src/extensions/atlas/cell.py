@@ -1,4 +1,7 @@
-"""One cell of a sweep: the share of regular orbits, their chains of islands, the sea's exponent."""
+"""One cell (k, E) of a sweep: share of regular orbits, chains of islands, exponent of the sea.
+
+Lengths are in g R and energies are E/g^2. The sea is the set of orbits that are not regular.
+"""
 
 import math
 from collections import Counter
@@ -12,13 +15,13 @@ from pseudorigid.dynamics.verdict import classify_orbits
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 
-PERIODS = 24  # islands of the longest chain that is told from curves around the fixed point
-LOCKED = 1e-5  # turns an impact; winding numbers as near to a fraction are taken for it
+PERIODS = 24  # most islands of a chain; longer chains count as curves around the fixed point
+LOCKED = 1e-5  # turns an impact; a winding number as near to a fraction is taken to equal it
 NORMAL_95 = 1.959964  # standard deviations on either side of the mean that hold 95 %
 BATCH_SIZE = 40_000  # orbits followed together: SIMD lanes stay full, and memory small
 _GOLDEN_RATIO = 0.6180339887498949  # the smaller one
 
-# Variable -> (long name, type), a number for each cell; `chains` has one for each period as well.
+# Variable -> (long name, type). A cell has one number of each, and one of `chains` per period.
 VARIABLES = {
     "trace": ("trace of the fixed point's Jacobian", "f8"),
     "rotation": ("rotation number of the fixed point, NaN where it is not elliptic", "f8"),
@@ -42,18 +45,18 @@ VARIABLES = {
 def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
     """Compute the numbers of one cell, with the keys of VARIABLES.
 
-    At most `impacts` impacts, at least 4, of each orbit are followed. The orbits start evenly over
-    one half, y >= 0, of the section's area; the reversor maps regular orbits of this half to those
-    of the other half. The interval of the regular share goes from the lower end of Wilson's
-    interval with half the threshold to the upper end of the one with twice the threshold. The sea's
-    exponent is the growth rate of tangent vectors over the impacts that all orbits have, so that it
-    does not depend on when the verdict on an orbit was safe.
+    Each of the `starts` orbits is followed for at most `impacts` >= 4 impacts. The orbits start
+    evenly over one half, y >= 0, of the section's area; the reversor maps regular orbits of this
+    half to those of the other half. The interval of the regular share goes from the lower end of
+    Wilson's interval with half the threshold to the upper end of the one with twice the threshold.
+    The sea's exponent is the growth rate of tangent vectors over those impacts that every orbit is
+    followed for, so that it does not depend on when an orbit was classified.
 
     A regular orbit belongs to a chain of q islands if its winding number around the fixed point is
     within LOCKED of a fraction p/q, q <= PERIODS, but not of the fixed point's own rotation number.
     On curves around the fixed point the winding number changes from curve to curve; in islands it
-    does not. Chains inside the main island, islands around islands, and a second orbit of the same
-    period count as well.
+    does not. Chains inside the main island and islands around islands are counted, too, and chains
+    of the same p/q count as one.
     """
     return cells_of_k(k, [e], starts, impacts)[0]
 
@@ -61,7 +64,7 @@ def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
 def cells_of_k(
     k: float, energies: Sequence[float], starts: int, impacts: int
 ) -> list[dict[str, Any]]:
-    """Compute the numbers of several cells with one k, with the bits of `cell` but in less time."""
+    """Compute several cells with one k, bit for bit as `cell` does but in less time."""
     cells = []
     step = max(1, BATCH_SIZE // starts)
     for batch in (energies[first : first + step] for first in range(0, len(energies), step)):
@@ -76,12 +79,15 @@ def cells_of_k(
 
 
 def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
-    """Return the numbers of a cell that follow from the verdicts on its orbits."""
+    """Return the numbers of a cell that follow from its classified orbits.
+
+    `orbits` is the array of `classify_orbits`, `rotation` the fixed point's rotation number.
+    """
     starts, regular = orbits.regular.size, orbits.regular
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
     apart = ~(np.abs(orbits.winding - rotation) <= LOCKED)
     turns, periods = fractions(orbits.winding[regular & apart])
-    # Of equally frequent chains `most_common` returns the first: that of smallest period and turns.
+    # Of equally frequent chains `most_common` returns the first: the smallest period, then turns.
     chains = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
     ((period, winds), count) = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
     sea_or_nan = sea if sea.size else np.array([math.nan])
@@ -105,7 +111,7 @@ def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
 
 
 def wilson(count: int, total: int) -> tuple[float, float]:
-    """Return Wilson's 95 % interval (1927) of a share, which is conservative for even starts."""
+    """Return Wilson's 95 % interval (1927) of a share, which is conservative for spread starts."""
     share, z2 = count / total, NORMAL_95 * NORMAL_95 / total
     middle = (share + 0.5 * z2) / (1.0 + z2)
     half = math.sqrt(share * (1.0 - share) * z2 + 0.25 * z2 * z2) / (1.0 + z2)
@@ -113,7 +119,7 @@ def wilson(count: int, total: int) -> tuple[float, float]:
 
 
 def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return p and q <= PERIODS of the simplest fraction within LOCKED of each number, or 0."""
+    """Return p and the least q <= PERIODS with p/q within LOCKED of each number, or zeros."""
     turns, periods = np.zeros(winding.size, np.int64), np.zeros(winding.size, np.int64)
     for q in range(1, PERIODS + 1):
         nearest = np.rint(winding * q)
@@ -124,7 +130,7 @@ def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @jit
 def _spiral(e: float, k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray) -> None:
-    """Write states evenly over half of the section, on a spiral with the golden angle."""
+    """Write x, v = xdot and w = udot of states evenly over half the section, on a golden spiral."""
     energy = 2.0 * e + 1.0 / k  # twice the energy above that of the ball at rest
     wide = math.sqrt(energy / k)
     high = math.sqrt((1.0 + k) * energy)

@@ -1,7 +1,7 @@
-"""MANIFEST.json: what each committed figure of a folder was made from, layer by layer.
+"""MANIFEST.json: what each figure of a folder of published files was made from, layer by layer.
 
-The layers are config, source, environment, data, drawing and file. Nothing in a manifest depends
-on the day, the folder or the commit.
+The layers are config, source, environment, data, drawing and file. `verify` names the layers
+in which a figure differs. Nothing in a manifest depends on the day, the folder or the commit.
 """
 
 import hashlib
@@ -23,10 +23,12 @@ from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT = 16  # hex digits of the hash of a block or an attribute
 
-Manifest = dict[str, Any]  # checked by _Manifest
+Manifest = dict[str, Any]  # with the fields of _Manifest
 
 
 class _Variable(pydantic.BaseModel):
+    """A variable of a dataset; `blocks` has a short hash of each BLOCK of its values."""
+
     dims: list[str]
     shape: list[int]
     dtype: str
@@ -36,17 +38,23 @@ class _Variable(pydantic.BaseModel):
 
 
 class _Data(pydantic.BaseModel):
+    """A dataset: hashes of its attributes, sizes of its dims, variables."""
+
     attributes: dict[str, str]
     sizes: dict[str, int]
     variables: dict[str, _Variable]
 
 
 class _Figure(pydantic.BaseModel):
+    """A published file: what `pictures.describe` returns, and its hash."""
+
     drawing: dict[str, int | str]
     sha256: str
 
 
 class _Scene(pydantic.BaseModel):
+    """A scene: its config block, source paths, stage -> name in _Manifest.data, and its files."""
+
     config: dict[str, Any]
     sources: list[str]
     data: dict[str, str]
@@ -54,6 +62,8 @@ class _Scene(pydantic.BaseModel):
 
 
 class _Manifest(pydantic.BaseModel):
+    """Package -> version, path -> hash of texts and of sources, and datasets and scenes by name."""
+
     environment: dict[str, str | None]
     texts: dict[str, str | None]
     sources: dict[str, str | None]
@@ -84,7 +94,7 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:
-    """Return a manifest of the files of a tree; ValueError or OSError if one cannot be read."""
+    """Return the manifest of a set's files; ValueError or OSError if one cannot be read."""
     artifacts = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
     files = sorted(set().union(*sources.values()))
@@ -111,12 +121,12 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
 
 
 def is_present(root: Path, published_set: PublishedSet) -> bool:
-    """Return whether a manifest or a checksum list of a published set is committed."""
+    """Return whether the folder of a published set has a manifest or a checksum list."""
     return any((root / published_set.folder / name).exists() for name in (MANIFEST, SUMS))
 
 
 def read(root: Path, folder: str) -> Manifest:
-    """Read a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
+    """Return a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
         manifest = json.loads(published_sets.read_published_text(root, name))
@@ -134,13 +144,13 @@ def read(root: Path, folder: str) -> Manifest:
 
 
 def sums(manifest: Manifest) -> dict[str, str]:
-    """Return file name -> SHA-256 of the pictures in a manifest, sorted by name."""
+    """Map each file name of the figures in a manifest to its SHA-256, sorted by name."""
     figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
-    return {name: entry["sha256"] for name, entry in sorted(figures)}
+    return {name: figure["sha256"] for name, figure in sorted(figures)}
 
 
 def is_listed(root: Path, folder: str, manifest: Manifest) -> bool:
-    """Return whether a folder's checksum list is that of a manifest; raises ChecksumError."""
+    """Return whether a folder's checksum list has the sums of a manifest; raises ChecksumError."""
     return published_sets.read_published_text(root, f"{folder}/{SUMS}") == format_sums(
         sums(manifest)
     )
@@ -159,7 +169,7 @@ def _checksum(manifest: Manifest) -> str:
 
 
 def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
-    """Return attribute -> hash of its value."""
+    """Map each attribute to a short hash of its value."""
     return {
         str(name): _short_hash(json.dumps(value).encode())
         for name, value in plain_attributes(source).items()

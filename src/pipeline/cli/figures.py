@@ -1,4 +1,4 @@
-"""Make the figures of a variant, publish them, and print what became of each."""
+"""Make the figures of a variant or set of scenes, publish them, and print the state of each."""
 
 import filecmp
 import shutil
@@ -22,22 +22,23 @@ from . import running
 from .arguments import Arguments
 from .session import CommandLineError, print_error
 
-Drawings = dict[str, str]  # path where users find a file -> its drawing in results
+Drawings = dict[str, str]  # path where users find a figure -> path of its drawing in results
 
 
 def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None:
-    """Raise CommandLineError for the first name that config.yaml does not have."""
+    """Raise CommandLineError for the first name that is not a `known` one of this kind."""
     for name in names:
         if name not in known:
             raise CommandLineError(unknown(kind, name, known))
 
 
 def drawings_of(config: Config, variant: str, names: Sequence[str] = ()) -> Drawings:
-    """Return the files of the named scenes of a variant, of all without names.
+    """Return the figures of the named scenes of a variant, by default those of all its scenes.
 
-    They include a file of each scene that the variant leaves out.
+    A scene that the variant leaves out has one path, so that `make` reports it.
     """
-    files = {p: (s, made[-1]) for p, (s, made) in paths.figures(config.variants, variant).items()}
+    figures = paths.figures(config.variants, variant)
+    files = {path: (scene, results[-1]) for path, (scene, results) in figures.items()}
     for scene in config.left_out.get(variant, ()):
         files[paths.drawn(scene, "png", variant)] = scene, paths.drawn(scene, "png", variant)
     require_known("figure", names, [*dict.fromkeys(scene for scene, _ in files.values())])
@@ -52,22 +53,22 @@ def make(
     data: Iterable[str] = (),
     brief: bool = False,
 ) -> int:
-    """Make and publish files, print a table of them, and return the exit status.
+    """Make and publish figures, print a table of them, and return the exit status.
 
-    `group` is a set of scenes or a variant, `data` are further results to make, which the table
-    leaves out, and `args` say what snakemake does. A `brief` table leaves out files that were
-    current. A figure whose periodic orbit does not exist is left out; the status is 1 then only if
-    it should have been published.
+    `group` is a set of scenes or a variant. `data` are further results to make, which the table
+    leaves out. `args` has the number of cores and the options of snakemake. A `brief` table leaves
+    out figures that were current. A figure that cannot exist, for instance for want of its periodic
+    orbit, is not made; if nothing else is missing, the status is 1 only for a published set.
     """
     reasons = config.left_out.get(group, {})
     left_out = {path: scene for path in drawings if (scene := PurePath(path).stem) in reasons}
     drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
     results = [*drawings.values(), *data]
     specs = build_specs(config, [group])
-    used = {path for spec in specs.values() for path in spec.inputs}
-    if not {*results, *used} <= specs.keys():  # some are of other sets
+    inputs = {path for spec in specs.values() for path in spec.inputs}
+    if not {*results, *inputs} <= specs.keys():  # some are of other sets
         specs = build_specs(config)
-    inodes = {drawing: inode(drawing) for drawing in drawings.values()}
+    inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
     notes = [*_hidden(_blocks(config, group, drawings.values()))]
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
@@ -100,7 +101,7 @@ def make(
 
 
 def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Picture]:
-    """Return the blocks of the scenes of some drawings."""
+    """Map the name of each scene of some drawings to its block of the config."""
     scenes = {PurePath(path).stem for path in drawings}
     return {name: block for name, block in config.variants.get(group, {}).items() if name in scenes}
 
@@ -124,12 +125,12 @@ def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, rep
 
 
 def _publish(drawings: Drawings) -> dict[str, str]:
-    """Copy drawings to their published files where these differ; return why a file was not."""
+    """Copy drawings to their published files if these differ; map each failed path to a reason."""
     problems = {}
     for path, drawing in drawings.items():
         published = ROOT / path
-        if words := why_not_a_file(published):
-            problems[path] = words
+        if reason := why_not_a_file(published):
+            problems[path] = reason
         elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
             try:
                 write_whole(published, read_bytes(ROOT / drawing))
@@ -139,7 +140,7 @@ def _publish(drawings: Drawings) -> dict[str, str]:
 
 
 def _delete(drawings: Iterable[str]) -> None:
-    """Delete drawings that cannot exist: an old one could be taken for this config's."""
+    """Delete old drawings, and their records, that the present config cannot have."""
     for drawing in drawings:
         for file in (ROOT / drawing, ROOT / record_path(drawing)):
             if not why_not_a_file(file):
@@ -149,7 +150,10 @@ def _delete(drawings: Iterable[str]) -> None:
 def _print_table(
     folder: str | None, states: Iterable[tuple[str, str, str]], notes: Iterable[str]
 ) -> None:
-    """Print scene and state of each file, compared with the commit in a `folder`, and notes."""
+    """Print a table of (scene, path, state), then the reasons of states, and notes.
+
+    Files in `folder`, that of a published set, are compared with the committed ones.
+    """
     rows, reasons = [], dict[str, list[str]]()
     for scene, path, state in states:
         size = compared = ""
@@ -159,12 +163,12 @@ def _print_table(
         if ": " in state:
             reasons.setdefault(state, []).append(path)
         rows.append((scene, path, size, state.partition(": ")[0], compared))
-    head = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
+    header = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
     width = shutil.get_terminal_size((10**6, 24)).columns  # without a terminal, lines stay whole
     wrap = partial(textwrap.wrap, width=width, subsequent_indent="  ", break_long_words=False)
     explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
     lines = [line for note in (*explained, *notes) for line in wrap(note)]
-    print("", *columns([head, *rows]), *lines, sep="\n")
+    print("", *columns([header, *rows]), *lines, sep="\n")
 
 
 def _unlisted(config: Config, group: str) -> list[str]:
@@ -176,13 +180,13 @@ def _unlisted(config: Config, group: str) -> list[str]:
 
 
 def _hidden(scenes: dict[str, Picture]) -> Iterator[str]:
-    """Yield a line for each field of these scenes that asks for more than the axes show."""
+    """Yield a line for each field of these scenes whose values the axes do not all show."""
     for scene, block in scenes.items():
         yield from (f"{scene}: {line}" for line in block.hidden())
 
 
 def _missed_impacts(config: Config, variant: str, scenes: dict[str, Picture]) -> Iterator[str]:
-    """Yield a line for each of these scenes with a `method`: what it computed or missed."""
+    """Yield a line for each scene with a `method`: impacts that were missed, or what is exact."""
     artifact_paths = paths.artifact_paths(config.variants)
     for scene, block in scenes.items():
         method, stages = block.as_mapping().get("method", {}), paths.stages(block)

@@ -1,6 +1,6 @@
-"""The page docs/config.md, written from the declarations and the template reference.md.
+"""Generator of docs/config.md, from the classes in schema/ and the template reference.md.
 
-Run `.venv/bin/python -m pipeline.config.reference` to renew it.
+Run `.venv/bin/python -m pipeline.config.reference` to renew the page.
 """
 
 from collections.abc import Iterable
@@ -30,21 +30,21 @@ EXAMPLES = (Path(__file__).parent / "schema" / "kinds" / "examples.yaml", *files
 
 
 def page() -> str:
-    """Return the text of the page."""
+    """Return the text of docs/config.md."""
     text = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
     template = jinja2.Template(
         text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
-    declared: tuple[Any, ...] = (Scene, Variant, example, has_picture, key_of, listed)
-    declared += (mappings, own_fields, quoted, upstream)
-    names = {each.__name__: each for each in declared}
+    used: tuple[Any, ...] = (Scene, Variant, example, has_picture, key_of, listed)
+    used += (mappings, own_fields, quoted, upstream)
+    names = {each.__name__: each for each in used}
     tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
     sets = {each.key: each for name, each in SETS.items() if each.key and name != PAPER}
     return str(template.render(names | tables, SETS=sets, fields=fields))
 
 
 def example(name: str) -> str:
-    """Return the example of a kind of picture as YAML, a block of `scenes:`."""
+    """Return the YAML text of an example scene of a kind of picture."""
     for file in EXAMPLES:
         _, _, text = f"\n{file.read_text(encoding='utf-8')}".partition(f"\n{name}:\n")
         if text:
@@ -53,7 +53,7 @@ def example(name: str) -> str:
 
 
 def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
-    """Return the blocks that only this kind has as values, by the fields."""
+    """Map names to the Block classes that a kind's module declares for values of its fields."""
     module = import_module(kind.__module__)
     return {
         name.lower(): value
@@ -66,20 +66,20 @@ def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
 
 
 def own_fields(kind: type[Picture]) -> list[str]:
-    """Return the fields of a kind of picture that not every scene has, or that differ from it."""
+    """Return the fields of a kind of picture that its base class lacks or declares differently."""
     base = fields_of(Scene if issubclass(kind, Scene) else Picture)
-    shared = {key: (field.annotation, field.metadata) for key, field in base.items()}
+    inherited = {key: (field.annotation, field.metadata) for key, field in base.items()}
     own = fields_of(kind).items()
-    return [key for key, f in own if shared.get(key) != (f.annotation, f.metadata)]
+    return [key for key, field in own if inherited.get(key) != (field.annotation, field.metadata)]
 
 
 def has_picture(kind: type[Picture]) -> bool:
-    """Return whether scenes of a kind are drawn."""
+    """Return whether scenes of a kind of picture are drawn, and not only computed."""
     return bool(kind.model_fields["formats"].default)
 
 
 def key_of(name: str) -> str:
-    """Return the key of config.yaml whose shipped block has scenes of a kind, or `scenes`."""
+    """Return the key of config.yaml whose shipped scenes include one of a kind, or `scenes`."""
     shipped = with_shipped({})
     assert isinstance(shipped, dict)
     kinds = {each.key: each.kind for each in SETS.values()}
@@ -90,18 +90,21 @@ def key_of(name: str) -> str:
 
 
 def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
-    """List fields of a model, or all of them, with their meanings and what they allow."""
-    described, items = model.model_json_schema(schema_generator=Described), []
-    for key in keys or described["properties"]:
-        field = described["properties"][key]
+    """Return a Markdown list of the fields `keys` of a model, by default of all its fields.
+
+    An item has the field's default, its meaning and what is allowed.
+    """
+    schema, items = model.model_json_schema(schema_generator=Described), []
+    for key in keys or schema["properties"]:
+        field = schema["properties"][key]
         if "default" in field:
             default = f"default `{field['default']}`"
         else:
-            default = "required" if key in described.get("required", ()) else "optional"
+            default = "required" if key in schema.get("required", ()) else "optional"
         if field["description"].startswith("Allowed: "):
             raise ValueError(f"{model.__name__}.{key} has no docstring")
-        words = field["description"].replace(" Allowed: ", " *Allowed:* ")
-        text = f"- `{key}` ({default}): {words}"
+        meaning = field["description"].replace(" Allowed: ", " *Allowed:* ")
+        text = f"- `{key}` ({default}): {meaning}"
         items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
     return "\n".join(items)
 

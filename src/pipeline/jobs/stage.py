@@ -1,4 +1,4 @@
-"""Compute a stage of a scene."""
+"""The job that computes the dataset of a stage, or of a part of one."""
 
 import inspect
 import sys
@@ -15,7 +15,7 @@ from ..records.build_spec import BuildSpec
 
 
 def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
-    """Return a function by which a long stage reports the share that is done, every 4 s."""
+    """Return a function f(share, text) that prints what is done of a stage, at most every 4 s."""
     reported = 0.0
 
     def progress(share: float, text: str) -> None:
@@ -28,13 +28,17 @@ def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
 
 
 def make(spec: BuildSpec) -> None:
-    """Compute with the function that the specification names."""
+    """Compute a dataset with the function that the specification names, and save it.
+
+    `declaration.Stage` says how the function is called. With a `method` that scans, the ball's map
+    finds impacts by it, and the dataset says how many it missed.
+    """
     block, function = spec.config, imported(spec.function)
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
     taken = inspect.signature(function).parameters
     if "progress" in taken:
         fields["progress"] = _progress(spec)
-    if "folder" in taken:  # keeps finished parts, so that a killed run goes on
+    if "folder" in taken:  # the function keeps finished parts there, so that a killed run goes on
         fields["folder"] = f"{spec.result}.part"
     inputs = [artifacts.load(path) for path in spec.inputs]
     attributes: dict[str, Any] = {"stage": spec.step, "title": artifacts.title_of(function)}

@@ -1,4 +1,4 @@
-"""heyoka's Taylor integrator with a terminal event."""
+"""heyoka's Taylor integrator, with a terminal event where the gap x + u is zero."""
 
 import math
 from functools import cache
@@ -7,12 +7,13 @@ import heyoka as hy
 
 from .external_solver import AFTER, ExternalSolver, just_after
 
+# Signs of the gap's derivative at which a zero counts as an event.
 DIRECTIONS = {"any": hy.event_direction.any, "positive": hy.event_direction.positive}
 
 
 @cache
 def _integrator(g: float, tolerance: float, direction: str) -> hy.taylor_adaptive:
-    """Return a compiled integrator whose event is the gap, to be reused for every flight."""
+    """Return a compiled integrator of (x, u, xdot, udot), to be reused for every flight."""
     x, u, v, w = hy.make_vars("x", "u", "v", "w")
     return hy.taylor_adaptive(
         [(x, v), (u, w), (v, hy.par[0]), (w, -u)],
@@ -24,9 +25,9 @@ def _integrator(g: float, tolerance: float, direction: str) -> hy.taylor_adaptiv
 
 
 def taylor_method(tolerance: float, direction: str) -> ExternalSolver:
-    """Return heyoka with a tolerance and a direction of the event.
+    """Return the method with a tolerance and a direction of the event, a key of DIRECTIONS.
 
-    One order of one Taylor step counts as one evaluation of the right-hand side.
+    Each order of each Taylor step counts as one evaluation of the right-hand side.
     """
 
     def flight(x: float, b: float, c: float, g: float, latest: float) -> tuple[float, int]:

@@ -1,10 +1,10 @@
 """Heteroclinic orbits and the areas of lobes, by differences of action, to many digits.
 
 Along an impact and a flight at constant energy, the one-form y dx, y = xdot - k udot, changes by
-the differential of the action S, the integral of xdot^2 + k udot^2 over the flight. So the area
-between an unstable and a stable arc with common ends is the sum, over the whole orbits of the two
-ends, of the differences of S (MacKay, Meiss and Percival, Physica D 13, 1984). The terms nearly
-cancel; they are therefore computed in ball arithmetic, whose radii enclose every rounding.
+the differential of the action S, the integral of xdot^2 + k udot^2 over the flight. The area
+between an unstable and a stable arc with common ends is therefore a sum of differences of S between
+the orbits of the two ends, over all flights (MacKay, Meiss and Percival, Physica D 13, 1984). The
+terms nearly cancel. They are computed in ball arithmetic, whose radii enclose every rounding.
 """
 
 from collections.abc import Sequence
@@ -23,11 +23,13 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import Surface
 
-_NEWTON_STEPS = 30  # to a crossing, at most; each doubles the digits
-_SADDLE_STEPS = 9  # of Newton's method from doubles, to 20,000 bits
+_NEWTON_STEPS = 30  # of the search for a crossing, at most; each doubles the digits
+_SADDLE_STEPS = 9  # of Newton's method for a saddle, from doubles to 20,000 bits
 _SCAN_POINTS = 64  # parameters of an unstable segment at which a crossing is looked for
 _SCAN_END = 1e-6  # where that segment ends, as a distance from the saddle in the plane (x, y)
-_MOST_IMAGES = 60  # a branch of a multiplier above 1.26 has then grown from there to order one
+# Most periods for which a branch is followed from _SCAN_END. If the multiplier is above 1.26, the
+# branch has then grown to order one.
+_MOST_IMAGES = 60
 _CROSSING_BITS = 160  # of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
 _TANGENT = algebra(1, 1)  # jets of a value and its derivative along a tangent
 
@@ -50,7 +52,7 @@ class Saddle(NamedTuple):
 
 
 def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
-    """Return the points of a hyperbolic orbit, given to double precision.
+    """Return each point of a hyperbolic orbit to the working precision, refined from doubles.
 
     Raises ValueError for an orbit that is not proved to be hyperbolic.
     """
@@ -71,7 +73,7 @@ def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
 
 
 def flight(surface: Surface, x: Jet, y: Jet) -> tuple[Jet, Jet, arb]:
-    """Return the next impact of a point with a tangent vector, and the action of its flight.
+    """Return the image (x, y) of a point with a tangent vector, and the action of its flight.
 
     Raises UndecidedError, an ArithmeticError, if the precision does not enclose the flight.
     """
@@ -92,11 +94,11 @@ def flight(surface: Surface, x: Jet, y: Jet) -> tuple[Jet, Jet, arb]:
 class Heteroclinic:
     """An orbit on a branch of a saddle that meets y = 0, where the reversor mirrors it.
 
-    `sign` tells the branch along the saddle's direction from the one against it. `parameter`, the
-    distance of the orbit's start from the saddle, is refined so that the orbit meets y = 0 after
-    `impacts`. `points` are (x, y) up to there, `actions` those of the flights, and `tangent` is
-    that of the branch at y = 0. Raises ValueError or ArithmeticError if Newton's method does not
-    find the crossing, or the precision encloses too little.
+    The branch leaves the saddle along its direction if `sign` is 1, and against it if -1.
+    `parameter`, the distance of the orbit's start from the saddle, is refined so that the orbit
+    meets y = 0 after `impacts`. The attributes are the `points` (x, y) from the start to y = 0, the
+    `actions` of the flights between them, and the branch's `tangent` at y = 0. Raises ValueError if
+    Newton's method does not find the crossing, and ArithmeticError if the precision is too low.
     """
 
     def __init__(self, saddle: Saddle, sign: int, parameter: arb, impacts: int):
@@ -134,11 +136,12 @@ class Heteroclinic:
         return -2 * x * y / (x * x + y * y)
 
     def action(self, flight: int) -> arb:
-        """Return the action of a flight, 0 to 2 impacts - 1; those after y = 0 by time reversal."""
+        """Return the action of flight 0 to 2 impacts - 1; from y = 0 on, the reversor gives it."""
         return self.actions[min(flight, 2 * self.impacts - flight - 1)]
 
 
-# A crossing of a branch with y = 0: the parameter of its start, and the impacts from there.
+# A crossing of a branch with y = 0: its orbit's initial distance from the saddle, and the impacts
+# from there.
 Crossing = tuple[float, int]
 Primary = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring crossings
 
@@ -146,12 +149,13 @@ Primary = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring cr
 def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, Primary]:
     """Return the area between neighbouring crossings of two branches, and the orbits there.
 
-    The unstable branch on the side `sign` of a saddle of even period must lead to the mirror image
-    of the saddle, so that it meets y = 0 on the way, and so must its image half a period later. The
-    primary orbits start `nearer` images nearer to the saddle than _SCAN_END, on the branch's
-    tangent instead of the branch. This changes the area by the cube of their distance from the
-    saddle, which the ball does not contain. Raises ValueError or ArithmeticError as Heteroclinic
-    does, and where the branch is not seen to meet y = 0.
+    The branches are an unstable one and its mirror image. The unstable branch on the side `sign` of
+    a saddle of even period must lead to the mirror image of the saddle, so that it meets y = 0 on
+    the way, and so must its image half a period later. The two orbits start `nearer` periods
+    earlier than at _SCAN_END from the saddle, on the branch's tangent instead of the branch. This
+    changes the area by the cube of their distance from the saddle, an error that the enclosure does
+    not include. Raises ValueError or ArithmeticError as Heteroclinic does, and ValueError if no
+    crossing of the branch with y = 0 is found.
     """
     first = first_crossing(saddle, sign, 0)
     second = first_crossing(saddle, sign, saddle.period // 2)
@@ -167,10 +171,11 @@ def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, Primary]:
 def _lobe_between(
     saddle: Saddle, sign: int, nearer: int, near_crossing: Crossing, far_crossing: Crossing
 ) -> tuple[arb, Primary]:
-    """Return the results of `lobe` for its two crossings."""
+    """Return the area between the orbits of two crossings, and these orbits; see `lobe`."""
     (near, near_impacts), (far, far_impacts) = near_crossing, far_crossing
     ratio, period = float(saddle.multiplier), saddle.period
-    while far >= near:  # the crossing before that of the first orbit
+    # the second orbit starts in the fundamental segment that ends where the first one starts
+    while far >= near:
         far, far_impacts = far / ratio, far_impacts + period
     while far * ratio < near:
         far, far_impacts = far * ratio, far_impacts - period
@@ -184,21 +189,21 @@ def _lobe_between(
     area = _area_under_line(first.points[0], second.points[0])
     for index in range(flights):
         area += second.action(index) - first.action(index)
-    # both orbits are near the other saddle now, at the mirror images of points at the start
+    # both orbits are now near the other saddle, at mirror images of points near their starts
     begin, end = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
     return abs(area + _area_under_line(begin, end)), (first, second)
 
 
 def _area_under_line(begin: Vector, end: Vector) -> arb:
-    """Return the integral of y dx along a straight line."""
+    """Return the integral of y dx along the straight line between two points."""
     return (begin[1] + end[1]) / 2 * (end[0] - begin[0])
 
 
 def first_crossing(saddle: Saddle, sign: int, impacts: int) -> Crossing | None:
     """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
 
-    It starts in the last segment before _SCAN_END from the saddle. Returns None if the branch has
-    no crossing in _MOST_IMAGES images.
+    The crossing's orbit starts in the branch's last fundamental segment within _SCAN_END of the
+    saddle. Returns None if no image of this segment up to m = _MOST_IMAGES - 1 meets y = 0.
     """
     ball, parameters = saddle.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameters, impacts)
@@ -218,13 +223,13 @@ def _crossings(ball: Ball, states: np.ndarray) -> np.ndarray:
 
 
 def _scan_parameters(saddle: Saddle) -> np.ndarray:
-    """Return the parameters of the last fundamental segment before _SCAN_END."""
+    """Return parameters over the last fundamental segment within _SCAN_END of the saddle."""
     ratio = 1.0 / float(saddle.multiplier)
     return _SCAN_END * (ratio + (1.0 - ratio) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS)
 
 
 def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> np.ndarray:
-    """Return the states, in doubles, some impacts after the points of the branch's tangent."""
+    """Return the states, in doubles, that points of the branch's tangent reach after `impacts`."""
     ball = saddle.ball
     x, y = (
         float(a) + sign * parameters * float(e)
@@ -234,7 +239,7 @@ def _images(saddle: Saddle, sign: int, parameters: np.ndarray, impacts: int) -> 
 
 
 def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> Crossing:
-    """Refine a crossing of `first_crossing` to a millionth of the distance scanned."""
+    """Refine a crossing of `first_crossing` by three finer scans of its cell of the segment."""
     scanned = _scan_parameters(saddle)
     low, high = parameter, parameter + (scanned[1] - scanned[0])
     for _ in range(3):

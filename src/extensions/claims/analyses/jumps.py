@@ -1,9 +1,10 @@
-"""Where the map jumps: the states whose next flight just touches the floor.
+"""Curves where the map jumps: states whose next flight just touches the floor.
 
-A touch in flight, f = f' = 0, is a state on the section's rim, s = xdot + udot = 0, with x < -g; to
-the right of x = -g the ball cannot leave the floor. So the map jumps on the image of this arc of
-the rim under the inverse map, and the inverse map jumps on its image under the map; the reversor
+A touch in flight, f = f' = 0 for the gap f, is a state on the section's rim, s = xdot + udot = 0,
+with x < -g; for x > -g the ball cannot leave the floor. So the map jumps on the image of this arc
+of the rim under the inverse map, and the inverse map jumps on its image under the map; the reversor
 exchanges the two curves. The arc exists for E > g^2 (1 + k/2), where the rim reaches beyond -g.
+Curves are polylines, whose sides join neighbouring points.
 """
 
 import math
@@ -16,11 +17,11 @@ from pseudorigid.dynamics.ball import Ball, Rows
 from pseudorigid.dynamics.periodic import symmetric_flights
 from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, chart, described
 
-# Relative length left out at the arc's ends: at x = -g rounding decides whether the ball leaves.
+# Share of the arc left out at its ends: at x = -g rounding decides whether the ball leaves.
 _MARGIN = 2.0**-46
 _HALVINGS = 40  # of a side, after which a continuous image is as good as one point
-# The map jumps across a side if after these halvings its image is longer than this share of the
-# side's first image, and than this share of the whole image, below which it is rounding.
+# The map jumps across a side if, after these halvings, the image is still longer than the first
+# share of the whole side's image, and longer than the second share, rounding, of the curve's.
 _MIN_SIDE_SHARE, _MIN_TOTAL_SHARE = 0.01, 1e-9
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
 _DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve to where derivatives are taken
@@ -31,12 +32,13 @@ _HALVED = "by how much it differs from what half as many sides give"
 def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> xr.Dataset:
     """Compute the curves where the map jumps at several energies, and a symmetry line at the first.
 
-    On (energy, point), NaN where there is none, are the arc of the rim and its image under the map,
-    where the inverse jumps; NaN also stands next to a jump of the map. The map jumps on the mirror
-    image (x, -y). On one side of it the next impact is near (rim_x, -rim_y), on the other near the
-    image of that, the point with the same index counted from the end. The length is that of
+    The levels are `energy` and then `energies`. rim_x, rim_y are the arc of the rim on (energy,
+    point), and x, y its image under the map, on which the inverse map jumps; they are NaN at levels
+    without an arc, and x, y also next to a jump of the map. The map jumps on the mirror image
+    (x, -y): on one side of it the next impact is near (rim_x, -rim_y), on the other near the image
+    of that, the point (x, y) with the same index counted from the end. The length is that of
     Richardson's rule, and length_error includes the ends left out. Derivatives are those beside the
-    middle of the curve at the first energy, along its normal. There are such curves above the
+    middle of the curve at the first level, along its normal. There are such curves above the
     attribute first_energy.
 
     >>> from pseudorigid import Ball
@@ -81,14 +83,14 @@ def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> x
 
 
 def _lengths(curves: np.ndarray, gaps: np.ndarray, every: int) -> np.ndarray:
-    """Return lengths of polylines (2, n, points) of every so many points, without their gaps."""
+    """Return lengths of n polylines through each `every`-th point of (2, n, points), less gaps."""
     steps = np.diff(curves[:, :, ::every], axis=2)
     gap = gaps.reshape(gaps.shape[0], -1, every).max(axis=2)
     return np.nansum(np.where(gap, 0.0, np.sqrt(np.sum(steps * steps, axis=0))), axis=1)
 
 
 def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return x, y of the rim's arc with x < -g and of its image (4, points), and the gaps of it."""
+    """Return x, y of the rim's arc x < -g, then of its image (4, points), and the image's gaps."""
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
     if not centre - radius < -g:
@@ -111,7 +113,7 @@ def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray
 
 
 def _gaps(image: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray) -> np.ndarray:
-    """Return across which sides of the curve `image` of parameters (n,) the map jumps."""
+    """Return (n - 1,) whether the curve `image` jumps between neighbours of the parameters (n,)."""
     low, high = parameters[:-1], parameters[1:]
     start, end = image(low), image(high)
     sides = _distance(start, end)
@@ -119,6 +121,7 @@ def _gaps(image: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray) -> 
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         point = image(middle)
+        # go on with the half whose image is longer
         first = _distance(start, point) > _distance(point, end)
         low, high = np.where(first, low, middle), np.where(first, middle, high)
         start, end = np.where(first, start, point), np.where(first, point, end)
@@ -132,11 +135,15 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _derivatives(ball: Ball, energy: float, curve: np.ndarray) -> np.ndarray:
-    """Return the map's largest derivatives beside the curve's middle, touched row first."""
+    """Return the Jacobian's largest singular values at _DISTANCES from the curve's middle.
+
+    The first row is of the side on which the flight meets the floor, the second of the other, on
+    which it just misses.
+    """
     middle = curve.shape[1] // 2
     if math.isnan(curve[0, middle]):
         return np.full((2, len(_DISTANCES)), math.nan)
-    # the inverse jumps on the curve, the map on its mirror image
+    # the inverse map jumps on the curve, the map on its mirror image
     point, (dx, dy) = curve[:, middle], curve[:, middle + 1] - curve[:, middle - 1]
     x, y = float(point[0]), -float(point[1])
     length = math.sqrt(dx * dx + dy * dy)

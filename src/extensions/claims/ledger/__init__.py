@@ -1,4 +1,4 @@
-"""Every checkable statement of the paper (claims.toml), with a check that gives a verdict on it.
+"""Statements of the paper (claims.toml), and the checks that give a verdict on each.
 
 CLAIMS.json has the verdicts as data, and CLAIMS.md is rendered from it.
 """
@@ -16,7 +16,7 @@ from . import chaos, model, periodic, schema
 from .schema import UNCHECKED, Verdict
 
 FILE, DATA = "CLAIMS.md", "CLAIMS.json"  # the page is rendered from the data
-# MODULE.FUNCTION -> each public function of the modules with checks.
+# MODULE.FUNCTION, as claims.toml names a check, -> the function.
 CHECKS = {
     f"{module.__name__.rpartition('.')[2]}.{name}": function
     for module in (model, periodic, chaos)
@@ -25,6 +25,7 @@ CHECKS = {
 }
 TEXT = Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
 DOCUMENT = schema.load(TEXT, CHECKS)
+# number -> claim, and verdict word -> what the verdict needs, in the order of CLAIMS.md
 CLAIMS, VERDICTS = DOCUMENT.claims, DOCUMENT.verdicts
 _ROWS = TypeAdapter(list[Verdict])
 
@@ -35,15 +36,15 @@ def required_datasets() -> list[str]:
 
 
 def required_theorems() -> list[str]:
-    """Return the names of all theorems that the checks ask for, sorted."""
+    """Return the names of all theorems that the checks need, sorted."""
     return sorted({name for claim in CLAIMS.values() for name in claim.theorems})
 
 
 def judge_claims(datasets: Mapping[str, xr.Dataset], proofs: Mapping[str, str]) -> list[Verdict]:
-    """Return the verdicts on all claims, by number.
+    """Return the verdicts on all claims, in the order of claims.toml.
 
-    `datasets` are all of `required_datasets()`; a theorem that `proofs` does not name counts as not
-    proved.
+    `datasets` maps each of `required_datasets()` to the dataset. `proofs` maps theorems to "proved"
+    or another word; a theorem that it lacks counts as not proved.
     """
     return [claim.judge(datasets, proofs) for claim in CLAIMS.values()]
 
@@ -59,18 +60,18 @@ def read_json(text: str) -> list[Verdict]:
 
 
 def checkable(verdicts: Iterable[Verdict]) -> int:
-    """Return the number of statements that can be checked."""
+    """Return the number of statements that can be checked: all but the "not checkable" ones."""
     return sum(row.verdict != UNCHECKED for row in verdicts)
 
 
 def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
-    """Return verdict word -> its rows by number, in the order of CLAIMS.md: corrections first."""
+    """Map each verdict word, in the order of CLAIMS.md, to its verdicts, sorted by number."""
     rows = sorted(verdicts, key=lambda row: row.number)
     return {word: [row for row in rows if row.verdict == word] for word in VERDICTS}
 
 
 def render(verdicts: list[Verdict]) -> str:
-    """Return the text of CLAIMS.md."""
+    """Return the text of CLAIMS.md: a table of the verdict words, and one of each word's rows."""
     tables = by_verdict(verdicts)
     count = checkable(verdicts)
     rest = f"{count} checkable statements, and on {len(verdicts) - count} more"

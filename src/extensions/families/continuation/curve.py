@@ -1,9 +1,9 @@
-"""Pseudo-arclength continuation of solutions of d - 1 equations in d - 1 positions and a parameter.
+"""Pseudo-arclength continuation of solutions of n equations in n positions and a parameter.
 
-A place is (position, ..., parameter); d is 2 or 3. Lengths are measured in (position, ...,
-parameter/scale). A curve is oriented by its equations: the unit tangent is the normalized cross
-product of their gradients, and never changes its sign along a curve. On the neighbouring solution
-of an equation the gradient points the other way, which shows if a step has gone astray.
+n is 1 or 2. A place is (position, ..., parameter). Lengths and vectors are in scaled coordinates,
+(position, ..., parameter/scale). The equations orient a curve: the unit tangent is the normalized
+cross product of their gradients, and never changes its sign along a curve. At the neighbouring zero
+of an equation the gradient points the other way, so a step to a neighbouring curve is noticed.
 """
 
 import math
@@ -15,18 +15,18 @@ import numpy as np
 Place = tuple[float, ...]
 
 LARGEST_STEP, FIRST_STEP, LEAST_STEP = 0.02, 1e-3, 1e-11
-# Largest angle (cosine) by which the tangent may turn in a step, and from predictor to solution.
+# Least cosine of the angle by which the tangent turns in a step, and from predictor to solution.
 _STRAIGHT = 0.98
-_CORRECTION = 0.25  # largest correction of a predictor, in steps
-_CHANGE = 0.2  # largest change of a guarded quantity in a step
-# A vector that must not vanish may shrink in a step by this factor, and turn by this cosine.
+_CORRECTION = 0.25  # largest distance from predictor to solution, in units of the step
+_CHANGE = 0.2  # largest change of an entry of Point.guard in a step
+# Least factor by which a vector of Point.apart shrinks in a step, and least cosine of its turn.
 _SHRINK, _TURN = 0.6, 0.7
 _NEWTON_STEPS = 12
 _ROUNDING = 1e-9  # Newton steps below this that no longer fall have reached rounding
-_FALL = 0.1  # factor by which a defect falls where Newton steps do not yet
-_DEFECT = 1e-5  # largest defect of a solution: at a jump Newton steps shrink, but it does not
-_HALVINGS = 30  # of a chord, to find a parameter
-_CUTS = 200  # of a chord, to locate an event
+_FALL = 0.1  # a defect that falls by this factor is progress even if the Newton step is no shorter
+_DEFECT = 1e-5  # largest defect of a solution; at a jump the Newton steps shrink but it does not
+_HALVINGS = 30  # bisections of a chord, to find a parameter
+_CUTS = 200  # most cuts of a chord, to locate an event
 MOST_POINTS = 20_000
 
 
@@ -36,9 +36,11 @@ class Point(NamedTuple):
     place: Place
     defect: Place  # values of the equations
     gradients: tuple[Place, ...]  # of each equation
-    guard: np.ndarray  # quantities that change little in a step
-    apart: tuple[np.ndarray, ...]  # vectors that vanish only where the curve ends
-    data: Any  # the orbit: what a System knows of the point besides
+    guard: np.ndarray  # quantities that may change by at most _CHANGE in a step
+    # Differences between points of an orbit, or of its mirror image, that vanish only where the
+    # curve ends because the orbit merges with a shorter or more symmetric one.
+    apart: tuple[np.ndarray, ...]
+    data: Any  # the orbit, as the System represents it
 
     @property
     def q(self) -> float:
@@ -54,15 +56,18 @@ class Point(NamedTuple):
 class System(Protocol):
     """Equations whose solutions are curves."""
 
-    scale: float  # unit of the parameter in lengths
+    scale: float  # change of the parameter that counts as the length 1
     limits: tuple[float, float]  # range of the parameter
 
     def point(self, place: Place) -> Point | None:
-        """Return the equations at a place, or None where they are not defined."""
+        """Evaluate the equations at a place; None where they are not defined."""
 
 
 class Curve(NamedTuple):
-    """Points along a curve, and why it stops there: range, closed, collapse or blocked."""
+    """Points along a curve, and why it stops: "range", "closed", "collapse" or "blocked".
+
+    It is blocked if not even LEAST_STEP leads on, or if it has MOST_POINTS.
+    """
 
     points: list[Point]
     reason: str
@@ -77,12 +82,12 @@ def cross(a: Place, b: Place) -> Place:
 
 
 def _rows(system: System, point: Point) -> list[Place]:
-    """Return the gradients of the equations by the scaled coordinates."""
+    """Return the gradients of the equations with respect to the scaled coordinates."""
     return [(*row[:-1], row[-1] * system.scale) for row in point.gradients]
 
 
 def tangent(system: System, point: Point) -> Place:
-    """Return the unit tangent, in scaled coordinates, oriented by the equations."""
+    """Return the unit tangent, in scaled coordinates, or NaN if the gradients are dependent."""
     rows = _rows(system, point)
     vector = (-rows[0][1], rows[0][0]) if len(rows) == 1 else cross(*rows)
     size = math.sqrt(dot(vector, vector))
@@ -90,13 +95,13 @@ def tangent(system: System, point: Point) -> Place:
 
 
 def moved(system: System, place: Place, vector: Place, length: float) -> Place:
-    """Return the place that is a scaled vector times a length away from a place."""
+    """Return the place that is reached from a place by a scaled vector times a length."""
     steps = (*vector[:-1], vector[-1] * system.scale)
     return tuple(x + length * step for x, step in zip(place, steps, strict=True))
 
 
 def distance(system: System, first: Place, last: Place) -> float:
-    """Return the scaled distance, in the maximum norm."""
+    """Return the maximum norm of the difference of two places in scaled coordinates."""
     *ends, parameter = (abs(a - b) for a, b in zip(first, last, strict=True))
     return max(*ends, parameter / system.scale)
 
@@ -121,8 +126,8 @@ def cramer(rows: Sequence[Place], values: Place) -> Place | None:
 def correct(system: System, place: Place, along: Place, reach: float) -> Point | None:
     """Return the solution in the plane through a place that is normal to `along`, or None.
 
-    Newton's method may move at most `reach`. With two equations, which are nearly the same at large
-    multipliers, it also goes on while only the defect falls.
+    Newton's method may move by at most 2 `reach`. With two equations, whose gradients are nearly
+    dependent at large multipliers, it also goes on while only the defect falls.
     """
     first, previous, previous_defect = place, math.inf, math.inf
     for _ in range(_NEWTON_STEPS):
@@ -145,12 +150,12 @@ def correct(system: System, place: Place, along: Place, reach: float) -> Point |
 
 
 def solve_at(system: System, place: Place, reach: float) -> Point | None:
-    """Return the solution at the parameter of a place next to it, or None."""
+    """Return the solution near a place that has the place's parameter, or None."""
     return correct(system, place, (*(0.0,) * (len(place) - 1), 1.0), reach)
 
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
-    """Return whether the new point lies on the curve of the old one, by how little changes."""
+    """Return whether so little changes in a step that the new point is on the old one's curve."""
     before, between, after = (tangent(system, point) for point in (old, predicted, new))
     if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
         return False
@@ -176,9 +181,10 @@ def trace(system: System, start: Point, sign: float, collapsed: Callable[[Point]
     start : Point
         On the curve.
     sign : {1.0, -1.0}
-        Along the tangent, or against it.
+        Direction: along the tangent at each point, or against it.
     collapsed : callable
-        Whether a point is so near to the end of the curve that only its end is missing.
+        Whether a point is so near to the curve's end, where a vector of `apart` vanishes, that the
+        curve need not be followed further.
     """
     points, step = [start], FIRST_STEP
     low, high = system.limits
@@ -225,14 +231,14 @@ def _chord(system: System, first: Point, last: Point) -> tuple[Place, float]:
 
 
 def part_of_chord(system: System, first: Point, last: Point, point: Point) -> float:
-    """Return where a point lies along the chord between two points, 0 to 1."""
+    """Return where a point projects onto the chord from `first` (0) to `last` (1)."""
     along, length = _chord(system, first, last)
     across, away = _chord(system, first, point)
     return dot(along, across) * away / length if length > 0.0 else 0.0
 
 
 def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
-    """Return whether the segment from `old` to `new` passes through `start` in its direction."""
+    """Return whether the step from `old` to `new` passes `start` with about the same tangent."""
     if not dot(tangent(system, start), tangent(system, new)) > _STRAIGHT:
         return False
     part = part_of_chord(system, old, new, start)
@@ -242,7 +248,7 @@ def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
 
 
 def _beside(system: System, first: Point, last: Point, share: float) -> Place:
-    """Return the place of the cubic through two points, with their tangents, near a share of it."""
+    """Return the place at a share, 0 to 1, of the Hermite cubic between two points of a curve."""
     along, length = _chord(system, first, last)
     tangents = [tangent(system, point) for point in (first, last)]
     start, end = (
@@ -260,7 +266,7 @@ def _beside(system: System, first: Point, last: Point, share: float) -> Place:
 
 
 def between(system: System, first: Point, last: Point, share: float) -> Point | None:
-    """Return the point of the curve beside a share of the chord between two of its points."""
+    """Return the point of a curve near a share, 0 to 1, of the chord of two points, or None."""
     along, length = _chord(system, first, last)
     if not length > 0.0:
         return first
@@ -272,9 +278,9 @@ def locate(
 ) -> Point | None:
     """Return the point between two points of a curve at which `value` of the point changes sign.
 
-    The chord is cut by secants (the Illinois rule), with bisection as a safeguard, until its parts
-    are neighbouring doubles or `value` no longer falls. The value must have opposite signs at the
-    ends. Returns None where a point between them is not found.
+    `value` must have opposite signs at the two points. The interval of shares is cut by secants
+    (the Illinois rule), with bisection as a safeguard, until its ends are neighbouring doubles or
+    |value| no longer falls. Returns None where a point on the way is not found.
     """
     low, high = 0.0, 1.0
     at_low, at_high = value(first), value(last)
@@ -303,7 +309,11 @@ def locate(
 
 
 def at_parameter(system: System, first: Point, last: Point, p: float) -> Point | None:
-    """Return the point at the parameter p between two points of a curve, or None."""
+    """Return the point at the parameter p between two points of a curve, or None.
+
+    Newton's method at fixed p starts from the Hermite cubic. If it leaves the neighbourhood of the
+    two points, `locate` finds the point along the curve.
+    """
     if p in (first.p, last.p):
         return first if p == first.p else last
     low, high = 0.0, 1.0

@@ -1,6 +1,6 @@
-"""The fixed point's trace over all energies, by its closed form.
+"""Ellipticity of the fixed point up to an energy, from the closed form of its trace.
 
-README.md has the argument ("Periodic orbits").
+README.md of this extension has the argument ("Periodic orbits"). theta is half the time of flight.
 """
 
 from fractions import Fraction
@@ -21,9 +21,10 @@ _MOST_BANDS = 10_000
 def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction) -> Finding:
     """Prove that the fixed point is elliptic at all energies from -g^2/(2k) up to a given one.
 
-    The trace falls strictly as the energy rises, from 2, which it does not reach, and is above
-    `trace` at the given energy. On theta <= pi/2 every term of its derivative is negative; from
-    there to the end the derivative is enclosed over bands.
+    As the energy rises, the trace falls strictly from its limit 2, and at `energy` it is above
+    `trace`. Each term of the trace's derivative by theta is negative for theta <= pi/2; from there
+    to the theta of `energy` the derivative is enclosed over bands. The certificate `text` encloses
+    this theta and states the number of bands.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "elliptic fixed point", ball=(k, g))
@@ -49,7 +50,7 @@ def check(text: str, k: Fraction, g: Fraction, energy: Fraction, trace: Fraction
 
 
 def theta_ends(certificate: Certificate) -> list[arb]:
-    """Return the ends of the certificate's narrow interval of theta, between 0 and pi."""
+    """Return the ends of the certificate's interval of theta, narrow and in (0, pi)."""
     low, high = certificate.row("theta", 2)
     if not 0 < high - low <= CLOSE:
         raise NotProvedError("theta is not enclosed to 1e-30")
@@ -60,7 +61,7 @@ def theta_ends(certificate: Certificate) -> list[arb]:
 
 
 def _least_fall(k: arb, end: arb, bands: int) -> float:
-    """Prove that the trace falls from pi/2 to a theta, and bound its slope's modulus below."""
+    """Prove that the trace falls in theta from pi/2 to `end`; return a lower bound of -slope."""
     if not 1 <= bands <= _MOST_BANDS:
         raise NotProvedError(f"{bands} bands are not from 1 to {_MOST_BANDS}")
     start = (arb.pi() / 2).lower()

@@ -1,4 +1,7 @@
-"""The model of section 2: equations of motion, inertia, stiffness, scaling and impulse."""
+"""Derivations of the paper's section 2: motion, inertia, stiffness, scaling and impulse.
+
+A number in parentheses is one of the paper's equations. `value` is that of the returned Formula.
+"""
 
 from collections.abc import Callable
 
@@ -8,7 +11,7 @@ from .symbols import E0, EV0, GRAVITY, PAPER, Formula, M, R, T, energy, g, k, re
 
 
 def equations_of_motion() -> Formula:
-    """Derive (10) between impacts from the Lagrangian (1)-(3)."""
+    """Derive the equations of motion (10), between impacts, from the Lagrangian (1)-(3)."""
     position, strain = sp.Function("X")(T), sp.Function("U")(T)
     kinetic = M * position.diff(T) ** 2 / 2 + E0 * strain.diff(T) ** 2 / 2
     potential = -M * GRAVITY * position + EV0 * strain**2 / 2
@@ -24,7 +27,7 @@ def _over_sphere(f: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
 
 
 def euler_tensor() -> Formula:
-    """Check (4): the integral of rho X3^2 is a component, not the trace. Value: k, solid ball."""
+    """Check (4): the integral of rho X3^2 is a third of the trace. Value: k of a uniform ball."""
     r = sp.symbols("r", positive=True)
     printed, corrected, inertias = True, True, []
     for power in (0, 1, 2, 7):  # of the radius, to which the density is proportional
@@ -41,7 +44,7 @@ def euler_tensor() -> Formula:
 
 
 def shell() -> Formula:
-    """Check (5): k = 1 for a shell as printed; 1/3, the value, by the component."""
+    """Check (5) for a thin shell: k = 1 is printed, and the component X3^2 gives 1/3, the value."""
     inertia = _over_sphere(lambda theta: sp.cos(theta) ** 2) / _over_sphere(lambda theta: 1)
     return Formula(inertia == 1, inertia == sp.Rational(1, 3), float(inertia))
 
@@ -53,7 +56,7 @@ def _stiffness(young: sp.Symbol, nu: sp.Symbol) -> tuple[sp.Matrix, sp.Expr]:
 
 
 def uncoupled() -> Formula:
-    """Check that only at a Poisson's ratio of 0 a force along an axis strains that axis alone."""
+    """Check that a force along an axis strains that axis alone only if Poisson's ratio is 0."""
     young, nu = sp.symbols("Y nu", positive=True)
     moduli, _ = _stiffness(young, nu)
     alone = moduli.subs(nu, 0) == young * sp.eye(3) and not zero(moduli[0, 1])
@@ -62,10 +65,11 @@ def uncoupled() -> Formula:
 
 
 def modes() -> Formula:
-    """Count, as the value, which of the six strain modes an axial force excites: two.
+    """Check that an axial force excites three of the six strain modes: it excites two, the value.
 
     Strains are (11, 22, 33) and the three shears, which all have the same inertia. A force along 3
-    excites the span of its direction and the images of that under powers of the stiffness.
+    excites the span of its direction and of the images of this direction under powers of the
+    stiffness.
     """
     normal, shear = _stiffness(*sp.symbols("Y nu", positive=True))
     stiffness = sp.diag(normal, 2 * shear * sp.eye(3))
@@ -80,7 +84,7 @@ def modes() -> Formula:
 
 
 def softness() -> Formula:
-    """Compute, as the value, Young's modulus in units of rho g R for g = 0.04 and k = 1/5."""
+    """Compute as the value Young's modulus over density, GRAVITY and R, for g and k of PAPER."""
     density, young = sp.symbols("rho Y", positive=True)
     omega2 = young / (k * density * R**2)  # (16) with (5)
     needed = sp.solve(GRAVITY / (omega2 * R) - g, young)[0]
@@ -93,7 +97,7 @@ _PRINTED_IMPULSE = 2 * k / (1 + k) * M * (_BEFORE[0] + R * _BEFORE[1])
 
 
 def impulse() -> Formula:
-    """Derive (13) from (11) and (12)."""
+    """Derive the impulse (13), which changes both velocities and keeps the energy, (11)-(12)."""
     (before_x, before_u), p = _BEFORE, sp.symbols("p", real=True)
     inertia = k * M * R**2
     after = before_x - p / M, before_u - R * p / inertia
@@ -108,7 +112,7 @@ def impulse_without_stiffness() -> Formula:
 
 
 def jump_conditions() -> Formula:
-    """Derive (14) and (25): energy kept, contact speed reversed, an involution."""
+    """Derive (14) and (25), an involution that keeps the energy and reverses the contact speed."""
     after = rebound(v, w)
     again = rebound(*after)
     return Formula(zero(
@@ -137,7 +141,7 @@ def impulsive_forces() -> Formula:
 
 
 def scaled_impulse() -> Formula:
-    """Check (24) by dimensions and from (10) with the delta of the scaled time."""
+    """Check (24), printed with omega^2 for omega, by dimensions and from (10) in scaled time."""
     rate, p = sp.symbols("omega p", positive=True)
     omega = 1 / _TIME
     scaled = p * rate / (M * R * rate**2)  # delta(t) = omega delta(omega t)
@@ -149,7 +153,7 @@ def scaled_impulse() -> Formula:
 
 
 def scaling() -> Formula:
-    """Derive (15)-(20): two numbers are left, and one of them is free with the unit of length."""
+    """Derive (15)-(20): k and g are left, and g depends on the unit of length, which is free."""
     rate, position, strain, unit = sp.symbols("omega X U L", positive=True)
     dx, du = sp.symbols("dX dU", real=True)
     inertia = k * M * R**2

@@ -1,4 +1,4 @@
-"""Proofs on request: of symmetric orbits, horseshoes on these, and invariant curves."""
+"""Proofs of a user's symmetric orbits, of horseshoes on them, and of invariant curves."""
 
 import math
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ from .statements import Theorem
 def prove_orbit(
     ball: Ball | Surface, orbit: xr.Dataset, energy: Exact | None = None
 ) -> periodic.Orbit:
-    """Prove that a periodic orbit exists, is alone in a box, and of which type it is.
+    """Prove that a periodic orbit exists, is alone in a box, and has its type.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ def prove_orbit(
     Returns
     -------
     checks.periodic.Orbit
-        Enclosures points (x, y), impacts and trace; type; radius, the largest of one digit for
-        which the orbit is proved to be the only one.
+        Enclosures `points` (x, y), `impacts` and `trace`; `type`; and `radius`, the largest number
+        of one digit for which the orbit is proved to be the only one in boxes of that size.
 
     Raises
     ------
@@ -74,7 +74,8 @@ def prove_horseshoe(
     ball, orbit
         As for `prove_orbit`.
     side : {"outer", "inner"}
-        The unstable branches of the connection, on this side at the orbit's first point.
+        Unstable branch of the connection at the orbit's first point: "outer" leads away from the
+        mean of the orbit's points.
     energy : int, Fraction, Decimal or str, optional
         As for `prove_orbit`.
 
@@ -120,17 +121,17 @@ def prove_curve(
     energy : int, Fraction, Decimal, str or float
         Total energy. It is exact, also the double that a float is.
     rotation_number : float
-        Clockwise turns per impact, between 0 and 1. The curve has a number within 5e-4 of it whose
-        continued fraction ends in ones: its partial quotients are the first ones of this number's.
-        A number too close to a fraction of small integers is refused.
+        Clockwise turns per impact, between 0 and 1. The curve's own rotation number is a noble one
+        within 5e-4: its partial quotients are the first few of this number's, followed by 1 for
+        ever. A number too close to a fraction of small integers is refused.
 
     Returns
     -------
     str, checks.certificate.Finding
-        The certificate, and the result of its checker. `digits` has the enclosures "rotation
-        number", "area" and "share", that of the section inside. `parts` has "polygons", the
-        vertices (x, y) of a polygon between the fixed point and the curve; no orbit that starts
-        inside it ever leaves the curve's inside.
+        The certificate, and the result of its checker. `digits` has enclosures of the curve's
+        "rotation number", of the "area" inside it and of its "share" of the section. `parts` has
+        "polygons", the vertices (x, y) of a polygon between the fixed point and the curve; no orbit
+        that starts inside the polygon ever leaves the curve's inside.
 
     Raises
     ------
@@ -167,7 +168,7 @@ def prove_curve(
 
 @contextmanager
 def _reported(name: str) -> Iterator[None]:
-    """Raise ValueError, with the name of what was to be proved, where a proof fails."""
+    """Turn the errors of a proof that fails into a ValueError that says what was to be proved."""
     try:
         yield
     except (NotProvedError, ValueError, ArithmeticError) as error:
@@ -177,7 +178,10 @@ def _reported(name: str) -> Iterator[None]:
 def _request(
     ball: Ball | Surface, orbit: xr.Dataset, energy: Exact | None
 ) -> tuple[Surface, list[list[float]], str]:
-    """Return the surface, the points (x, y) and the type of a requested orbit."""
+    """Return the surface, the points (x, y) and the type of a requested orbit.
+
+    Raises ValueError if the dataset has several orbits, or if the orbit's energy is another one.
+    """
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
     if isinstance(ball, Surface):

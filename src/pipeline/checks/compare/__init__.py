@@ -20,7 +20,7 @@ from . import cycles, picture, summaries
 
 
 def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[str]) -> None:
-    """Print what differs between two variants and save their figures side by side."""
+    """Print what differs between two variants in some scenes, and save figures side by side."""
     comparison = _Comparison(root, config, names)
     print(" | ".join(names))
     print(f"(a periodic orbit further than {cycles.REACH:g} section radii away counts as another)")
@@ -29,7 +29,7 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
 
 
 class _Comparison:
-    """Compares the scenes of two variants that have these names."""
+    """Comparison of two variants, given by their names, one scene at a time."""
 
     def __init__(self, root: Path, config: Config, names: Sequence[str]) -> None:
         self.root, self.config, self.names = root, config, names
@@ -37,24 +37,25 @@ class _Comparison:
         self.freshness = Freshness(root, build_specs(config, names))
 
     def lines(self, scene: str) -> list[str]:
-        """Return what differs in a scene, and save its figures side by side."""
+        """Return lines on what differs in a scene, and save its figures side by side."""
         variants = self.config.variants
         blocks = [variants[name][scene] for name in self.names if scene in variants[name]]
+        # state of each figure, or why the variant leaves the scene out
         states = {
             name: self.freshness.state(paths.drawn(scene, "png", name))
             if scene in variants[name]
             else self.config.left_out[name][scene]
             for name in self.names
         }
-        both = len(blocks) == len(self.names)
+        in_both = len(blocks) == len(self.names)
         current = [name for name in self.names if states[name] == CURRENT]
-        lines = [*_config_differences(*blocks)] if both else []
+        lines = [*_config_differences(*blocks)] if in_both else []
         lines += [f"{name}: {state}" for name, state in states.items() if state != CURRENT]
-        lines += self._data(scene, blocks) if both else ()
+        lines += self._data_differences(scene, blocks) if in_both else ()
         return [*lines, *self._side_by_side(scene, blocks, current)]
 
-    def _data(self, scene: str, blocks: Sequence[Picture]) -> Iterator[str]:
-        """Yield how the datasets of each stage differ, if those of both variants are current."""
+    def _data_differences(self, scene: str, blocks: Sequence[Picture]) -> Iterator[str]:
+        """Yield lines on how the datasets of each stage differ, if both variants' are current."""
         for stage in paths.stages(blocks[0]):
             results = [self.files[name, scene, stage] for name in self.names]
             if all(self.freshness.state(result) == CURRENT for result in results):
@@ -65,7 +66,7 @@ class _Comparison:
     def _side_by_side(
         self, scene: str, blocks: Sequence[Picture], current: Sequence[str]
     ) -> Iterator[str]:
-        """Save the figures of variants that are current side by side, and yield a line on them."""
+        """Save the figures of the `current` variants side by side, and yield a line on the file."""
         image = self.root / f"results/compare/{'..'.join(self.names)}/{scene}.png"
         if not current:
             with suppress(OSError):
@@ -87,7 +88,7 @@ class _Comparison:
 
 
 def _config_differences(first: Picture, second: Picture) -> Iterator[str]:
-    """Yield a line for each key of the config that differs, except derived axes."""
+    """Yield a line for each key in which the blocks of a scene differ, except their axes."""
     before, after = (paths.drawing(block) | {"axes": None} for block in (first, second))
     keys = differing_keys(before, after)
     yield from [f"{key}: {brief(a)} | {brief(b)}" for key, a, b in keys] or ["the same config"]
@@ -96,7 +97,7 @@ def _config_differences(first: Picture, second: Picture) -> Iterator[str]:
 def _stage_differences(
     stage: str, first: xr.Dataset, second: xr.Dataset, names: Sequence[str]
 ) -> list[str]:
-    """Describe how the two datasets of a stage differ."""
+    """Return lines on how the two datasets of a stage differ."""
     if stage == "periodic":
         return cycles.table(first, second, names)
     lines = [summaries.norms(first, second)]

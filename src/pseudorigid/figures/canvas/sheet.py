@@ -28,8 +28,8 @@ from . import style
 POINT = style.DPI / 72  # pixels
 _GRID = 256  # steps of the rasteriser in a pixel
 _LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
-_AHEAD = 64  # vertices between a kept one and the one in whose direction u is measured
-_SAFETY = 1.0 - 1e-6  # of the tolerance; rounding errors of slopes are far smaller
+_AHEAD = 64  # vertices from a kept one to the one that defines the direction u in _end_of_piece
+_SAFETY = 1.0 - 1e-6  # factor on the tolerance; rounding errors of slopes are far smaller
 
 
 class Sheet:
@@ -50,6 +50,7 @@ class Sheet:
         inches = self.figure.dpi_scale_trans
         across, up = snap_to_pixels(across), snap_to_pixels(up)
         if line_style.get("ls") != "none" and len(across) > 2:
+            # vertices within 1/64 pixel of a straight piece are left out
             keep = bends(np.floor(across * _GRID), np.floor(up * _GRID), _GRID // 64)
             across, up = across[keep], up[keep]
         artist = Line2D(across / style.DPI, up / style.DPI, transform=inches, **line_style)
@@ -61,7 +62,7 @@ class Sheet:
     def text(
         self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center"
     ) -> None:
-        """Write horizontal text; `ha` and `va` say which side of it the coordinates are."""
+        """Write horizontal text at (x, y); `ha` and `va` are its alignment, as in matplotlib."""
         x, y = (float(snap_to_pixels(value)) / style.DPI for value in (x, y))
         inches = self.figure.dpi_scale_trans
         self.figure.text(x, y, text, ha=ha, va=va, size=size, transform=inches)
@@ -75,7 +76,7 @@ def width(text: str, size: float) -> float:
 
 
 def snap_to_pixels(pixels: Any) -> np.ndarray:
-    """Round to a quarter step beside the rasteriser's grid, where no last bit matters.
+    """Round down to the rasteriser's grid, plus a quarter of its step, where no last bit matters.
 
     A last bit matters at the wholes and halves of the grid, at whole pixels, to which text and
     marks are moved, and at the sixth decimals in which SVG and PDF write points.
@@ -84,12 +85,15 @@ def snap_to_pixels(pixels: Any) -> np.ndarray:
 
 
 def runs(gap: np.ndarray) -> list[slice]:
-    """Return a slice for each run of places where `gap` is false."""
+    """Return a slice for each run of consecutive indices at which `gap` is false."""
     return np.ma.clump_unmasked(np.ma.array(gap, mask=gap)) if gap.size else []
 
 
 def pieces(*coordinates: np.ndarray) -> Iterator[list[np.ndarray]]:
-    """Yield the runs of a line without NaN, long ones in pieces that share a vertex."""
+    """Yield the coordinates of each part of a line without NaN.
+
+    Parts of more than _LONGEST sides are cut into pieces, which share a vertex.
+    """
     for run in runs(np.any(np.isnan(coordinates), axis=0)):
         for first in range(run.start, max(run.stop - 1, run.start + 1), _LONGEST):
             span = slice(first, min(first + _LONGEST + 1, run.stop))
@@ -97,10 +101,10 @@ def pieces(*coordinates: np.ndarray) -> Iterator[list[np.ndarray]]:
 
 
 def bends(across: ArrayLike, up: ArrayLike, tolerance: float) -> list[int]:
-    """Return the indices of the vertices to keep, which include both ends.
+    """Return the indices of the vertices of a line that are kept; both ends are.
 
-    A line through them passes the others within `tolerance`, at least 1. Coordinates are whole
-    numbers.
+    The line through these passes the other vertices within `tolerance`, which is at least 1.
+    Coordinates are whole numbers.
     """
     x, y = np.asarray(across, dtype=np.int64), np.asarray(up, dtype=np.int64)
     keep, xs, ys = [0], x.tolist(), y.tolist()
@@ -112,12 +116,13 @@ def bends(across: ArrayLike, up: ArrayLike, tolerance: float) -> list[int]:
 def _end_of_piece(
     x: np.ndarray, y: np.ndarray, xs: list[int], ys: list[int], first: int, tolerance: float
 ) -> int:
-    """Return the last vertex up to which each chord from `first` passes the vertices between.
+    """Return the last index such that `_passes` holds for the chords from `first` up to there.
 
-    Most chords are known to pass without a look at all of these: let u be the coordinate in the
-    direction of one chord, v the other one, in its units. A chord of slope m passes a vertex within
-    the tolerance if |v - m u| is at most that, so that each vertex bounds m. The vertex lies beside
-    the chord, too, if |v| < u/2, |m| < 1/2 and u + |v m| is at most the chord's u.
+    Most chords are accepted without a look at each vertex between. Let (u, v) be the coordinates of
+    a vertex along and across the chord from `first` to the vertex _AHEAD of it, times this chord's
+    length. A chord of slope m = v/u passes a vertex within the tolerance if |v - m u| is at most
+    the tolerance times that length, so that each vertex bounds m, by `least` and `most`. The vertex
+    lies beside the chord, too, if |v| < u/2, |m| < 1/2 and u + |v m| is at most the chord's own u.
     """
     x0, y0, ahead = xs[first], ys[first], min(first + _AHEAD, len(xs) - 1)
     du, dv = xs[ahead] - x0, ys[ahead] - y0
@@ -141,13 +146,13 @@ def _end_of_piece(
 def _turned(
     xs: list[int], ys: list[int], i: int, x0: int, y0: int, du: int, dv: int
 ) -> tuple[int, int]:
-    """Return u and v of a vertex."""
+    """Return (u, v) of vertex i: its offset from (x0, y0), along and across (du, dv)."""
     wide, high = xs[i] - x0, ys[i] - y0
     return wide * du + high * dv, high * du - wide * dv
 
 
 def _passes(x: np.ndarray, y: np.ndarray, first: int, last: int, tolerance: float) -> bool:
-    """Return whether the chord from one vertex to another passes those between."""
+    """Return whether the vertices between two lie beside their chord, within the tolerance."""
     inner = slice(first + 1, last)
     wide, high = x[last] - x[first], y[last] - y[first]
     dx, dy = x[inner] - x[first], y[inner] - y[first]

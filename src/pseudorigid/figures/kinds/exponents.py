@@ -14,18 +14,19 @@ from ..axes.plane import Plane, thousands
 from ..canvas import style
 from ..canvas.sheet import POINT
 
-_INSET_START = 0.25  # of the impacts
-_INSET_ROOM = 170  # pixels: the least distance of the first two exponents that takes an inset
+_INSET_START = 0.25  # share of the impacts before those that the inset shows
+_INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
 _NAMES = "Number of impacts", "Lyapunov exponents"
 plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
 @style.pinned()
 def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
-    """Draw the histories of the exponents, one hue an orbit, and the largest ones in an inset.
+    """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
 
-    If some orbits are regular and others chaotic, inset and names are those of chaotic ones, and a
-    key has each start. Raises ValueError if the axes show nothing.
+    If some orbits are regular and others chaotic, the inset and the names lambda_1, lambda_2, ...
+    at the lines' ends are for the chaotic ones, and a key names each start. Raises ValueError if
+    the axes show nothing.
     """
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     final, chaotic = final_exponents(lyapunov), _chaotic(lyapunov)
@@ -42,6 +43,7 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
     lines = [(style.HUES[i % len(style.HUES)], i >= len(style.HUES)) for i in range(orbits)]
+    # 48 pixels for each row of the key, which has two starts; rounded up to quarter inches
     picture = plane(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
         names = zip(scene["starts"], chaotic, lines, strict=True)
@@ -64,7 +66,7 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
 
 
 def _chaotic(lyapunov: xr.Dataset) -> np.ndarray:
-    """Return whether the largest exponent of each orbit exceeds `regular_bound`."""
+    """Return which orbits are chaotic: their largest exponent exceeds `regular_bound`."""
     from ...dynamics.regularity import regular_bound  # compiled code, which other kinds do not need
 
     known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
@@ -73,7 +75,7 @@ def _chaotic(lyapunov: xr.Dataset) -> np.ndarray:
 
 
 def _name(start: Any, chaotic: bool) -> str:
-    """Return a start as a key has it, with the verdict on its orbit."""
+    """Return the key's text for a start: its coordinates, and "chaotic" or "regular"."""
     points = start.items() if isinstance(start, dict) else [("start", start)]
     text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
     return f"{text}: {'chaotic' if chaotic else 'regular'}"
@@ -86,7 +88,10 @@ class _Inset(Window):
 def _inset(
     picture: Plane, largest: dict[str, Any], first: float, second: float, last: float
 ) -> _Inset | None:
-    """Return the panel between the first exponent and the second, None if there is no room."""
+    """Return a panel between the lines that end at `first` and `second`, None without room.
+
+    `largest` is its vertical axis, and `last` the last number of impacts.
+    """
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
     shown = inside([picture.up.limits], [np.array([first, second])]).all()
