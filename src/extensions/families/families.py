@@ -4,6 +4,7 @@ import json
 import math
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -144,7 +145,8 @@ def families(
         report(0.5 + 0.5 * done / count, f"{done} of {count} families have their branches")
     if checkpoint is not None and checkpoint.is_file():
         checkpoint.unlink()
-        checkpoint.parent.rmdir()
+        with suppress(OSError):  # a killed process may have left a part of a file
+            checkpoint.parent.rmdir()
     data = xr.Dataset(_variables(ball, along, search.families))
     unresolved = sum(end.kind == "unresolved" for f in search.families for end in f.ends)
     data.attrs |= {"parameter": parameter, "period": period, "levels": levels, "cells": CELLS}

@@ -125,7 +125,7 @@ def _impacts_behind(
 def of_orbits(ball: Ball, energy: float, orbits: xr.Dataset, starts: list[Any]) -> Impacts:
     """Return all impacts of a dataset of `scene_orbits`.
 
-    The starts are in the form that `starts.start_state` takes.
+    The starts are in the form that `orbits.start_state` takes.
     """
     state = states_of(orbits)
     before = np.roll(state, 1, axis=1)
