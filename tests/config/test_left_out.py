@@ -87,6 +87,7 @@ def test_the_ball_of_the_file_is_refused_once():
     assert list(lines) == ["ball.g: 0.3 is not allowed: expected 0 < g < k = 0.2"]
 
 
+@pytest.mark.slow
 def test_points_that_the_explorer_copies_suit_the_shipped_variants_or_are_left_out():
     draw = random.Random(7).uniform
     for _ in range(30):

@@ -39,6 +39,7 @@ def test_changes_of_data_config_and_an_edit_that_is_undone_are_reported(done):
     assert result.stdout.splitlines()[-1] == f"reproduce: config.yaml {AGAIN}"
 
 
+@pytest.mark.slow
 def test_what_was_drawn_before_an_edit_is_not_called_current(done):
     """The server of jobs has loaded the edited file beforehand."""
     for file in (done.path / DRAWING).parent.glob("fig3.*"):

@@ -85,6 +85,7 @@ def test_a_variant_s_figures_are_not_published(variants):
     assert contents(variants)["fig7.png"] == data
 
 
+@pytest.mark.slow
 def test_what_is_shared_is_not_computed_again_and_what_cannot_exist_is_removed(done):
     """A variant gets the energy of the paper back, and a scene without an orbit."""
     folder = done.path / "results"

@@ -7,6 +7,7 @@ import pytest
 from legible import assert_text_is_whole_and_apart, frames_of
 from samples import module
 from sections import BALL
+from slowly import slowly
 from small_curve import SMALL
 
 from extensions.families.families import families
@@ -54,6 +55,7 @@ CHANGES = [
     ("families", 1, "regular", lambda v: 0.5 * v),
 ]
 KINDS = list(dict.fromkeys(kind for kind, *_ in CHANGES))
+LARGE = ("control", "curves", "families", "jumps", "horseshoe")  # drawn twice in seconds
 
 
 def families_along(parameter, span, levels, step, starts, impacts):
@@ -109,7 +111,7 @@ def draw(name, datasets, **changes):
     return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", [*(n for n in KINDS if n not in LARGE), *slowly(*LARGE)])
 def test_a_picture_is_reproducible_and_fits_a_column(data, name):
     first = draw(name, data(name))
     for extension in ("png", "svg"):
