@@ -1,4 +1,4 @@
-"""The tests that read config.yaml pass in a clone where it was edited; no other test reads it."""
+"""The test files in which a pattern finds that they read config.yaml pass with an edited one."""
 
 import os
 import re
@@ -8,6 +8,9 @@ import subprocess
 import pytest
 from documents import SCENES
 from project import ROOT, Tree, run, shipped
+
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.scene import Scene
 
 # What a test contains that reads the config of the repository: the file's name, or a command there.
 READS_CONFIG = re.compile(r'"config\.yaml"|cwd=ROOT|from commands import|figures_page|\bmain\(\[')
@@ -23,6 +26,8 @@ def edited(document):
         scenes |= {f"my_{name}": block for name, block in document[part].items()}
     scenes["my_twist"]["energies"] = [0.001, 0.01, 0.03]  # which every variant's ball can have
     scenes["my_energy"]["span"] = [-0.001, 0.02]
+    of_a_ball = {name for name, kind in KINDS.items() if issubclass(kind, Scene) and kind.headline}
+    assert {block["picture"] for block in scenes.values()} == of_a_ball
     document["variants"]["lower-energy"]["energy"] = 0.0097
     document["variants"]["mine"] = {"energy": 0.0099}
     sweep = {"k": [0.2], "energy": [1, 2], "starts": 10, "impacts": 100, "block": 1}
