@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import log
-from ..kernel.tangents import turns_and_growth
+from .ball import Ball
 from .variables import states_of
 
 # Half the threshold still exceeds a regular orbit's 0.85.
@@ -31,6 +31,7 @@ WINDING_TOLERANCE = 1e-7
 # about ln n after n impacts, 9.7 after 16,000.
 MIN_CHAOTIC_G = 15.0
 _LEAST_IMPACTS = 2000  # behind a verdict on an orbit of a scene
+_STRIDE = 10  # impacts
 
 
 def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
@@ -55,11 +56,29 @@ def chaotic_orbits(ball: dict[str, float], orbits: xr.Dataset) -> list[int]:
 
     An orbit with few impacts is followed further, since its growth tells little.
     """
-    sizes, found = orbits["row_size"].values, []
-    states = np.array(states_of(orbits)) / ball["g"]
-    for index, first in enumerate((np.cumsum(sizes) - sizes).tolist()):
-        impacts = max(int(sizes[index]), _LEAST_IMPACTS)
-        _, exponent = turns_and_growth(ball["k"], states[:, [first]], 0.0, np.nan, impacts)
-        if not regular(exponent, impacts)[0]:
-            found.append(index)
-    return found
+    sizes, states = orbits["row_size"].values, np.array(states_of(orbits))
+    first = np.cumsum(sizes) - sizes
+    lengths = [max(size, _LEAST_IMPACTS) for size in sizes.tolist()]
+    followed = zip(states[:, first].T, lengths, strict=True)
+    growths = [_growth(Ball(ball["k"], ball["g"]), *each) for each in followed]
+    return [index for index, growth in enumerate(growths) if not growth < GROWTH_THRESHOLD]
+
+
+def _growth(ball: Ball, state: np.ndarray, impacts: int) -> float:
+    """Return the growth of the tangent vector (1, 0, 0) along the orbit of a state.
+
+    G is taken after each _STRIDE impacts. The two functions of the ball are those with which stages
+    compute orbits and their periods, so that a drawing need not compile another loop.
+    """
+    before = ball.history(state, impacts)[0, ::_STRIDE, :3].T
+    jacobians = ball.jacobian(before[0], before[1], before[2], _STRIDE)
+    vector = 1.0, 0.0, 0.0
+    total, logarithms = 0.0, []
+    for rows in jacobians.tolist():
+        x, v, w = (sum(a * b for a, b in zip(row, vector, strict=True)) for row in rows)
+        length = abs(x) + abs(v) + abs(w)
+        vector = x / length, v / length, w / length
+        total += log(length)
+        logarithms.append(total)
+    quarter = len(logarithms) // 4
+    return (sum(logarithms[-quarter:]) - sum(logarithms[quarter : 2 * quarter])) / quarter
