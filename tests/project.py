@@ -14,7 +14,7 @@ import yaml
 
 from pipeline.config import PAPER
 from pipeline.config.schema.sets import SETS
-from pipeline.records import machine_code
+from pipeline.records import sources
 from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]
@@ -107,7 +107,7 @@ class Tree:
             (self.path / MEANINGS).mkdir(exist_ok=True)
             shutil.copy(kept, self.path / MEANINGS)
         for kept in here.glob("*.*-*"):
-            module, named = kept.name.rpartition("-")[0], machine_code.named.__wrapped__
+            module, named = kept.name.rpartition("-")[0], sources.machine_code_folder.__wrapped__
             with suppress(ValueError):  # the module no longer exists
                 if named(self.path / "src", module)[0] == kept.name:
                     shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)

@@ -6,6 +6,6 @@ load_from_text()
 
 from pseudorigid.kernel import compiled  # noqa: E402  (loaded from its text)
 
-from .records import machine_code  # noqa: E402
+from .records import sources  # noqa: E402
 
-compiled.subfolder = machine_code.subfolder
+compiled.subfolder = sources.compiled_subfolder
