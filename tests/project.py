@@ -47,7 +47,7 @@ NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 def shipped():
     """A new document with the committed scenes, and the blocks that are shipped beside them."""
-    from pipeline.config.validation.reading import with_shipped
+    from pipeline.config.validation.document import with_shipped
 
     return with_shipped(yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER))
 

@@ -23,8 +23,7 @@ from .schema.scene import Picture, Scene
 from .schema.sets import PAPER, SETS
 from .schema.stages import STAGES, upstream
 from .schema.variant import Variant
-from .validation.document import BLOCKS
-from .validation.reading import with_shipped
+from .validation.document import BLOCKS, with_shipped
 
 EXAMPLES = (Path(__file__).parent / "schema" / "kinds" / "examples.yaml", *files("examples.yaml"))
 
