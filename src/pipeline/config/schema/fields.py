@@ -12,8 +12,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 from annotated_types import Predicate
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
-from pydantic.fields import FieldInfo
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it, or can write it
 ABSENT: Any = None  # the default of a field that may be left out and then has no value
@@ -74,11 +73,6 @@ def whole(low: int, high: int, multiple: int = 1) -> Any:
     return allowed(words, ge=low, le=high, multiple_of=multiple)
 
 
-def fields_of(model: type[Block]) -> dict[str, FieldInfo]:
-    """Return the fields of a model by the keys that config.yaml has for them."""
-    return {field.alias or name: field for name, field in model.model_fields.items()}
-
-
 def distinct(items: Sequence[Any]) -> bool:
     """Return whether no item occurs twice."""
     return len(set(items)) == len(items)
@@ -89,13 +83,7 @@ def rising(numbers: Sequence[float]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
-def _not_empty(block: Block) -> Block:
-    if not block.model_fields_set:
-        raise ValueError
-    return block
-
-
-NOT_EMPTY = AfterValidator(_not_empty)  # of a block with optional fields
+NOT_EMPTY = Predicate(lambda block: bool(block.model_fields_set))  # of a block with optional fields
 
 # A union of two types names them by tags, of which pydantic makes a part of an error's location.
 TAGS = ("(first)", "(second)")
