@@ -206,28 +206,17 @@ Fraction = Annotated[float, allowed("a fraction with -1 < start < 1", gt=-1, lt=
 Between = Annotated[
     list[Fraction], allowed("two fractions of the section's radius", min_length=2, max_length=2)
 ]
+_ON_LINE = "a fraction of the section's radius with -1 < start < 1 (others are off the section)"
+_STARTS = (
+    "a list of fractions of the section's radius, each with -1 < start < 1, "
+    "or of points {x, xdot} or {x, y}"
+)
 Start = Annotated[
-    Annotated[Point, _FIRST]
-    | Annotated[
-        float,
-        allowed(
-            "a fraction of the section's radius with -1 < start < 1 (others are off the section)",
-            gt=-1,
-            lt=1,
-        ),
-        _SECOND,
-    ],
+    Annotated[Point, _FIRST] | Annotated[float, allowed(_ON_LINE, gt=-1, lt=1), _SECOND],
     first_if(dict, Point),
     allowed("a fraction of the section's radius, or a point {x, xdot} or {x, y}"),
 ]
-Starts = Annotated[
-    list[Start],
-    allowed(
-        "a list of fractions of the section's radius, each with -1 < start < 1, "
-        "or of points {x, xdot} or {x, y}",
-        min_length=1,
-    ),
-]
+Starts = Annotated[list[Start], allowed(_STARTS, min_length=1)]
 _Count = Annotated[int, whole(1, LARGEST)]
 _Counts = Annotated[
     list[_Count], allowed("a list of whole numbers, one for each start", min_length=1)
