@@ -190,11 +190,6 @@ def test_keys_are_texts_and_a_name_has_no_spaces():
     assert third.startswith("scenes.a_portrait[3]: unknown key: allowed here: ")
 
 
-def test_the_least_number_of_impacts_bounds_the_records():
-    line = complaint(changed("scenes.exponents.impacts", [99, 9]))
-    assert line.startswith("scenes.exponents.records: 10 is not allowed: expected at most impacts")
-
-
 @pytest.mark.parametrize(("g", "bound"), [(0.01, "0.14, "), (0.0100000003, "0.1399999997, ")])
 def test_a_bound_is_printed_with_all_its_digits(g, bound):
     document = good()

@@ -25,13 +25,6 @@ def with_variants(**variants):
     return checked(variants).variants
 
 
-def test_the_paper_comes_first_and_variants_are_complete():
-    variants = with_variants(thin={"ball": {"k": 0.3}})
-    assert list(variants) == [*SETS, "thin"]
-    assert variants["thin"]["fig2"].ball.as_mapping() == {"k": 0.3, "g": 0.04}
-    assert variants["thin"].keys() == variants["paper"].keys() == shipped()["scenes"].keys()
-
-
 AXES = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
 
 
@@ -41,6 +34,7 @@ AXES = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
         # Mappings merge, and lists are replaced.
         ({"scenes": {"fig5": {"resolution": {"bend": 20}, "starts": [0.1], "impacts": [5]}}},
          "fig5", {"resolution": {"distance": 0.01, "bend": 20}, "starts": [0.1]}),
+        ({"ball": {"k": 0.3}}, "fig2", {"ball": {"k": 0.3, "g": 0.04}}),
         ({"scenes": {"fig5": {"ball": {"k": 0.3}}}}, "fig5", {"ball": {"k": 0.3, "g": 0.04}}),
         # A scene's own values take precedence.
         ({"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}}, "fig2", {"energy": 0.002}),
@@ -108,6 +102,8 @@ def test_equal_stages_of_variants_are_computed_once():
         first={"scenes": {"fig8": {"impacts": [9] * 6}}},
         second={"scenes": {"fig8": {"impacts": [9] * 6, "sea": []}}},
     )
+    assert list(variants) == [*SETS, "first", "second"]
+    assert variants["first"].keys() == variants["paper"].keys() == shipped()["scenes"].keys()
     artifact_paths = paths.artifact_paths(variants)
     assert artifact_paths["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
     assert artifact_paths["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
