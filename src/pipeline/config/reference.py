@@ -33,7 +33,7 @@ def page() -> str:
     template = jinja2.Template(
         text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
-    used: tuple[Any, ...] = (Scene, Variant, example, has_picture, key_of, listed)
+    used: tuple[Any, ...] = (Scene, Variant, example, key_of, listed)
     used += (mappings, own_fields, upstream)
     names = {each.__name__: each for each in used}
     tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
@@ -62,11 +62,6 @@ def own_fields(kind: type[Picture]) -> list[str]:
     inherited = {key: (field.annotation, field.metadata) for key, field in base.items()}
     own = kind.model_fields.items()
     return [key for key, field in own if inherited.get(key) != (field.annotation, field.metadata)]
-
-
-def has_picture(kind: type[Picture]) -> bool:
-    """Return whether scenes of a kind of picture are drawn, and not only computed."""
-    return bool(kind.model_fields["formats"].default)
 
 
 def key_of(name: str) -> str:
