@@ -132,7 +132,8 @@ def derive_variant(
             derived[scene] = _scaled(merged, variant.scale or 1)
     if not derived:
         mistaken |= unsuitable
-    lines += [f"{line}, for {', '.join(for_)}" if for_ else line for line, for_ in mistaken.items()]
+    for line, names in mistaken.items():
+        lines.append(f"{line}, for {', '.join(names)}" if names else line)
     return derived, left_out, lines
 
 
