@@ -54,8 +54,7 @@ def compile_the_rest():
 
 
 if __name__ == "__main__":
-    from pipeline.records.machine_code import SRC
-    from pipeline.records.syntax_hash import syntax_hash
+    from pipeline.records.sources import SRC, syntax_hash
     from pseudorigid.kernel import compiled
 
     files = sorted(file for file in SRC.rglob("*.py") if b"@jit" in file.read_bytes())

@@ -26,7 +26,7 @@ a_closeup:
    window: {x: [-0.1, 0.1], xdot: [-0.1, 0.1]}, length: 2, resolution: *resolution,
    axes: {x: *axis, xdot: *axis}}
 exponents:
-  {picture: exponents, energy: 0.01, starts: [0.5, 0.6], impacts: 1000, records: 10,
+  {picture: exponents, energy: 0.01, starts: [0.5, 0.6], impacts: [2000, 1000], records: 10,
    axes: {impact: {limits: [0, 1000], ticks: [0, 1000]}, exponent: *axis}}
 """)
 GOOD = {"ball": {"k": 0.2, "g": 0.04}, "scenes": SCENES}

@@ -14,7 +14,7 @@ import yaml
 
 from pipeline.config import PAPER
 from pipeline.config.schema.sets import SETS
-from pipeline.records import machine_code
+from pipeline.records import sources
 from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]
@@ -47,7 +47,7 @@ NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 def shipped():
     """A new document with the committed scenes, and the blocks that are shipped beside them."""
-    from pipeline.config.validation.reading import with_shipped
+    from pipeline.config.validation.document import with_shipped
 
     return with_shipped(yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER))
 
@@ -107,7 +107,7 @@ class Tree:
             (self.path / MEANINGS).mkdir(exist_ok=True)
             shutil.copy(kept, self.path / MEANINGS)
         for kept in here.glob("*.*-*"):
-            module, named = kept.name.rpartition("-")[0], machine_code.named.__wrapped__
+            module, named = kept.name.rpartition("-")[0], sources.machine_code_folder.__wrapped__
             with suppress(ValueError):  # the module no longer exists
                 if named(self.path / "src", module)[0] == kept.name:
                     shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)

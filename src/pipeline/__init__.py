@@ -1,11 +1,14 @@
 """The workflow: it turns config.yaml into files and checks them."""
 
-from .loading import load_from_text
+import sys
 
-load_from_text()
+from .loading import Finder
 
-from pseudorigid.kernel import compiled  # noqa: E402  (loaded from its text)
+if Finder not in sys.meta_path:
+    sys.meta_path.insert(0, Finder)
 
-from .records import machine_code  # noqa: E402
+from pseudorigid.kernel import compiled  # loaded from its text
 
-compiled.subfolder = machine_code.subfolder
+from .records import sources
+
+compiled.subfolder = sources.compiled_subfolder

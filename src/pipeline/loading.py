@@ -7,7 +7,6 @@ the same length within one second. No .pyc of these packages is read or written.
 
 import hashlib
 import os
-import sys
 from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from types import CodeType, ModuleType
@@ -46,9 +45,3 @@ class Finder:
         if spec is not None and type(spec.loader) is SourceFileLoader:
             spec.loader = _Loader(fullname, spec.loader.path)
         return spec
-
-
-def load_from_text() -> None:
-    """Load the modules of PACKAGES from their text from now on."""
-    if Finder not in sys.meta_path:
-        sys.meta_path.insert(0, Finder)

@@ -8,7 +8,7 @@ from runs import contents
 from verdicts import accepting, commit, verified
 
 from pipeline.checks.published_sets import committed_state, edited_lists
-from pipeline.records.syntax_hash import syntax_hash
+from pipeline.records.sources import syntax_hash
 
 FIG3 = "paper_figures/fig3.png"
 

@@ -12,7 +12,7 @@ from verdicts import commit, verified
 
 from pipeline.checks.published_sets import edited_lists
 from pipeline.records import pictures
-from pipeline.records.syntax_hash import syntax_hash
+from pipeline.records.sources import syntax_hash
 from pseudorigid.figures.canvas.render import png
 
 FIG3 = "paper_figures/fig3.png"

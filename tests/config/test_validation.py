@@ -1,14 +1,19 @@
-"""Files that are no config, and paths of results."""
+"""Any file named config.yaml is a correct config or is refused in lines that name it."""
 
 import json
 import subprocess
 
 import pytest
+import yaml
 from documents import complaints, good
-from project import ROOT, SHIPPED
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from project import ROOT, SHIPPED, shipped
+from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
 from pipeline.config import paths
+from pipeline.config.build_specs import build_specs
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -45,6 +50,26 @@ def test_a_file_that_is_no_config_is_refused(tmp_path, text, part):
     lines = str(raised.value).splitlines()
     assert all(line.startswith("config.yaml: ") for line in lines)
     assert part in lines[0]
+
+
+@pytest.mark.slow
+def test_any_file_is_a_config_or_is_refused(tmp_path):
+    path = tmp_path / "config.yaml"
+    documents = (edited(shipped()) | JSON).map(lambda found: yaml.safe_dump(found).encode())
+
+    @settings(FUZZ, max_examples=100)
+    @given(data=documents | spoilt(SHIPPED.read_bytes()) | st.binary(max_size=200))
+    def trial(data):
+        path.write_bytes(data)
+        try:
+            checked = config.load(path)
+        except config.ConfigError as error:
+            assert all(line.startswith("config.yaml: ") for line in str(error).splitlines())
+            return
+        for result in build_specs(checked, ["paper"]):
+            assert (tmp_path / result).resolve().is_relative_to(tmp_path / "results" / "paper")
+
+    trial()
 
 
 def test_a_number_with_an_exponent_needs_no_point(tmp_path):

@@ -37,6 +37,7 @@ def dataset():
             "stable": variable("orbit", np.array([0, 1], dtype=np.int8)),
             "type": ("orbit", ["elliptic", "inverse hyperbolic"], {"long_name": "stability"}),
             "window": variable((), 0.25),
+            "empty": variable(("none", "point"), np.zeros((0, 5))),
         },
         attrs={"period": 6, "window_x": [0.21, 0.2116]},
     )
@@ -48,7 +49,7 @@ def test_a_file_keeps_values_types_and_attributes(tmp_path):
     path.unlink()  # the dataset is in memory
     for name, before in dataset().variables.items():
         after = back[name]
-        assert (after.dims, "_FillValue" in after.attrs) == (before.dims, False)
+        assert (after.sizes, "_FillValue" in after.attrs) == (before.sizes, False)
         assert canonical_values(after.variable)[0] == canonical_values(before)[0]
         assert after.values.tolist() == before.values.tolist() or name == "x"
     assert back["x"].values.tobytes() == dataset()["x"].values.tobytes()
@@ -56,11 +57,6 @@ def test_a_file_keeps_values_types_and_attributes(tmp_path):
     expected = artifacts.ABOUT | ABOUT | {"config": config, "period": 6, "resolution": 1e-3}
     assert expected.items() <= back.attrs.items()
     assert list(back.attrs["window_x"]) == [0.21, 0.2116]
-
-
-def test_no_orbits_is_a_dataset_too(tmp_path):
-    empty = xr.Dataset({"x": variable(("orbit", "point"), np.zeros((0, 6)))})
-    assert load(saved(empty, tmp_path / "a.nc"))["x"].shape == (0, 6)
 
 
 def test_the_bytes_depend_on_no_process_and_no_order_of_variables(tmp_path):
@@ -137,16 +133,16 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
         assert "damaged" in refusal(path)
 
 
-def test_the_content_hash_of_the_tests_sees_content_and_only_content(tmp_path):
-    before = load(saved(dataset(), tmp_path / "a.nc"))
-    reference = content_hash(before)
-    assert content_hash(before[sorted(before.variables, reverse=True)]) == reference
-    swapped = before.assign(x=("point", before["x"].values.astype(">f8"), before["x"].attrs))
-    assert content_hash(swapped) == reference
-    other_nan = before["x"].copy(deep=True)
-    other_nan.values.view(np.int64)[1] ^= 1
-    assert content_hash(before.assign(x=other_nan)) == reference
+def test_the_content_hash_of_the_tests_sees_content_and_only_content():
+    before = dataset()
     x, attrs = before["x"].values, before["x"].attrs
+    other_nan = x.copy()
+    other_nan.view(np.int64)[1] ^= 1
+    same = [
+        before[sorted(before.variables, reverse=True)],
+        before.assign(x=("point", x.astype(">f8"), attrs)),
+        before.assign(x=("point", other_nan, attrs)),
+    ]
     changed = [
         before.assign(x=("point", np.where(np.arange(5) == 0, 0.1 + 2**-56, x), attrs)),
         before.assign(x=("point", np.where(np.arange(5) == 2, 0.0, x), attrs)),
@@ -156,5 +152,6 @@ def test_the_content_hash_of_the_tests_sees_content_and_only_content(tmp_path):
         before.rename(point="sample"),
         before.assign_attrs(energy=0.02),
     ]
+    (reference,) = {content_hash(each) for each in (before, *same)}
     hashes = {content_hash(each) for each in changed}
     assert len(hashes | {reference}) == len(changed) + 1

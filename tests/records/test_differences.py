@@ -2,12 +2,7 @@
 
 import pytest
 
-from pipeline.records.differences import (
-    differing_block,
-    differing_keys,
-    differing_origin,
-    differing_package,
-)
+from pipeline.records.differences import differing_keys, differing_origin
 
 STARTS = [0.1, {"x": 0.2, "xdot": 0.0}, 0.3]
 
@@ -30,18 +25,14 @@ def test_the_first_entry_of_a_list_that_differs_is_named(before, after, expected
     assert list(differing_keys({"a": before}, {"a": after})) == expected
 
 
-def test_every_field_that_differs_is_named():
-    before = {"impacts": 60, "records": 6, "axes": {"t": {"limits": [0, 1]}}}
-    after = {"impacts": 61, "records": 7, "axes": {"t": {"limits": [0, 2]}}, "sea": [1]}
-    words = "axes.t.limits[1] 1 -> 2; impacts 60 -> 61; records 6 -> 7; "
-    assert differing_block(before, after) == words + "sea nothing -> [1]"
-    assert differing_block(before, before) is None
-
-
-def test_every_package_that_differs_is_named():
-    before, after = {"numpy": "1", "numba": "2", "xarray": "3"}, {"numpy": "2", "xarray": "3"}
-    words = "numba 2 then, not installed here; numpy 1 then, 2 here"
-    assert differing_package(before, after) == words
-    same = {"config": {}, "sources": {}}
-    old, new = same | {"environment": before}, same | {"environment": after}
-    assert differing_origin(old, new) == {"environment": words}
+def test_every_field_and_every_package_that_differs_is_named():
+    block = {"impacts": 60, "records": 6, "axes": {"t": {"limits": [0, 1]}}}
+    other = {"impacts": 61, "records": 7, "axes": {"t": {"limits": [0, 2]}}, "sea": [1]}
+    packages = {"numpy": "1", "numba": "2", "xarray": "3"}
+    before = {"config": block, "sources": {"a.py": "0"}, "environment": packages}
+    after = before | {"config": other, "environment": {"numpy": "2", "xarray": "3"}}
+    assert differing_origin(before, after) == {
+        "config": "axes.t.limits[1] 1 -> 2; impacts 60 -> 61; records 6 -> 7; sea nothing -> [1]",
+        "environment": "numba 2 then, not installed here; numpy 1 then, 2 here",
+    }
+    assert differing_origin(before, before) == {}

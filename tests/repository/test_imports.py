@@ -301,8 +301,7 @@ LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "study")
 OURS = ("pseudorigid", "pipeline.", "numba", "matplotlib")
 # The package names folders of machine code when it is imported.
 PIPELINE = [f"pipeline.{name}" for name in ("loading", "records")]
-PIPELINE += [f"pipeline.records.{name}" for name in ("artifacts", "files", "import_closure")]
-PIPELINE += [f"pipeline.records.{name}" for name in ("machine_code", "syntax_hash")]
+PIPELINE += [f"pipeline.records.{name}" for name in ("artifacts", "files", "sources")]
 COMPILED = ["pseudorigid", "pseudorigid.kernel", "pseudorigid.kernel.compiled"]
 
 

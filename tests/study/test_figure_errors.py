@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from pipeline import config
-from pipeline.config.studied import STUDIED, paper_scenes
+from pipeline.config.build_specs import STUDIED, paper_scenes
 from pseudorigid import Ball, symmetric_orbits
 from study import figure_errors
 from study.methods.counted_methods import ENGINES, OURS, SCANS

@@ -1,11 +1,15 @@
 """The written rules are those of the declared stages and kinds of picture."""
 
+import ast
 import re
 import subprocess
 import sys
+from functools import cache
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 from project import ROOT
+from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
 from pipeline.config import load
 from pipeline.config.build_specs import build_specs
@@ -56,6 +60,22 @@ def test_each_kind_of_picture_has_a_rule_with_its_stages():
             function, text = ALL[f"draw_{name}"]
             assert (function, stages(text)) == (kind.drawn_by, kind.stages)
             assert f'**of_kind("{name}"),' in text
+
+
+def test_a_rule_has_the_scenes_of_its_kind_alone_where_sets_have_scenes_of_one_name():
+    kinds = {"one": {"a": "jumps", "b": "portrait"}, "two": {"a": "portrait"}, "three": {}}
+    scenes = {v: {s: SimpleNamespace(picture=k) for s, k in kinds[v].items()} for v in kinds}
+    parsed, defined = ast.parse(CORE["common"].read_text()), {"VARIANTS": scenes, "cache": cache}
+    parsed.body = [each for each in parsed.body if isinstance(each, ast.FunctionDef)]
+    exec(compile(parsed, "common.smk", "exec"), defined)
+    for output in ("figures/{scene}.{extension}", "provenance/{scene}.{extension}.json"):
+        for kind in ("jumps", "portrait", "motion"):
+            constraints = defined["of_kind"](kind) | {"scene": "a|b"}
+            path = update_wildcard_constraints(f"results/{{variant}}/{output}", constraints, {})
+            rule = re.compile(regex_from_filepattern(path))
+            for variant, scene in [("one", "a"), ("one", "b"), ("two", "a"), ("two", "b")]:
+                file = f"results/{variant}/{output.format(scene=scene, extension='png')}"
+                assert bool(rule.match(file)) == (kinds[variant].get(scene) == kind)
 
 
 def chain():

@@ -95,12 +95,13 @@ def any_of(names):
 
 
 def of_kind(kind):
-    """Return wildcard constraints: the scenes of a kind of picture, and the variants with them."""
-    found = [
-        (variant, name)
-        for variant, scenes in VARIANTS.items()
-        for name, scene in scenes.items()
-        if scene.picture == kind
-    ]
-    variants, names = zip(*found) if found else ((), ())
-    return {"variant": any_of(dict.fromkeys(variants)), "scene": any_of(dict.fromkeys(names))}
+    """Return wildcard constraints for the scenes of a kind of picture.
+
+    Which scenes these are depends on the variant: sets of scenes may have scenes of one name and of
+    different kinds. In the path of a result, the scene follows the variant and a folder.
+    """
+    pairs = []
+    for variant, scenes in VARIANTS.items():
+        if names := [name for name, scene in scenes.items() if scene.picture == kind]:
+            pairs.append(rf"{variant}(?=/\w+/({any_of(names)})\.)")
+    return {"variant": any_of(pairs)}

@@ -5,8 +5,7 @@ value and what is allowed. Every command imports this package, so importing it m
 """
 
 from .paths import PAPER, PUBLISHED, Config, figures
-from .validation.document import check
-from .validation.reading import load
-from .validation.words import ConfigError, unknown
+from .validation.document import check, load
+from .validation.mistakes import ConfigError, unknown
 
 __all__ = ["PAPER", "PUBLISHED", "Config", "ConfigError", "check", "figures", "load", "unknown"]

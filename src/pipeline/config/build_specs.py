@@ -1,7 +1,6 @@
 """Build specifications: what each result has to be made from, by the config and the sources."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from fnmatch import fnmatch
 from functools import cache
 from pathlib import PurePath
 
@@ -15,6 +14,10 @@ from .schema.scene import Picture
 from .schema.sets import SETS
 from .schema.stages import STAGES, function_of
 
+# Kinds of picture with a measure of error in study.figure_errors, and the stages whose datasets the
+# study compares with.
+STUDIED = ("portrait", "motion", "tangle", "closeup", "exponents")
+_COMPARED = ("periodic", "manifolds")
 _source_files = cache(sources.source_files)
 
 
@@ -51,7 +54,7 @@ def _of_scene(
             yield from parts
             inputs, step = [part.result for part in parts], "data"
         function = function_of(stage, scene)
-        files = _without_other_data(_files("stage", function), declared.reads, parameters)
+        files = _files("stage", function, declared.reads.format(**parameters))
         yield BuildSpec(path, label, step, block, "stage", function, files, inputs)
     inputs = [artifact_paths[variant, name, stage] for stage in scene.stages]
     for extension in scene.formats:
@@ -69,27 +72,45 @@ def _of_parts(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[B
         yield BuildSpec(part, label, f"block {i}", block, "stage", stage.part, files, [])
 
 
+def paper_scenes(
+    scenes: Mapping[str, Picture], artifact_paths: Mapping[tuple[str, str], str]
+) -> tuple[YamlMapping, dict[str, str]]:
+    """Return what decides the data of the stage `needs`, and its inputs by stage and scene.
+
+    The study measures the errors of scenes with a measure of error and axes, which fix the
+    picture's size.
+    """
+    chosen = {
+        name: block
+        for name, scene in scenes.items()
+        if scene.picture in STUDIED and "axes" in (block := scene.as_mapping())
+    }
+    measures = {name: scenes[name].picture for name in chosen}
+    inputs = {
+        f"{stage}/{scene}": path
+        for (scene, stage), path in artifact_paths.items()
+        if scene in chosen and stage in _COMPARED
+    }
+    return {"scenes": chosen, "measures": measures}, inputs
+
+
 def _label(path: str, scene: str) -> str:
     """Return a scene's name in messages, with the first variant that has a result of it."""
     folder = PurePath(path).parts[1]
     return scene if folder in SETS else f"{folder}/{scene}"
 
 
-def _files(program: str, function: str) -> list[str]:
-    """Return the files that decide what a program makes with a function module.function."""
-    return _source_files(f"pipeline.jobs.{program}", function.rpartition(".")[0])
+def _files(program: str, function: str, data_file: str = "") -> list[str]:
+    """Return the files that decide what a program makes with a function module.function.
 
-
-def _without_other_data(files: list[str], read: str, parameters: YamlMapping) -> list[str]:
-    """Return source files without the data files that a stage could read but does not.
-
-    `read` is the stage's own data file as a template of its parameters, empty if it reads all.
+    They include the data files that the function's modules can read, or of these `data_file` alone.
     """
-    patterns = [p for extension in extensions().values() for p in extension.reads.values()]
-    if not read:
-        return files
-    own = read.format(**parameters)
-    return [f for f in files if f == own or not any(fnmatch(f, pattern) for pattern in patterns)]
+    files = _source_files(f"pipeline.jobs.{program}", function.rpartition(".")[0])
+    read = [each.reads.items() for each in extensions().values()]
+    patterns = [pattern for items in read for module, pattern in items if module in files]
+    patterns = [data_file] if data_file else patterns
+    data = [file for pattern in patterns for file in sources.ROOT.glob(pattern)]
+    return files + sorted(str(file.relative_to(sources.ROOT)) for file in data)
 
 
 def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:

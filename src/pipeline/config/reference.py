@@ -4,7 +4,6 @@ Run `.venv/bin/python -m pipeline.config.reference` to renew the page.
 """
 
 from collections.abc import Iterable
-from importlib import import_module
 from pathlib import Path
 from textwrap import dedent, fill
 from typing import Any
@@ -16,15 +15,14 @@ from ..records.files import write_whole
 from ..records.sources import ROOT
 from .json_schema import Described
 from .schema import fields
-from .schema.fields import Block, fields_of
+from .schema.fields import Block
 from .schema.kinds import KINDS
 from .schema.method import METHOD_BLOCKS
 from .schema.scene import Picture, Scene
 from .schema.sets import PAPER, SETS
 from .schema.stages import STAGES, upstream
 from .schema.variant import Variant
-from .validation.document import BLOCKS
-from .validation.reading import with_shipped
+from .validation.document import BLOCKS, with_shipped
 
 EXAMPLES = (Path(__file__).parent / "schema" / "kinds" / "examples.yaml", *files("examples.yaml"))
 
@@ -35,8 +33,8 @@ def page() -> str:
     template = jinja2.Template(
         text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
-    used: tuple[Any, ...] = (Scene, Variant, example, has_picture, key_of, listed)
-    used += (mappings, own_fields, quoted, upstream)
+    used: tuple[Any, ...] = (Scene, Variant, example, key_of, listed)
+    used += (mappings, own_fields, upstream)
     names = {each.__name__: each for each in used}
     tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
     sets = {each.key: each for name, each in SETS.items() if each.key and name != PAPER}
@@ -54,28 +52,16 @@ def example(name: str) -> str:
 
 def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
     """Map names to the Block classes that a kind's module declares for values of its fields."""
-    module = import_module(kind.__module__)
-    return {
-        name.lower(): value
-        for name, value in vars(module).items()
-        if isinstance(value, type)
-        and issubclass(value, Block)
-        and not issubclass(value, Picture)
-        and value.__module__ == kind.__module__
-    }
+    declared = [each for each in Block.__subclasses__() if each.__module__ == kind.__module__]
+    return {each.__name__.lower(): each for each in declared if not issubclass(each, Picture)}
 
 
 def own_fields(kind: type[Picture]) -> list[str]:
     """Return the fields of a kind of picture that its base class lacks or declares differently."""
-    base = fields_of(Scene if issubclass(kind, Scene) else Picture)
+    base = (Scene if issubclass(kind, Scene) else Picture).model_fields
     inherited = {key: (field.annotation, field.metadata) for key, field in base.items()}
-    own = fields_of(kind).items()
+    own = kind.model_fields.items()
     return [key for key, field in own if inherited.get(key) != (field.annotation, field.metadata)]
-
-
-def has_picture(kind: type[Picture]) -> bool:
-    """Return whether scenes of a kind of picture are drawn, and not only computed."""
-    return bool(kind.model_fields["formats"].default)
 
 
 def key_of(name: str) -> str:
@@ -107,11 +93,6 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
         text = f"- `{key}` ({default}): {meaning}"
         items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
     return "\n".join(items)
-
-
-def quoted(names: Iterable[str]) -> str:
-    """Return names in backquotes, with commas between them."""
-    return ", ".join(f"`{name}`" for name in names)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from .build_spec import BuildSpec
 from .files import file_hash, read_text, write_whole
 from .sources import ROOT, syntax_hash
 
-SHAPE = {"config": dict, "sources": dict, "inputs": dict, "environment": dict, "output": dict}
+SHAPE = ("config", "sources", "inputs", "environment", "output")  # the mappings of a record
 # The packages that decide bits. Python's own version does not, nor do the tools around the work.
 PACKAGES = (
     *("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4"),
@@ -59,12 +59,11 @@ def failure(result: str | os.PathLike[str]) -> str | None:
 
 
 def read_record(root: Path, path: str) -> dict[str, Any]:
-    """Read a record of a result or of a refusal, with the keys of SHAPE; raises RecordError."""
+    """Read a record of a result or of a refusal, with the mappings of SHAPE; raises RecordError."""
     try:
         record: dict[str, Any] = json.loads(read_text(root / path))
-        for name, kind in SHAPE.items():
-            if not isinstance(record[name], kind):
-                raise TypeError
+        if not all(isinstance(record[name], dict) for name in SHAPE):
+            raise TypeError
         str(record["output"]["sha256"])
     except FileNotFoundError:
         raise RecordError("no record of what made it") from None
@@ -144,9 +143,8 @@ def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
     """Return the output of a git command, or None if it fails or git is not installed."""
     command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
     with suppress(OSError, subprocess.CalledProcessError):
-        return subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, check=True
-        ).stdout
+        none = subprocess.DEVNULL
+        return subprocess.check_output(command, stdin=none, stderr=none)
     return None
 
 

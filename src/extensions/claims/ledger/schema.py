@@ -14,7 +14,7 @@ from extensions.proofs.derivations import FORMULAS
 from extensions.proofs.kinds import theorems
 from pipeline.config import ConfigError
 from pipeline.config.schema.stages import STAGES
-from pipeline.config.validation.words import dotted
+from pipeline.config.validation.mistakes import dotted
 from pipeline.records.names import suggestion
 
 VerdictWord = Literal[

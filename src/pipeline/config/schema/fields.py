@@ -12,8 +12,7 @@ from typing import Annotated, Any, Literal
 
 import pydantic
 from annotated_types import Predicate
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
-from pydantic.fields import FieldInfo
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it, or can write it
 ABSENT: Any = None  # the default of a field that may be left out and then has no value
@@ -74,11 +73,6 @@ def whole(low: int, high: int, multiple: int = 1) -> Any:
     return allowed(words, ge=low, le=high, multiple_of=multiple)
 
 
-def fields_of(model: type[Block]) -> dict[str, FieldInfo]:
-    """Return the fields of a model by the keys that config.yaml has for them."""
-    return {field.alias or name: field for name, field in model.model_fields.items()}
-
-
 def distinct(items: Sequence[Any]) -> bool:
     """Return whether no item occurs twice."""
     return len(set(items)) == len(items)
@@ -89,13 +83,7 @@ def rising(numbers: Sequence[float]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
-def _not_empty(block: Block) -> Block:
-    if not block.model_fields_set:
-        raise ValueError
-    return block
-
-
-NOT_EMPTY = AfterValidator(_not_empty)  # of a block with optional fields
+NOT_EMPTY = Predicate(lambda block: bool(block.model_fields_set))  # of a block with optional fields
 
 # A union of two types names them by tags, of which pydantic makes a part of an error's location.
 TAGS = ("(first)", "(second)")
@@ -218,28 +206,17 @@ Fraction = Annotated[float, allowed("a fraction with -1 < start < 1", gt=-1, lt=
 Between = Annotated[
     list[Fraction], allowed("two fractions of the section's radius", min_length=2, max_length=2)
 ]
+_ON_LINE = "a fraction of the section's radius with -1 < start < 1 (others are off the section)"
+_STARTS = (
+    "a list of fractions of the section's radius, each with -1 < start < 1, "
+    "or of points {x, xdot} or {x, y}"
+)
 Start = Annotated[
-    Annotated[Point, _FIRST]
-    | Annotated[
-        float,
-        allowed(
-            "a fraction of the section's radius with -1 < start < 1 (others are off the section)",
-            gt=-1,
-            lt=1,
-        ),
-        _SECOND,
-    ],
+    Annotated[Point, _FIRST] | Annotated[float, allowed(_ON_LINE, gt=-1, lt=1), _SECOND],
     first_if(dict, Point),
     allowed("a fraction of the section's radius, or a point {x, xdot} or {x, y}"),
 ]
-Starts = Annotated[
-    list[Start],
-    allowed(
-        "a list of fractions of the section's radius, each with -1 < start < 1, "
-        "or of points {x, xdot} or {x, y}",
-        min_length=1,
-    ),
-]
+Starts = Annotated[list[Start], allowed(_STARTS, min_length=1)]
 _Count = Annotated[int, whole(1, LARGEST)]
 _Counts = Annotated[
     list[_Count], allowed("a list of whole numbers, one for each start", min_length=1)

@@ -67,7 +67,7 @@ class Picture(fields.Block):
         """Yield a line for each field whose values lie outside the axes."""
         for name, field in self.along.items():
             axis = self.given_axes().get(name)
-            outside = [v for v in _listed(getattr(self, field)) if axis and not axis.holds(v)]
+            outside = [v for _, v in _entries(self, field) if axis and not axis.holds(v)]
             if axis and outside:
                 yield f"{field} {max(outside)} lies outside {beyond(name, axis.limits)}"
 
@@ -284,11 +284,9 @@ def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:
     while (theta := (low + high) / 2) not in (low, high):
         low, high = (theta, high) if _fixed_point(k, theta)[1] > -2 else (low, theta)
     highest = _fixed_point(k, theta)[0] * g * g
-    given = getattr(scene, name)
-    for i, energy in enumerate(_listed(given)):
+    for place, energy in _entries(scene, name):
         if not energy < highest:
-            words = f"an energy below {highest:.6g}, where the fixed point is elliptic"
-            yield ((name, i) if isinstance(given, list) else (name,)), energy, words
+            yield place, energy, f"an energy below {highest:.6g}, where the fixed point is elliptic"
 
 
 def _fixed_point(k: float, theta: float) -> tuple[float, float]:
@@ -307,9 +305,14 @@ def exact(value: float) -> Fraction:
     return Fraction(str(value))
 
 
-def _listed(value: Any) -> list[Any]:
-    """Return the values of a field that has one or several."""
-    return value if isinstance(value, list) else [value]
+def _entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+    """Yield place and value of those fields that the scene has, and of each entry of a list."""
+    for name in names:
+        value = getattr(scene, name, [])
+        if isinstance(value, list):
+            yield from (((name, i), entry) for i, entry in enumerate(value))
+        else:
+            yield (name,), value
 
 
 def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
@@ -317,10 +320,8 @@ def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
     k, g = exact(scene.ball.k), exact(scene.ball.g)
     lowest, highest = -g * g / (2 * k), k / 2 - g
     long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
-    energies: dict[tuple[str | int, ...], float] = {("energy",): scene.energy}
-    for name in ("energies", "span") if scene.along_energy() else ("energies",):
-        energies |= {(name, i): energy for i, energy in enumerate(getattr(scene, name, ()))}
-    for place, energy in energies.items():
+    names = ["energy", "energies"] + ["span"] * scene.along_energy()
+    for place, energy in _entries(scene, *names):
         if not exact(energy) > lowest:
             bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
             yield place, energy, f"a number above {bound}"

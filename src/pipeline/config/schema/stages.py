@@ -1,6 +1,6 @@
 """The stages: the function of each, its inputs, and the fields that decide its data."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable, Mapping
 
 from ...declaration import Stage, extensions
 from .scene import Picture, Scene
@@ -24,7 +24,7 @@ STAGES = {
     "work": Stage(f"{_STUDY}.work"),
     "edges": Stage(f"{_STUDY}.edges"),
     "drift": Stage(f"{_STUDY}.drift"),
-    "needs": Stage("study.figure_errors.needs", paper="pipeline.config.studied.paper_scenes"),
+    "needs": Stage("study.figure_errors.needs", paper="pipeline.config.build_specs.paper_scenes"),
     "work_all": Stage("study.measured.work_all", measured=True),
     "edges_all": Stage("study.measured.edges_all", measured=True),
     "missed_all": Stage("study.measured.missed_all", measured=True),
@@ -41,22 +41,19 @@ METHODS = {
 
 def function_of(stage: str, scene: Picture) -> str:
     """Return the function that computes a stage of a scene."""
-    for method in _method_keys(scene):
-        if stage in METHODS.get(method, {}):
-            return METHODS[method][stage]
-    return STAGES[stage].function
+    of_method = (functions[stage] for functions in _of_method(scene) if stage in functions)
+    return next(of_method, STAGES[stage].function)
 
 
 def takes_method(stage: str, scene: Picture) -> bool:
     """Return whether a scene's `method` decides the data of a stage."""
-    return STAGES[stage].follows and all(
-        stage in METHODS[name] for name in _method_keys(scene) if name in METHODS
-    )
+    return STAGES[stage].follows and all(stage in functions for functions in _of_method(scene))
 
 
-def _method_keys(scene: Picture) -> Collection[str]:
-    """Return the keys of a scene's `method`, none if it has no method of its own."""
-    return scene.method.model_fields_set if isinstance(scene, Scene) and scene.method else ()
+def _of_method(scene: Picture) -> list[Mapping[str, str]]:
+    """Return the functions of stages that a scene's `method` brings, none if it has no own ones."""
+    keys = scene.method.model_fields_set if isinstance(scene, Scene) and scene.method else ()
+    return [METHODS[key] for key in keys if key in METHODS]
 
 
 def upstream(stages: Iterable[str]) -> list[str]:

@@ -1,20 +1,38 @@
-"""Validation of a block by its declaration: pydantic's errors in this project's words.
+"""Mistakes in a config, a line for each: place, value, and what is allowed.
 
 What is allowed at a place is read from the JSON schema that pydantic makes from the declaration.
 """
 
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache
+from itertools import islice
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from ...records.names import suggestion
 from ..schema.fields import NAME, TAGS, TYPES_ALONE, Block
-from .words import Place, dotted, refusal
 
-_UNKNOWN_KEY = ("extra_forbidden", "invalid_key")  # pydantic's names; the second for keys not text
+Place = tuple[int | str, ...]  # keys and indices that lead to a value
+_LONGEST_VALUE = 60  # characters of a value in a message
+# Kinds of mistakes, in the order in which those of a mapping are reported. A misspelt key leaves
+# the right one missing: only the former is reported.
+_UNKNOWN_KEY, _MISSING, _WRONG = range(3)
+# pydantic's names; the second is that of keys that are not text
+_KINDS = {"extra_forbidden": _UNKNOWN_KEY, "invalid_key": _UNKNOWN_KEY, "missing": _MISSING}
 AnyBlock = TypeVar("AnyBlock", bound=Block)
+
+
+class ConfigError(Exception):
+    """Mistakes in the config, a line for each: place, value, and what is allowed."""
+
+    def __init__(self, *lines: str) -> None:
+        # A key may contain line breaks, but a mistake must stay on its line.
+        self.lines = tuple(
+            "".join(c if c.isprintable() else repr(c)[1:-1] for c in line) for line in lines
+        )
+        super().__init__("\n".join(self.lines))
 
 
 def validate(
@@ -27,26 +45,38 @@ def validate(
     try:
         return model.model_validate(given), []
     except ValidationError as error:
-        lines = _lines(model, error, place)
+        lines = list(_lines(model, error, place))
     with suppress(ValidationError):
         return model.model_validate(given, context=TYPES_ALONE), lines
     return None, lines
 
 
-def _lines(model: type[Block], error: ValidationError, place: Place) -> list[str]:
-    """Return a line for each mistake in a block, which stands at `place`."""
-    errors = _errors(error)
-    # A misspelt key leaves the right one missing: report the former only, and first.
-    rank = dict.fromkeys(_UNKNOWN_KEY, 0) | {"missing": 1}
-    errors.sort(key=lambda error: (len(error[0]), rank.get(error[1], 2)))
-    unknown = {loc for loc, kind, _ in errors if kind in _UNKNOWN_KEY}
-    misspelt = {loc[:-1] for loc in unknown}
-    return [
-        _line(model, loc, kind, value, place)
-        for loc, kind, value in errors
-        if not (kind == "missing" and loc[:-1] in misspelt)
-        and (kind in _UNKNOWN_KEY or not any(loc[: len(key)] == key for key in unknown))
-    ]
+def _lines(model: type[Block], error: ValidationError, place: Place) -> Iterator[str]:
+    """Yield a line for each mistake in a block, which stands at `place`."""
+    mistakes = []
+    for each in error.errors(include_url=False, include_context=False):
+        loc, kind = each["loc"], _KINDS.get(each["type"], _WRONG)
+        if each["type"] == "literal_error" and loc[-1] == "[key]":  # not among those of a mapping
+            loc, kind = loc[:-1], _UNKNOWN_KEY
+        mistakes.append((loc, kind, each["input"]))
+    mistakes.sort(key=lambda mistake: (len(mistake[0]), mistake[1]))
+    unknown_keys = {loc for loc, kind, _ in mistakes if kind == _UNKNOWN_KEY}
+    misspelt = {loc[:-1] for loc in unknown_keys}
+    for loc, kind, value in mistakes:
+        where = (*place, *(part for part in loc if part not in TAGS))
+        if kind == _UNKNOWN_KEY:
+            node = _node(model, loc[:-1])
+            known = list(node.get("properties") or node["propertyNames"]["enum"])
+            hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
+            yield f"{dotted(where)}: unknown key: {hint}"
+        elif any(loc[: len(key)] == key for key in unknown_keys):
+            continue
+        elif loc[-1:] == ("[key]",):
+            yield refusal(where[:-2], value, NAME)
+        elif kind == _WRONG:
+            yield refusal(where, value, allowed_at(model, loc))
+        elif loc[:-1] not in misspelt:
+            yield f"{dotted(where)}: missing: expected {allowed_at(model, loc)}"
 
 
 def allowed_at(model: type[Block], loc: Place) -> str:
@@ -82,30 +112,46 @@ def _node(model: type[Block], loc: Place) -> dict[str, Any]:
     return node
 
 
-def _errors(error: ValidationError) -> list[tuple[Place, str, Any]]:
-    """Return the location, pydantic's name and the value of each mistake."""
-    found = error.errors(include_url=False, include_context=False)
-    errors = [(e["loc"], e["type"], e["input"]) for e in found]
-    # A key that is not among those of a mapping is unknown, as in a block.
-    return [
-        (loc[:-1], _UNKNOWN_KEY[0], value)
-        if kind == "literal_error" and loc[-1] == "[key]"
-        else (loc, kind, value)
-        for loc, kind, value in errors
-    ]
+def refusal(place: Place, value: object, allowed: str) -> str:
+    """Return the line for a value that is not allowed."""
+    where = f"{dotted(place)}: " if place else ""
+    return f"{where}{_shown(value)} is not allowed: expected {allowed}"
 
 
-def _line(model: type[Block], loc: Place, kind: str, value: object, place: Place) -> str:
-    """Return the line for one error."""
-    where = (*place, *(part for part in loc if part not in TAGS))
-    if kind in _UNKNOWN_KEY:
-        node = _node(model, loc[:-1])
-        known = list(node.get("properties") or node["propertyNames"]["enum"])
-        hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
-        return f"{dotted(where)}: unknown key: {hint}"
-    if loc[-1:] == ("[key]",):
-        return refusal(where[:-2], value, NAME)
-    words = allowed_at(model, loc)
-    if kind == "missing":
-        return f"{dotted(where)}: missing: expected {words}"
-    return refusal(where, value, words)
+def unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    """Say that there is no such thing, what may be meant, and what there is."""
+    names = list(known)
+    inventory = f"config.yaml has {', '.join(names) or 'none'}"
+    return f"no {kind} {name}: " + f"{suggestion(name, names)} {inventory}".strip()
+
+
+def dotted(place: Place) -> str:
+    """Return a place in the config in the form scenes.fig2.starts[1]."""
+    texts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
+    return "".join(texts).removeprefix(".")
+
+
+def _shown(value: object) -> str:
+    """Return a value as in YAML, shortened. Aliases in YAML can make a value of any size."""
+    text = "".join(islice(_pieces(value), _LONGEST_VALUE + 1))
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def _pieces(value: object) -> Iterator[str]:
+    """Yield the text of a value piece by piece."""
+    if isinstance(value, dict | list):
+        yield "{" if isinstance(value, dict) else "["
+        for i, item in enumerate(value):
+            if i:
+                yield ", "
+            yield from _pieces(item)
+            if isinstance(value, dict):
+                yield ": "
+                yield from _pieces(value[item])
+        yield "}" if isinstance(value, dict) else "]"
+    elif value is None:
+        yield "nothing"
+    elif isinstance(value, int) and value.bit_length() > 14_000:  # too long for decimals
+        yield hex(value)
+    else:
+        yield str(value).lower() if isinstance(value, bool) else repr(value)

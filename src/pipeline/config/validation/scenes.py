@@ -8,7 +8,7 @@ by L^2; bounds are checked before that.
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic import create_model
@@ -16,11 +16,10 @@ from pydantic import create_model
 from ...declaration import extensions
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.scene import CompletionError, CrossFieldError, OfOrbits, Picture, Scene, exact
+from ..schema.scene import CompletionError, OfOrbits, Picture, Scene, exact
 from ..schema.sets import SETS
 from ..schema.variant import Variant
-from .mistakes import validate
-from .words import Place, dotted, refusal, unknown
+from .mistakes import Place, dotted, refusal, unknown, validate
 
 
 def reserved_names() -> list[str]:
@@ -100,7 +99,12 @@ def derive_variant(
     lines: list[str] = []
     changes = variant.scenes or {}
     for scene, change in changes.items():
-        lines += _change_mistakes(scenes, scene, change, (*place, "scenes", scene))
+        where = (*place, "scenes", scene)
+        if scene not in scenes:
+            lines.append(f"{dotted(where)}: {unknown('scene', scene, list(scenes))}")
+        elif change.get("picture", picture := scenes[scene]["picture"]) != picture:
+            words = f"{picture}, which a variant does not change"
+            lines.append(refusal((*where, "picture"), change["picture"], words))
     if lines:
         return {}, {}, lines
     derived, left_out = dict[str, Picture](), {}
@@ -109,13 +113,15 @@ def derive_variant(
     for scene, given in scenes.items():
         change, where = changes.get(scene, {}), (*place, "scenes", scene)
         block = _with_ball(given, ball)
-        picture, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
+        merged, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
         lines += wrong
-        if picture is None:
+        if merged is None:
             continue
-        errors = [*picture.cross_field_errors()]
+        errors = [*merged.cross_field_errors()]
+        # Its own errors are in fields that the variant changes for it, or that had none before.
         unchanged, _ = _read_scene(_merge_variant(block, variant, {}), where, scenes)
-        own = _errors_of_change(errors, unchanged, change)
+        before = {at[0] for at, *_ in unchanged.cross_field_errors()} if unchanged else set()
+        own = [error for error in errors if error[0][0] not in before - change.keys()]
         for at, value, allowed in own or errors:
             shared = at[0] in variant.model_fields_set and at[0] not in change
             line = refusal((*(place if shared else where), *at), value, allowed)
@@ -123,22 +129,12 @@ def derive_variant(
         if errors and not own:
             left_out[scene] = f"left out: {refusal(*errors[0])}"
         else:
-            derived[scene] = _scaled(picture, variant.scale or 1)
+            derived[scene] = _scaled(merged, variant.scale or 1)
     if not derived:
         mistaken |= unsuitable
-    lines += [f"{line}, for {', '.join(for_)}" if for_ else line for line, for_ in mistaken.items()]
+    for line, names in mistaken.items():
+        lines.append(f"{line}, for {', '.join(names)}" if names else line)
     return derived, left_out, lines
-
-
-def _errors_of_change(
-    errors: Iterable[CrossFieldError], unchanged: Picture | None, change: YamlMapping
-) -> list[CrossFieldError]:
-    """Return the errors in fields that a variant changes for one scene, or that had none before.
-
-    `unchanged` is the scene with the values that the variant gives for all scenes alone.
-    """
-    before = {at[0] for at, *_ in unchanged.cross_field_errors()} if unchanged else set()
-    return [error for error in errors if error[0][0] not in before - change.keys()]
 
 
 def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
@@ -153,18 +149,6 @@ def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) ->
         return derived
     derived.pop("axes", None)
     return derived | {key: value for key, value in change.items() if key == "axes"}
-
-
-def _change_mistakes(
-    scenes: YamlMapping, scene: str, change: YamlMapping, place: Place
-) -> list[str]:
-    if scene not in scenes:
-        return [f"{dotted(place)}: {unknown('scene', scene, list(scenes))}"]
-    picture = scenes[scene]["picture"]
-    if change.get("picture", picture) != picture:
-        words = f"{picture}, which a variant does not change"
-        return [refusal((*place, "picture"), change["picture"], words)]
-    return []
 
 
 def _merge(old: Any, new: Any) -> Any:

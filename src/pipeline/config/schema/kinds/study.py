@@ -5,12 +5,13 @@ from typing import Literal
 from ..fields import NoFormats
 from ..scene import Picture
 
+DRAWN_BY = "study.charts.{}"  # the function of each kind that names no other one
+
 
 class Work(Picture):
     """error and failures of each method against its cost"""
 
     stages = ("work",)
-    drawn_by = "study.charts.work"
 
     states: Literal["uniform", "grazing"]
     """Set of states before the flights: over the whole section, or close to grazing."""
@@ -29,7 +30,6 @@ class Edges(Picture):
     """the share of failures near grazing and near a touch of the floor"""
 
     stages = ("edges",)
-    drawn_by = "study.charts.edges"
 
 
 class MeasuredEdges(Picture):
@@ -43,21 +43,18 @@ class Energy(Picture):
     """the drift of the energy, and the impacts missed"""
 
     stages = ("drift",)
-    drawn_by = "study.charts.energy"
 
 
 class Separation(Picture):
     """the distance of each method's orbit from the proved one"""
 
     stages = ("drift",)
-    drawn_by = "study.charts.separation"
 
 
 class FigureErrors(Picture):
     """the error of each figure by each method"""
 
     stages = ("needs",)
-    drawn_by = "study.charts.figure_errors"
 
 
 class MissedImpacts(Picture):
