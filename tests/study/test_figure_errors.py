@@ -30,9 +30,10 @@ def errors():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(figure_errors, "METHODS", (OURS, SCANS[0], ENGINES[2]))
         return figure_errors.figure_errors(
-            {"sections": PORTRAIT, "times": MOTION},
-            {"sections": "portrait", "times": "motion"},
-            {("periodic", "times"): periodic},
+            periodic,
+            scenes={"sections": PORTRAIT, "times": MOTION},
+            measures={"sections": "portrait", "times": "motion"},
+            inputs=["periodic/times"],
         )
 
 
@@ -89,7 +90,9 @@ def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch)
 def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):
     scene = PORTRAIT | {"impacts": 20_000, "starts": [0.534522]}
     monkeypatch.setattr(figure_errors, "METHODS", (OURS, SCANS[3]))
-    data = figure_errors.figure_errors({"sea": scene}, {"sea": "portrait"}, {})
+    data = figure_errors.figure_errors(
+        scenes={"sea": scene}, measures={"sea": "portrait"}, inputs=[]
+    )
     assert data["missed"].values[0, 1] > 0
     assert data["error"].values[0, 1] < 1.0
     assert data["good"].values[0].tolist() == [1, 0]

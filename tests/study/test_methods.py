@@ -5,7 +5,7 @@ import pytest
 
 from pseudorigid import lyapunov_spectrum
 from study import states
-from study.methods import scipy_events
+from study.methods import libraries
 from study.methods.counted_methods import OURS, TOLERANCES, engine_method, scan_method
 
 BALL = states.BALL
@@ -26,9 +26,9 @@ def test_the_certified_march_is_the_map(uniform):
 METHODS = [
     *((scan_method(0.1, tolerance), tolerance) for tolerance in TOLERANCES),
     *((engine_method(step), 2 * step) for step in (1e-2, 1e-4)),
-    (scipy_events.brentq_method(0.1, 1e-9), 1e-8),
-    (scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
-    (scipy_events.ivp_method("Radau", 1e-6), 1e-3),
+    (libraries.brentq_method(0.1, 1e-9), 1e-8),
+    (libraries.ivp_method("DOP853", 1e-9), 1e-6),
+    (libraries.ivp_method("Radau", 1e-6), 1e-3),
 ]
 
 
@@ -46,9 +46,7 @@ def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
 @pytest.mark.parametrize("direction", ["any", "positive"])
 def test_heyoka_is_as_accurate_as_its_settings(uniform, direction):
     pytest.importorskip("heyoka")
-    from study.methods import taylor
-
-    assert_accurate(taylor.taylor_method(1e-15, direction), 1e-13, *uniform)
+    assert_accurate(libraries.taylor_method(1e-15, direction), 1e-13, *uniform)
 
 
 @pytest.mark.parametrize("height", [1e-3, -1e-3, 1e-9, -1e-9])
@@ -69,20 +67,18 @@ def test_states_at_a_distance_from_grazing(side):
     assert np.all(side * (x + BALL.g) >= 0)
 
 
-@pytest.mark.parametrize("solver", scipy_events.SOLVERS)
+@pytest.mark.parametrize("solver", libraries.SOLVERS)
 def test_solve_ivp_sees_short_flights(solver):
     columns = states.grazing_at(6, 1, 20)
     truth = OURS.solve(BALL, *columns)[0]
-    tau, _ = scipy_events.ivp_method(solver, 1e-9).solve(BALL, *columns)
+    tau, _ = libraries.ivp_method(solver, 1e-9).solve(BALL, *columns)
     assert np.abs(tau / truth - 1).max() < 0.1
 
 
 @pytest.mark.slow  # it compiles a package whose numbers are in no figure
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
-    from study.methods import pynamicalsys_lyapunov
-
     start, impacts = states.chaotic(), 20_000
-    found = np.sort(pynamicalsys_lyapunov.spectrum(BALL, start, impacts))[::-1]
+    found = np.sort(libraries.lyapunov_exponents(BALL, start, impacts))[::-1]
     ours = lyapunov_spectrum(BALL, start, impacts, records=1)["exponent"].values[-1]
     assert np.abs(found - ours).max() < 1e-3  # it starts from other tangent vectors

@@ -1,9 +1,7 @@
 """The methods that are compared.
 
 `counted_methods` has the methods in this package's arithmetic, whose results are the same on every
-machine. `scipy_events` and `taylor` have those of libraries, whose results are measurements;
-`external_solver` applies them to one flight at a time. `pynamicalsys_lyapunov` has the exponents of
-a library.
+machine. `libraries` has those of other packages, whose results are measurements.
 """
 
 from typing import Protocol
