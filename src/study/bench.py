@@ -26,11 +26,11 @@ from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
+from .measured import Call, machine
 from .methods import libraries
 from .methods.counted_methods import scan_method
 from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
-from .timing import Call, machine
 
 REPETITIONS = 9
 IMPACTS = 200_000

@@ -126,7 +126,7 @@ def _portrait(block: Block) -> PictureErrors:
 def _exponents(block: Block) -> PictureErrors:
     """Measure the change of the orbits' mean exponent from that of the certified march."""
     ball, orbits = _orbits(block)
-    _, pixel = _pixels(exponents.plane(block))
+    _, pixel = _pixels(exponents.empty_picture(block))
     means = [
         sum(_vector_exponent(method, ball, *orbit) for orbit in orbits) / len(orbits)
         for method in METHODS
@@ -153,7 +153,7 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
     impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
     truth = np.array(reference_solver.orbit(ball, state, impacts)).T
     times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
-    across, up = _pixels(motion.plane(block))
+    across, up = _pixels(motion.empty_picture(block))
     error, evaluations = [], []
     for method in METHODS:
         track, count = method.orbit(ball, state, impacts)
@@ -168,7 +168,8 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
     """Measure the error of one impact on the manifolds' branches, summed over later impacts."""
     ball = Ball(**block["ball"])
-    pixel = 1.0 / Box(block).view.scale if "view" in block else _pixels(closeup.plane(block))[0]
+    in_box = "view" in block
+    pixel = 1.0 / Box(block).view.scale if in_box else _pixels(closeup.empty_picture(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # per impact; a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))

@@ -1,7 +1,15 @@
-"""Comparisons that measure times or need external solvers. Their data differ between machines."""
+"""Comparisons that measure times or need external solvers. Their data differ between machines.
 
+`machine` describes the machine, also for `bench`, whose calls have the form of `Call`.
+"""
+
+import os
+import platform
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -12,8 +20,8 @@ from . import stages, states
 from .methods import Method, libraries
 from .methods.counted_methods import METHODS, OURS, scan_method
 from .states import BALL
-from .timing import machine
 
+PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys")
 MIN_SECONDS = 0.02  # of one timing, so that the clock's resolution does not show
 # Names of the external solvers that are compared near grazing.
 _GRAZING_SOLVERS = (
@@ -86,3 +94,32 @@ def _seconds(method: Method, columns: np.ndarray) -> float:
         repetitions += 1
         spent = time.perf_counter() - start
     return spent / (repetitions * columns[0].size)
+
+
+class Call(NamedTuple):
+    """A call that is timed, and the call with which it is compared, if there is one."""
+
+    function: Callable[[], object]
+    units: int  # impacts or other units of work that it does
+    base: str = ""  # name of the other call
+    aim: str = ""  # of the ratio
+
+
+def machine() -> dict[str, str]:
+    """Return the processor, its load and the versions of packages."""
+    return {
+        "processor": _processor(),
+        "cores": str(os.cpu_count()),
+        "load": f"{os.getloadavg()[0]:.1f}",
+        "python": platform.python_version(),
+        **{name: version(name) for name in PACKAGES},
+    }
+
+
+def _processor() -> str:
+    """Return the name of the processor and its widest SIMD instructions."""
+    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    flags = next((line for line in lines if line.startswith(("flags", "Features"))), "")
+    simd = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"
+    return f"{names[0] if names else platform.machine()} ({simd})"

@@ -48,13 +48,15 @@ def test_a_scene_without_axes_is_left_out():
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 
 
-def test_the_march_is_exact_and_an_engine_is_not(errors):
+def test_the_march_is_exact_and_the_cheapest_and_an_engine_is_not(errors):
     march, scan, engine = (errors["error"].values[:, i] for i in range(3))
-    assert np.all(march < 1e-6)
-    assert np.all(march < scan)
+    assert np.all(march < 1e-6) and np.all(march < scan)
     assert np.all(engine > 0.1)  # its first order shows
     assert np.all(errors["missed"].values[:, 0] == 0)
     assert np.all(errors["evaluations"].values[:, 0] < errors["evaluations"].values[:, 1])
+    assert np.all(errors["limit"].values == 1.0)
+    assert errors["good"].values[:, 0].tolist() == [1, 1]
+    assert errors["cheapest"].values.tolist() == [0, 0]
 
 
 def test_a_figure_has_its_impacts_and_the_size_of_its_pixels(errors):
@@ -63,12 +65,6 @@ def test_a_figure_has_its_impacts_and_the_size_of_its_pixels(errors):
     assert 8 <= motion <= 12  # flights of some 3 time units
     assert errors["digit"].values.tolist() == [0.01, 0.01]
     assert np.all(errors["pixel"].values < errors["line"].values)
-
-
-def test_the_march_is_good_enough_and_the_cheapest(errors):
-    assert np.all(errors["limit"].values == 1.0)
-    assert errors["good"].values[:, 0].tolist() == [1, 1]
-    assert errors["cheapest"].values.tolist() == [0, 0]
 
 
 def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch):

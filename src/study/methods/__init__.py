@@ -4,7 +4,7 @@
 machine. `libraries` has those of other packages, whose results are measurements.
 """
 
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,7 +13,8 @@ from pseudorigid.dynamics.ball import Ball
 Flights = tuple[np.ndarray, np.ndarray]
 
 
-class Method(Protocol):
+@dataclass
+class Method:
     """A method that finds the next impact; methods of a family differ in one setting."""
 
     name: str

@@ -35,8 +35,6 @@ class ExternalSolver(Method):
     velocities b, c; tau is NaN if none is found. No root of the gap is later than `latest`.
     """
 
-    name: str
-    family: str
     flight: FirstRoot
 
     def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
