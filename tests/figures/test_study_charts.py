@@ -6,6 +6,7 @@ import xarray as xr
 from keys import texts
 from legible import assert_text_is_whole_and_apart
 
+from pseudorigid.figures.axes import panel
 from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
@@ -104,6 +105,11 @@ def test_zeros_are_drawn_at_an_end_named_zero():
     assert texts(zeros).count("0") >= 2
 
 
+def test_the_logarithm_of_axes():
+    assert panel.log10([1e-12, 1.0, 1e3]) == pytest.approx([-12, 0, 3], abs=1e-14)
+    assert np.isnan(panel.log10([0.0, -1.0])).all()
+
+
 def test_scans_that_differ_in_their_step_have_one_entry():
     names = ["scan 0.5, 1e-12", "scan 0.1, 1e-12", "scan 0.01, 1e-12", "scan 0.1, 1e-06"]
     families = [f"{name.partition(',')[0]} + bisection" for name in names] + ["time stepping"]
@@ -114,9 +120,12 @@ def test_scans_that_differ_in_their_step_have_one_entry():
 
 
 @pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
-def test_the_worst_right_root_is_named_if_it_is_drawn(wrong, drawn):
+def test_the_worst_right_root_is_hollow_and_named_if_it_is_drawn(wrong, drawn):
     figure = study.work(scene(1, "evaluations"), work_data(100.0, wrong=wrong))
     assert ("hollow: worst right root" in texts(figure)) == drawn
+    dots = [a for a in figure.artists if a.get_marker() == "o" and len(a.get_xdata())]
+    hollow = [a for a in dots if a.get_markerfacecolor() == "white" and a.get_markeredgewidth()]
+    assert bool(hollow) == drawn
 
 
 def test_the_key_stands_in_a_panel_without_failures_or_below_all():
