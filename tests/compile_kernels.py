@@ -50,7 +50,7 @@ def compile_the_rest():
     ):
         method.solve(states.BALL, *states.uniform(20))
         method.orbit(states.BALL, start, 20)
-    figure_errors._growth(np.ones((3, 3, 3)))
+    figure_errors._log_stretch(np.ones((3, 3, 3)))
 
 
 if __name__ == "__main__":

@@ -26,11 +26,11 @@ from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
-from .failures import certified_orbit
-from .methods import pynamicalsys_lyapunov, scipy_events, taylor
+from .measured import Call, machine
+from .methods import libraries
 from .methods.counted_methods import scan_method
+from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
-from .timing import Call, machine
 
 REPETITIONS = 9
 IMPACTS = 200_000
@@ -71,10 +71,10 @@ def calls() -> dict[str, Call]:
     sea, many_orbits = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     states_20, states_500 = (certified_orbit(BALL, sea, count)[0] for count in (20, 500))
     scan = partial(scan_method(0.1, 1e-12).solve, BALL, *states_500)
-    heyoka = partial(taylor.taylor_method(1e-15, "positive").solve, BALL, *states_500)
-    dop853 = partial(scipy_events.ivp_method("DOP853", 1e-9).solve, BALL, *states_20)
+    heyoka = partial(libraries.taylor_method(1e-15, "positive").solve, BALL, *states_500)
+    dop853 = partial(libraries.ivp_method("DOP853", 1e-9).solve, BALL, *states_20)
     spectrum = partial(lyapunov_spectrum, BALL, records=1)
-    pynamicalsys = partial(pynamicalsys_lyapunov.spectrum, BALL, sea, IMPACTS)
+    pynamicalsys = partial(libraries.lyapunov_exponents, BALL, sea, IMPACTS)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
     saddle = of_type(symmetric_orbits(BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
     branch = partial(trace_manifold, BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from pseudorigid.figures.axes.limits import decades
-from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
+from pseudorigid.figures.axes.panel import Axis, Frame, Panel, corner, key, letters, title
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
@@ -40,7 +41,7 @@ STYLES = {
     "engine 1e-03": ("#a86f00", "o"),
 }
 LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
-_ZERO_DECADE = -18  # the decade at which zeros are drawn, below the error of a double, above 1e-17
+_ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
 _MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _MOST_FLAT_SHARE = 0.02  # share below which a panel has room for the key
@@ -49,6 +50,30 @@ _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[str, str, str]  # of a key: text, colour and mark
 Scene = dict[str, Any]  # a block of the checked config
 method_key = partial(key, columns=_KEY_COLUMNS, size=7.0)
+
+
+class AxisWithZero(Axis):
+    """An axis of decades whose lower end stands for zero and for all that is less than it."""
+
+    def fraction(self, values: ArrayLike) -> np.ndarray:
+        """Return where values lie between the limits, 0 to 1."""
+        return super().fraction(np.maximum(values, float(f"1e{self.limits[0]}")))
+
+
+class PanelWithZeros(Panel):
+    """A panel that marks the gap between zero and the powers of ten on an axis that has both."""
+
+    def __init__(self, sheet: Sheet, frame: Frame, across: Axis, up: Axis) -> None:
+        super().__init__(sheet, frame, across, up)
+        left, bottom, *_ = frame
+        for axis, start, level in ((across, left, bottom), (up, bottom, left)):
+            if not isinstance(axis, AxisWithZero):
+                continue
+            for shift, rise, color, points in ((0, 0, "white", 1.6), *_BREAK_STROKES):
+                along = [start + 30 + shift + end for end in (-5, 5)]
+                off = [level - rise, level + rise]
+                ends = (along, off) if axis is across else (off, along)
+                sheet.draw(*ends, color=color, lw=points, zorder=3.5)
 
 
 @style.pinned()
@@ -63,21 +88,17 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     entries, wrong = _entries(families, families), data["wrong"].values
     sheet, top = chart_sheet(1030, entries)
     across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
-    error = _axis_with_zero(_ZERO_DECADE, 0, "Relative error of the flight time")
-    upper = Panel(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
+    error = _error_axis(_ZERO_DECADE, 0, "Relative error of the flight time")
+    upper = PanelWithZeros(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
     shares = (0, 0.2, 0.4, 0.6) if wrong.max() > 0.1 else (0, 0.05, 0.1)
     share = Axis((0.0, shares[-1]), shares, "Share of wrong roots")
     lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
     letters(sheet, upper.frame, lower.frame)
-    _break_above_zero(upper)
     if (wrong <= _MAX_WRONG_SHARE).any():
         corner(sheet, upper.frame, "hollow: worst right root")
     for family, (_, color, marker) in zip(families, entries, strict=True):
         part = data.isel(method=data["family"].values == family)
-        x, wrong = part[cost].values, part["wrong"].values
-        median, worst = (
-            _zero_at_end(part[name].values, _ZERO_DECADE) for name in ("median", "worst")
-        )
+        x, wrong, median, worst = (part[n].values for n in (cost, "wrong", "median", "worst"))
         reliable = wrong <= _MAX_WRONG_SHARE
         upper.line(x, median, color=color, lw=0.9)
         upper.line(x[reliable], worst[reliable], color=color, lw=0.5, ls="--")
@@ -140,22 +161,20 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     entries = _methods_with_merged_scans(data)
     named = list(dict.fromkeys(entries))
     sheet, top = chart_sheet(1135, named)
-    drift = _axis_with_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
-    upper = Panel(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
+    drift = _error_axis(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
+    upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
-    up = Axis((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
-    lower = Panel(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
+    up = AxisWithZero((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
+    lower = PanelWithZeros(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
     letters(sheet, upper.frame, lower.frame)
-    _break_above_zero(upper)
-    _break_above_zero(lower)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
     for i, (_, color, marker) in enumerate(entries):
         drift = data["drift"].values[i]
-        upper.line(data["record"].values, _zero_at_end(drift, _ZERO_DECADE), color=color, lw=0.9)
-        end = drift[-1], max(float(data["missed"].values[i]), 0.1)
+        upper.line(data["record"].values, drift, color=color, lw=0.9)
+        end = drift[-1], float(data["missed"].values[i])
         lower.dots(*end, color, marker=marker)
         if entries.count(entries[i]) > 1:
             lower.note(*end, _scan_step(data["name"].values[i]), shift=(3, 3.5))
@@ -169,12 +188,11 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the distance of each method's orbit from the proved one, from `failures.orbits`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = _axis_with_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
-    panel = Panel(sheet, (LEFT, top - 600, RIGHT, top), across, up)
-    _break_above_zero(panel)
+    up = _error_axis(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
+    panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     entries = _methods_with_merged_scans(data)
     for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
-        panel.line(data["impact"].values, _zero_at_end(distance, _ZERO_DECADE), color=color, lw=0.9)
+        panel.line(data["impact"].values, distance, color=color, lw=0.9)
     method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
     return sheet.figure
 
@@ -192,16 +210,15 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
     up = Axis((0, scenes), middles, labels=names)
-    across = _axis_with_zero(-16, 6, "Error of the picture / what it can hide")
-    panel = Panel(sheet, (LEFT, bottom, 720, top), across, up)
-    _break_above_zero(panel, across=True)
+    across = _error_axis(-16, 6, "Error of the picture / what it can hide")
+    panel = PanelWithZeros(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     heading = "Evaluations an impact, of the two cheapest that suffice"
     corner(sheet, (LEFT, bottom, sheet.wide - 15, top), heading)
     methods = [text for text, *_ in _entries(data["name"].values, families)]
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
-        errors = _zero_at_end(row["error"].values / float(row["limit"]), -16)
+        errors = row["error"].values / float(row["limit"])
         missed = row["missed"].values > 0
         for family, error, hollow in zip(families, errors, missed, strict=True):
             panel.dots(error, middle, STYLES[family][0], hollow=hollow)
@@ -225,27 +242,11 @@ def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
     return Sheet(style.COLUMN, high), high - 70
 
 
-def _axis_with_zero(low: int, high: int, name: str) -> Axis:
-    """Return an axis of decades whose lower end stands for zero."""
+def _error_axis(low: int, high: int, name: str) -> AxisWithZero:
+    """Return an axis of decades with ticks at its lower end, which stands for zero, and above."""
     ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
     labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
-    return Axis((low, high), ticks, name, True, labels)
-
-
-def _zero_at_end(values: np.ndarray, zero: int) -> np.ndarray:
-    """Raise values to the decade that stands for zero."""
-    return np.maximum(values, float(f"1e{zero}"))
-
-
-def _break_above_zero(panel: Panel, across: bool = False) -> None:
-    """Mark the gap between zero and the powers of ten on an axis that has both."""
-    left, bottom, *_ = panel.frame
-    start, level = (left, bottom) if across else (bottom, left)
-    for shift, rise, color, points in ((0, 0, "white", 1.6), *_BREAK_STROKES):
-        along = [start + 30 + shift + end for end in (-5, 5)]
-        off = [level - rise, level + rise]
-        ends = (along, off) if across else (off, along)
-        panel.sheet.draw(*ends, color=color, lw=points, zorder=3.5)
+    return AxisWithZero((low, high), ticks, name, True, labels)
 
 
 def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:

@@ -36,11 +36,8 @@ from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import reference_solver
-from .failures import certified_orbit, energy_drift, states_before
-from .methods import Flights
 from .methods.counted_methods import ENGINES, OURS, SCANS, CountedMethod
-from .stages import described
-from .work import dataset, is_wrong, proved_times
+from .stages import certified_orbit, dataset, energy_drift, is_wrong, proved_times, states_before
 
 # The certified march, the scans with steps 0.5 and 0.1, the finest scan, and all engines but the
 # coarsest.
@@ -48,7 +45,7 @@ METHODS = (OURS, *SCANS[:8], SCANS[-1], *ENGINES[1:])
 _AXIS = "unit of the axis"  # R for positions, 1/omega for times, 1 for exponents
 # Standard deviation, between orbits, of the exponent after 2e5 impacts with any method. An error
 # below the standard error of the orbits' mean does not show.
-SCATTER = 0.004
+EXPONENT_DEVIATION = 0.004
 BRANCH_POINTS = 2000  # of a manifold, evenly by index; one miss in a thousand shows
 Block = dict[str, Any]  # a scene of the checked config
 
@@ -67,37 +64,24 @@ class PictureErrors(NamedTuple):
     misses_show: bool = True
 
 
-def needs(
-    *datasets: xr.Dataset, scenes: dict[str, Block], measures: dict[str, str], inputs: list[str]
-) -> xr.Dataset:
-    """Compute the dataset of the stage `needs`: the error of each figure under each method.
-
-    `scenes` and `measures` are those of `figure_errors`; `inputs` has the name STAGE/SCENE of each
-    of the `datasets`.
-    """
-    keys = [tuple(name.split("/")) for name in inputs]
-    artifacts = dict(zip(keys, datasets, strict=True))
-    return described("needs", figure_errors(scenes, measures, artifacts))
-
-
 def figure_errors(
-    scenes: dict[str, Block],
-    measures: dict[str, str],
-    artifacts: dict[tuple[str, ...], xr.Dataset],
+    *datasets: xr.Dataset, scenes: dict[str, Block], measures: dict[str, str], inputs: list[str]
 ) -> xr.Dataset:
     """Compute each figure's error under each method, and which methods are good enough.
 
     `scenes` maps names to blocks of the checked config, with their axes, and `measures` maps the
-    names to keys of MEASURES. `artifacts` maps (stage, scene) to the datasets of periodic orbits
-    and manifolds that the measures need. The result has the dims (scene, method).
+    names to keys of MEASURES. The `datasets` are the periodic orbits and manifolds that the
+    measures take, and `inputs` has the name STAGE/SCENE of each. The result has the dims (scene,
+    method).
     """
-    rows = []
-    for name, block in scenes.items():
-        data = {stage: dataset for (stage, scene), dataset in artifacts.items() if scene == name}
-        rows.append(MEASURES[measures[name]](block, **data))
+    data: dict[str, dict[str, xr.Dataset]] = {name: {} for name in scenes}
+    for path, artifact in zip(inputs, datasets, strict=True):
+        stage, _, scene = path.partition("/")
+        data[scene][stage] = artifact
+    rows = [MEASURES[measures[name]](block, **data[name]) for name, block in scenes.items()]
     column = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
-    whole = (column["missed"] == 0) | ~column["misses_show"][:, None]
-    good = (column["error"] <= column["limit"][:, None]) & whole
+    no_miss_shows = (column["missed"] == 0) | ~column["misses_show"][:, None]
+    good = (column["error"] <= column["limit"][:, None]) & no_miss_shows
     cheapest = np.where(good, column["evaluations"], np.inf).argmin(axis=1)
     axes = [block["axes"][row.axis] for block, row in zip(scenes.values(), rows, strict=True)]
     width = column["stroke"] * DPI / 72 * column["pixel"]
@@ -115,7 +99,7 @@ def figure_errors(
         "good": (each, good.astype(np.int8), "1 where the picture is right"),
         "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
     }
-    return dataset(METHODS, variables)
+    return dataset("needs", METHODS, variables)
 
 
 def _last_digit(axis: Block) -> float:
@@ -131,32 +115,33 @@ def _portrait(block: Block) -> PictureErrors:
     _, radius = ball.section(block["energy"])
     error = []
     for method in METHODS:
-        tracks = [method.orbit(ball, *orbit)[0] for orbit in orbits]
-        pairs = zip(orbits, tracks, strict=True)
-        drift = max(energy_drift(ball, state, track)[-1] for (state, _), track in pairs)
+        drifts = [energy_drift(ball, orbit[0], method.orbit(ball, *orbit)[0]) for orbit in orbits]
+        drift = max(each[-1] for each in drifts)
         # radius^2 = (2E + g^2/k)/k, so that d radius = dE/(k radius); all orbits have the same E
         error.append(drift * abs(ball.energy(*orbits[-1][0])) / (ball.k * radius) / pixel)
-    return PictureErrors(error, *_misses(ball, orbits), "x", pixel, stroke=0.8)
+    counts = _count_misses(ball, *(certified_orbit(ball, *orbit) for orbit in orbits))
+    return PictureErrors(error, *counts, "x", pixel, stroke=0.8)
 
 
 def _exponents(block: Block) -> PictureErrors:
     """Measure the change of the orbits' mean exponent from that of the certified march."""
     ball, orbits = _orbits(block)
-    _, pixel = _pixels(exponents.plane(block))
+    _, pixel = _pixels(exponents.empty_picture(block))
     means = [
         sum(_vector_exponent(method, ball, *orbit) for orbit in orbits) / len(orbits)
         for method in METHODS
     ]
     error = [abs(mean - means[0]) / pixel for mean in means]
-    limit = SCATTER / math.sqrt(len(orbits)) / pixel
-    return PictureErrors(error, *_misses(ball, orbits), "exponent", pixel, 0.8, limit, False)
+    limit = EXPONENT_DEVIATION / math.sqrt(len(orbits)) / pixel
+    counts = _count_misses(ball, *(certified_orbit(ball, *orbit) for orbit in orbits))
+    return PictureErrors(error, *counts, "exponent", pixel, 0.8, limit, False)
 
 
 def _vector_exponent(method: CountedMethod, ball: Ball, state: State, impacts: int) -> float:
     """Return the exponent of a tangent vector, which tends to the largest Lyapunov exponent."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = states_before(state, track)
-    return _growth(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
+    return _log_stretch(ball.jacobian(x, xdot, np.maximum(udot, -xdot))) / impacts
 
 
 def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
@@ -168,22 +153,23 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
     impacts = math.ceil(block["duration"] / float(orbit["total_time"].values) * block["period"])
     truth = np.array(reference_solver.orbit(ball, state, impacts)).T
     times = np.cumsum(proved_times(ball, np.column_stack((state, truth[:, :-1]))))
-    across, up = _pixels(motion.plane(block))
+    across, up = _pixels(motion.empty_picture(block))
     error, evaluations = [], []
     for method in METHODS:
         track, count = method.orbit(ball, state, impacts)
-        late = np.abs(np.cumsum(track[3]) - times) / across
-        high = np.abs(track[0] - truth[0]) / up
-        error.append(float(max(late.max(), high.max())))
+        time_error = np.abs(np.cumsum(track[3]) - times) / across
+        height_error = np.abs(track[0] - truth[0]) / up
+        error.append(float(max(time_error.max(), height_error.max())))
         evaluations.append(count / impacts)
-    missed, _, _ = _misses(ball, [(state, impacts)])
+    missed, _, _ = _count_misses(ball, certified_orbit(ball, state, impacts))
     return PictureErrors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
     """Measure the error of one impact on the manifolds' branches, summed over later impacts."""
     ball = Ball(**block["ball"])
-    pixel = 1.0 / Box(block).view.scale if "view" in block else _pixels(closeup.plane(block))[0]
+    in_box = "view" in block
+    pixel = 1.0 / Box(block).view.scale if in_box else _pixels(closeup.empty_picture(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # per impact; a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
@@ -192,14 +178,14 @@ def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> Pict
     columns = columns[:, :: max(1, columns.shape[1] // BRANCH_POINTS)]
     columns[2] = np.maximum(columns[2], -columns[1])
     truth = proved_times(ball, columns)
-    solved = [method.solve(ball, *columns) for method in METHODS]
     exact = _next_states(ball, columns, truth)
     error = []
-    for tau, _ in solved:
+    for method in METHODS:
+        tau, _ = method.solve(ball, *columns)
         distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
         largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
         error.append(largest / (1.0 - 1.0 / growth) / pixel)
-    return PictureErrors(error, *_counts(solved, truth), "x", pixel, stroke=0.5)
+    return PictureErrors(error, *_count_misses(ball, (columns, truth)), "x", pixel, stroke=0.5)
 
 
 MEASURES: dict[str, Callable[..., PictureErrors]] = {
@@ -226,15 +212,15 @@ def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]]]:
     return ball, list(zip(states, each, strict=True))
 
 
-def _misses(ball: Ball, orbits: list[tuple[State, int]]) -> tuple[list[int], list[float], int]:
-    """Count misses and evaluations of each method along certified orbits, as `_counts` does."""
-    pieces = (certified_orbit(ball, *orbit) for orbit in orbits)
-    columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*pieces, strict=True))
-    return _counts([method.solve(ball, *columns) for method in METHODS], truth)
+def _count_misses(
+    ball: Ball, *flights: tuple[np.ndarray, np.ndarray]
+) -> tuple[list[int], list[float], int]:
+    """Return each method's wrong roots, its evaluations a flight, and the number of flights.
 
-
-def _counts(solved: list[Flights], truth: np.ndarray) -> tuple[list[int], list[float], int]:
-    """Return each method's wrong roots, its evaluations a flight, and the number of flights."""
+    `flights` are pairs of states (3, n) and the true times (n,) of the flights from these.
+    """
+    columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*flights, strict=True))
+    solved = [method.solve(ball, *columns) for method in METHODS]
     missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
     return missed, [float(count.mean()) for _, count in solved], truth.size
 
@@ -248,7 +234,7 @@ def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray
 
 
 @jit
-def _growth(jacobians: np.ndarray) -> float:
+def _log_stretch(jacobians: np.ndarray) -> float:
     """Return the log of the factor by which a product of matrices (n, 3, 3) stretches (1, 0, 0)."""
     a, b, c = 1.0, 0.0, 0.0
     total = 0.0

@@ -1,28 +1,196 @@
-"""Stages that compare the compiled methods. Their data are equal on every machine."""
+"""Comparisons of the compiled methods. Their data are equal on every machine.
 
+`work` compares accuracy and cost, `edges` failures near grazing and at near misses, and `drift`
+orbits of a million impacts. A flight time fails if it is missing or another root's (`is_wrong`).
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
 import xarray as xr
 
-from . import failures, states
-from . import work as work_precision
+from pseudorigid.dynamics.ball import Ball, Result, State
+from pseudorigid.dynamics.variables import LENGTH, described
+
+from . import reference_solver, states
+from .methods import Method
+from .methods.counted_methods import METHODS, OURS, engine_method, scan_method
+from .states import BALL
+
+SETS = {"uniform": states.uniform, "near-grazing": states.grazing}
+SIDES = (1, -1)  # signs of x + g at grazing, and of the maximum's height at near misses
+DISTANCES = range(13)  # s = 1 ... 1e-12
+DEPTHS = range(2, 15)  # heights 1e-2 ... 1e-14; lower ones are lost in the gap's rounding errors
+MILLION = 1_000_000
+RECORDS = np.array([*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION])  # impacts
+AGREE_IMPACTS = 170  # of each start; by then a rounding error has grown to order one
+AGREE_STARTS = 15  # in the sea; odd, so that the median is the value of one of them
+SEPARATION = 1e-3  # of x, which is visible
+
+EDGE_METHODS = OURS, *(scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01)), engine_method(1e-3)
+ORBIT_METHODS = (
+    OURS,
+    *(scan_method(step, 1e-12) for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)),
+    *(scan_method(0.1, tolerance) for tolerance in (1e-3, 1e-6, 1e-9)),
+    *map(engine_method, (1e-2, 1e-3)),
+)
 
 
-def work() -> xr.Dataset:
-    """Compare error and evaluations of the compiled methods."""
-    return described("work", work_precision.counted())
+def work(methods: Sequence[Method] = METHODS, count: int = 2000, title: str = "work") -> xr.Dataset:
+    """Compute (method, set): errors and evaluations on sets of states."""
+    sets = [states_of(count) for states_of in SETS.values()]
+    pairs = [(columns, proved_times(BALL, columns)) for columns in sets]
+    values = np.array([[_accuracy(method, *pair) for pair in pairs] for method in methods])
+    median, worst, wrong, evaluations = np.moveaxis(values, -1, 0)
+    dims = ("method", "set")
+    variables = {
+        "state_set": ("set", list(SETS), "set of states"),
+        "median": (dims, median, "median relative error of tau"),
+        "worst": (dims, worst, "worst relative error of tau among the right roots"),
+        "wrong": (dims, wrong, "share of wrong roots"),
+        "evaluations": (dims, evaluations, "mean number of evaluations a flight"),
+    }
+    return dataset(title, methods, variables, states=sets[0].shape[1])
 
 
-def edges() -> xr.Dataset:
-    """Compare the compiled methods near grazing and near a touch of the floor."""
-    return described("edges", failures.edges(failures.EDGE_METHODS))
+def edges(
+    methods: Sequence[Method] = EDGE_METHODS, count: int = 200, title: str = "edges"
+) -> xr.Dataset:
+    """Compute the share of wrong or missing roots near grazing and near misses.
+
+    near (method, side, distance) is the share for states at a distance s = xdot + udot from
+    grazing, touch (method, side, depth) for flights whose gap has a maximum of a given height.
+    `count` states are used for each side and distance or depth.
+    """
+    grazing = [[states.grazing_at(e, side, count) for e in DISTANCES] for side in SIDES]
+    heights = [[side * states.TEN_TO_MINUS[e] for e in DEPTHS] for side in SIDES]
+    touching = [[states.near_miss(height, count) for height in row] for row in heights]
+
+    def failing_shares(sets: list[list[np.ndarray]]) -> np.ndarray:
+        shares = [[wrong_roots(methods, columns).mean(axis=1) for columns in row] for row in sets]
+        return np.array(shares).transpose(2, 0, 1)
+
+    near, touch = failing_shares(grazing), failing_shares(touching)
+    variables = {
+        "near": (("method", "side", "distance"), near, "failing share, by xdot + udot"),
+        "touch": (("method", "side", "depth"), touch, "failing share, by height of a maximum"),
+        "side": ("side", SIDES, "sign of x + g, and of the maximum's height"),
+        "distance": ("distance", DISTANCES, "minus the decimal exponent of xdot + udot"),
+        "depth": ("depth", DEPTHS, "minus the decimal exponent of the maximum's height"),
+    }
+    return dataset(title, methods, variables, states=count)
 
 
-def drift() -> xr.Dataset:
-    """Compare long orbits of the compiled methods."""
-    return described("orbits", failures.orbits())
+def drift(impacts: int = MILLION) -> xr.Dataset:
+    """Compare the methods in this package's arithmetic along the orbit of `states.chaotic`.
+
+    The methods solve the flights of the certified orbit for `missed` and `evaluations`; `drift` is
+    the energy error of each method's own orbit. From AGREE_STARTS other starts, `apart` is the
+    median distance in x between a method's orbit and the proved one, and `agree` the median number
+    of impacts for which two of these orbits, the last of them proved, stay within SEPARATION.
+    """
+    start = states.chaotic()
+    columns, truth = certified_orbit(BALL, start, impacts)
+    records = RECORDS[impacts >= RECORDS]
+    missed, evaluations, drift = [], [], []
+    for method in ORBIT_METHODS:
+        tau, count = method.solve(BALL, *columns)
+        missed.append(is_wrong(tau, truth).sum())
+        evaluations.append(count.mean())
+        track, _ = method.orbit(BALL, start, impacts)
+        drift.append(energy_drift(BALL, start, track)[records - 1])
+    positions = _positions()
+    distances = np.median(np.abs(positions[:-1] - positions[-1]), axis=1)
+    agree = [[_impacts_until_apart(a, b) for b in positions] for a in positions]
+    distance = "median distance in x from the judge's orbit"
+    variables = {
+        "missed": ("method", missed, "impacts flown past"),
+        "evaluations": ("method", evaluations, "evaluations an impact"),
+        "drift": (("method", "record"), drift, "largest relative error of the energy"),
+        "record": ("record", records, "number of impacts"),
+        "apart": (("method", "impact"), distances, distance, LENGTH),
+        "impact": ("impact", np.arange(1, AGREE_IMPACTS + 1), "number of impacts"),
+        "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
+    }
+    return dataset("orbits", ORBIT_METHODS, variables, impacts=impacts, apart=SEPARATION)
 
 
-def described(comparison: str, dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset with its title, and the ball and energy that all comparisons have."""
-    ball = {"k": states.BALL.k, "g": states.BALL.g, "energy": states.ENERGY}
-    title = f"Methods compared: {comparison}"
-    return dataset.assign_attrs(stage="study", title=title, **ball)
+def dataset(
+    title: str, methods: Sequence[Method], variables: dict[str, tuple[Any, ...]], **attrs: float
+) -> xr.Dataset:
+    """Return a dataset of `variables`, with the names and families of methods on `method`."""
+    names = {
+        "name": ("method", [m.name for m in methods], "method and its settings"),
+        "family": ("method", [m.family for m in methods], "methods that differ in one setting"),
+    }
+    texts = {"stage": "study", "title": f"Methods compared: {title}"}
+    ball = {"k": BALL.k, "g": BALL.g, "energy": states.ENERGY}
+    return xr.Dataset(described(names | variables), attrs=attrs | texts | ball)
+
+
+def proved_times(ball: Ball, columns: np.ndarray) -> np.ndarray:
+    """Return the proved flight times (n,) of states (3, n), rounded to doubles."""
+    times = (reference_solver.first_root(ball.k, ball.g, *state) for state in columns.T.tolist())
+    return np.array([float(tau) for tau in times])
+
+
+def is_wrong(tau: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return which tau are NaN or off by more than a tenth of the flight, or of a time unit.
+
+    Such a tau counts as another root, not as an inaccurate one.
+    """
+    return ~(np.abs(tau - truth) <= 0.1 * np.minimum(truth, 1.0))
+
+
+def wrong_roots(methods: Sequence[Method], columns: np.ndarray) -> np.ndarray:
+    """Return whether each method's roots (method, n) are wrong, of flights from states (3, n)."""
+    truth = proved_times(BALL, columns)
+    return np.array([is_wrong(method.solve(BALL, *columns)[0], truth) for method in methods])
+
+
+def certified_orbit(ball: Ball, state: State, impacts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the states (3, impacts) from which a certified orbit's flights start, and their times.
+
+    The first one is `state`.
+    """
+    track, _ = OURS.orbit(ball, state, impacts)
+    return states_before(state, track), track[3]
+
+
+def states_before(state: State, track: np.ndarray) -> np.ndarray:
+    """Return the states (3, n) from which flights start, for a track of `CountedMethod.orbit`."""
+    return np.column_stack((np.array(state), track[:3, :-1]))
+
+
+def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
+    """Return, at each impact of a track, the largest relative error of the energy up to it."""
+
+    def energy(x: Result, v: Result, w: Result) -> Result:
+        return (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
+
+    first = energy(*state)
+    return np.maximum.accumulate(np.abs(energy(*track[:3]) - first) / abs(first))
+
+
+def _accuracy(method: Method, columns: np.ndarray, truth: np.ndarray) -> tuple[float, ...]:
+    """Return median and worst error, share of wrong roots and evaluations; NaN errs infinitely."""
+    tau, count = method.solve(BALL, *columns)
+    error, wrong = np.abs(tau - truth) / truth, is_wrong(tau, truth)
+    median = np.median(np.where(np.isnan(error), np.inf, error))
+    return median, error[~wrong].max(initial=0.0), wrong.mean(), count.mean()
+
+
+def _positions() -> np.ndarray:
+    """Return x (method, start, impact) of the orbits by ORBIT_METHODS, and then the proved ones."""
+    starts = [BALL.start(f, states.ENERGY) for f in 0.52 + 0.01 * np.arange(AGREE_STARTS)]
+    computed = [[m.orbit(BALL, s, AGREE_IMPACTS)[0][0] for s in starts] for m in ORBIT_METHODS]
+    proved = [[x for x, *_ in reference_solver.orbit(BALL, s, AGREE_IMPACTS)] for s in starts]
+    return np.array([*computed, proved])
+
+
+def _impacts_until_apart(a: np.ndarray, b: np.ndarray) -> float:
+    """Return after how many impacts two methods' orbits differ by SEPARATION, median of starts."""
+    beyond = np.abs(a - b) > SEPARATION
+    first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), beyond.shape[1])
+    return float(np.median(first))

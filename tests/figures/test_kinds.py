@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from keys import texts
 from samples import (
     ATTRS,
     FLAT,
@@ -135,8 +136,7 @@ def test_ends_have_open_dots_and_jumps_squares():
                  and a.get_marker() == "s" for a in figure.artists)  # fmt: skip
     assert marks == {"o": seen[ends].sum(), "s": seen[jumps].sum()}
     assert in_key == bool(seen[jumps].any())
-    texts = [text.get_text() for text in figure.texts]
-    assert ("jump" in texts) == bool(seen[jumps].any())
+    assert ("jump" in texts(figure)) == bool(seen[jumps].any())
 
 
 def folded(turn_back):
@@ -160,8 +160,7 @@ def test_a_sharp_fold_has_a_dot_and_a_straight_line_none(turn_back):
 
 
 def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
-    assert "saddle" in [text.get_text() for text in drawn("closeup").texts]
+    assert "saddle" in texts(drawn("closeup"))
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
-    labels = [text.get_text() for text in figure.texts]
-    assert {"0.5", "1.5"} <= {*labels}  # of the inset alone
+    assert {"0.5", "1.5"} <= {*texts(figure)}  # labels of the inset alone

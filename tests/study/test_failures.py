@@ -1,12 +1,15 @@
 """Failures of methods: shares and counts against those of an independent solver."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from independent_solver import exact_map, judge
 from mpmath import mpf
 
-from study import failures, states
+from study import measured, stages, states
 from study import reference_solver as proved
+from study.enclosure.surface import exact
 from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
@@ -23,15 +26,15 @@ def flown_past(method, columns):
 @pytest.fixture(scope="module")
 def edges():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(failures, "DISTANCES", (0, 4))
-        patch.setattr(failures, "DEPTHS", (3, 9))
-        return failures.edges((OURS, SCAN), count=25)
+        patch.setattr(stages, "DISTANCES", (0, 4))
+        patch.setattr(stages, "DEPTHS", (3, 9))
+        return stages.edges((OURS, SCAN), count=25)
 
 
-@pytest.mark.parametrize("side", failures.SIDES)
+@pytest.mark.parametrize("side", stages.SIDES)
 @pytest.mark.parametrize(("i", "near", "touch"), [(0, 0, 3), (1, 4, 9)])
 def test_shares_of_failures_are_those_of_an_independent_solver(edges, side, i, near, touch):
-    scan = edges.isel(method=1, side=failures.SIDES.index(side))
+    scan = edges.isel(method=1, side=stages.SIDES.index(side))
     columns = states.grazing_at(near, side, 25)
     assert scan["near"].values[i] == np.mean(flown_past(SCAN, columns))
     columns = states.near_miss(side * 10.0**-touch, 25)
@@ -46,16 +49,16 @@ def test_the_march_does_not_fail_and_a_scan_misses_touches_shorter_than_its_step
 def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatch):
     """Each flight of the chaotic orbit that is counted ends at a later root."""
     impacts = 60_000
-    columns, truth = failures.certified_orbit(BALL, states.chaotic(), impacts)
+    columns, truth = stages.certified_orbit(BALL, states.chaotic(), impacts)
     tau, _ = SCAN.solve(BALL, *columns)
     suspects = np.abs(tau - truth) > 1e-6
     late = flown_past(SCAN, columns[:, suspects])
-    data = failures.missed((SCAN, OURS), impacts)
+    data = measured.missed((SCAN, OURS), impacts)
     assert data["missed"].values.tolist() == [sum(late), 0]
     assert 5 < sum(late) == data.attrs["hard"]
-    monkeypatch.setattr(failures, "ORBIT_METHODS", (OURS, SCAN))
-    monkeypatch.setattr(failures, "AGREE_STARTS", 1)
-    whole = failures.orbits(impacts)
+    monkeypatch.setattr(stages, "ORBIT_METHODS", (OURS, SCAN))
+    monkeypatch.setattr(stages, "AGREE_STARTS", 1)
+    whole = stages.drift(impacts)
     assert whole["missed"].values.tolist() == [0, sum(late)]
     assert whole["drift"].values[1].max() < 1e-9  # energy does not show missed impacts
 
@@ -66,7 +69,7 @@ def test_the_drift_is_the_largest_error_so_far():
     energy = [BALL.energy(*state) for state in track[:3].T.tolist()]
     off = [abs(e / BALL.energy(*start) - 1) for e in energy]
     expected = [max(off[: i + 1]) for i in range(300)]
-    assert failures.energy_drift(BALL, start, track) == pytest.approx(expected, rel=1e-9)
+    assert stages.energy_drift(BALL, start, track) == pytest.approx(expected, rel=1e-9)
 
 
 def test_the_proved_orbit_is_that_of_sixty_digits():
@@ -77,9 +80,13 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
 
 
+def test_a_fraction_of_a_decimal_is_an_exact_number():
+    assert exact("k", "0.5/3") == exact("k", " .5 / 3") == Fraction(1, 6)
+
+
 def test_agreement_is_the_median_of_the_first_separations():
     a = np.zeros((3, 10))
     b = a.copy()
-    b[0, 2:] = b[1, 7:] = 2 * failures.SEPARATION
-    assert failures._agreement(a, b) == failures._agreement(b, a) == 7
-    assert failures._agreement(a, a) == 10
+    b[0, 2:] = b[1, 7:] = 2 * stages.SEPARATION
+    assert stages._impacts_until_apart(a, b) == stages._impacts_until_apart(b, a) == 7
+    assert stages._impacts_until_apart(a, a) == 10

@@ -30,9 +30,10 @@ def errors():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(figure_errors, "METHODS", (OURS, SCANS[0], ENGINES[2]))
         return figure_errors.figure_errors(
-            {"sections": PORTRAIT, "times": MOTION},
-            {"sections": "portrait", "times": "motion"},
-            {("periodic", "times"): periodic},
+            periodic,
+            scenes={"sections": PORTRAIT, "times": MOTION},
+            measures={"sections": "portrait", "times": "motion"},
+            inputs=["periodic/times"],
         )
 
 
@@ -47,13 +48,15 @@ def test_a_scene_without_axes_is_left_out():
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 
 
-def test_the_march_is_exact_and_an_engine_is_not(errors):
+def test_the_march_is_exact_and_the_cheapest_and_an_engine_is_not(errors):
     march, scan, engine = (errors["error"].values[:, i] for i in range(3))
-    assert np.all(march < 1e-6)
-    assert np.all(march < scan)
+    assert np.all(march < 1e-6) and np.all(march < scan)
     assert np.all(engine > 0.1)  # its first order shows
     assert np.all(errors["missed"].values[:, 0] == 0)
     assert np.all(errors["evaluations"].values[:, 0] < errors["evaluations"].values[:, 1])
+    assert np.all(errors["limit"].values == 1.0)
+    assert errors["good"].values[:, 0].tolist() == [1, 1]
+    assert errors["cheapest"].values.tolist() == [0, 0]
 
 
 def test_a_figure_has_its_impacts_and_the_size_of_its_pixels(errors):
@@ -62,12 +65,6 @@ def test_a_figure_has_its_impacts_and_the_size_of_its_pixels(errors):
     assert 8 <= motion <= 12  # flights of some 3 time units
     assert errors["digit"].values.tolist() == [0.01, 0.01]
     assert np.all(errors["pixel"].values < errors["line"].values)
-
-
-def test_the_march_is_good_enough_and_the_cheapest(errors):
-    assert np.all(errors["limit"].values == 1.0)
-    assert errors["good"].values[:, 0].tolist() == [1, 1]
-    assert errors["cheapest"].values.tolist() == [0, 0]
 
 
 def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch):
@@ -89,7 +86,9 @@ def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch)
 def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):
     scene = PORTRAIT | {"impacts": 20_000, "starts": [0.534522]}
     monkeypatch.setattr(figure_errors, "METHODS", (OURS, SCANS[3]))
-    data = figure_errors.figure_errors({"sea": scene}, {"sea": "portrait"}, {})
+    data = figure_errors.figure_errors(
+        scenes={"sea": scene}, measures={"sea": "portrait"}, inputs=[]
+    )
     assert data["missed"].values[0, 1] > 0
     assert data["error"].values[0, 1] < 1.0
     assert data["good"].values[0].tolist() == [1, 0]

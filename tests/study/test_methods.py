@@ -1,11 +1,19 @@
-"""The study's methods: each is as accurate as its settings, and fails where it should."""
+"""The study's methods: each is as accurate as its settings, and as fast as the table says."""
+
+import re
+from importlib import import_module
 
 import numpy as np
 import pytest
+from project import shipped
 
+from pipeline.config import check
+from pipeline.config.build_specs import build_specs
+from pipeline.declaration import extensions
+from pipeline.records.sources import source_files
 from pseudorigid import lyapunov_spectrum
-from study import states
-from study.methods import scipy_events
+from study import bench, states
+from study.methods import libraries
 from study.methods.counted_methods import OURS, TOLERANCES, engine_method, scan_method
 
 BALL = states.BALL
@@ -26,9 +34,9 @@ def test_the_certified_march_is_the_map(uniform):
 METHODS = [
     *((scan_method(0.1, tolerance), tolerance) for tolerance in TOLERANCES),
     *((engine_method(step), 2 * step) for step in (1e-2, 1e-4)),
-    (scipy_events.brentq_method(0.1, 1e-9), 1e-8),
-    (scipy_events.ivp_method("DOP853", 1e-9), 1e-6),
-    (scipy_events.ivp_method("Radau", 1e-6), 1e-3),
+    (libraries.brentq_method(0.1, 1e-9), 1e-8),
+    (libraries.ivp_method("DOP853", 1e-9), 1e-6),
+    (libraries.ivp_method("Radau", 1e-6), 1e-3),
 ]
 
 
@@ -46,9 +54,7 @@ def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
 @pytest.mark.parametrize("direction", ["any", "positive"])
 def test_heyoka_is_as_accurate_as_its_settings(uniform, direction):
     pytest.importorskip("heyoka")
-    from study.methods import taylor
-
-    assert_accurate(taylor.taylor_method(1e-15, direction), 1e-13, *uniform)
+    assert_accurate(libraries.taylor_method(1e-15, direction), 1e-13, *uniform)
 
 
 @pytest.mark.parametrize("height", [1e-3, -1e-3, 1e-9, -1e-9])
@@ -69,20 +75,49 @@ def test_states_at_a_distance_from_grazing(side):
     assert np.all(side * (x + BALL.g) >= 0)
 
 
-@pytest.mark.parametrize("solver", scipy_events.SOLVERS)
+@pytest.mark.parametrize("solver", libraries.SOLVERS)
 def test_solve_ivp_sees_short_flights(solver):
     columns = states.grazing_at(6, 1, 20)
     truth = OURS.solve(BALL, *columns)[0]
-    tau, _ = scipy_events.ivp_method(solver, 1e-9).solve(BALL, *columns)
+    tau, _ = libraries.ivp_method(solver, 1e-9).solve(BALL, *columns)
     assert np.abs(tau / truth - 1).max() < 0.1
 
 
 @pytest.mark.slow  # it compiles a package whose numbers are in no figure
 def test_pynamicalsys_finds_the_exponents_of_the_same_orbit():
     pytest.importorskip("pynamicalsys")
-    from study.methods import pynamicalsys_lyapunov
-
     start, impacts = states.chaotic(), 20_000
-    found = np.sort(pynamicalsys_lyapunov.spectrum(BALL, start, impacts))[::-1]
+    found = np.sort(libraries.lyapunov_exponents(BALL, start, impacts))[::-1]
     ours = lyapunov_spectrum(BALL, start, impacts, records=1)["exponent"].values[-1]
     assert np.abs(found - ours).max() < 1e-3  # it starts from other tangent vectors
+
+
+@pytest.mark.slow
+def test_the_table_of_ratios_has_every_row(monkeypatch):
+    for package in ("heyoka", "pynamicalsys"):
+        pytest.importorskip(package)
+    monkeypatch.setattr(bench, "IMPACTS", 1000)
+    monkeypatch.setattr(bench, "MANY", 10.0)
+    more = tuple(import_module(e.benchmark) for e in extensions().values() if e.benchmark)
+    for module in more:
+        monkeypatch.setattr(module, "CELLS", (1, 2))
+    calls = {name: call for module in (bench, *more) for name, call in module.calls().items()}
+    lines = bench.run(1, more)
+    compared = [(name, call.base) for name, call in calls.items() if call.base]
+    rows = [re.split(r"  +", line) for line in lines[1 : len(compared) + 1]]
+    assert [(row[0], row[3]) for row in rows] == compared
+    assert all(float(row[2]) > 0 for row in rows)
+    assert "numba" in lines[-1] and "processor" in lines[-1]
+
+
+def test_the_figures_of_the_paper_need_nothing_of_the_study():
+    specs = build_specs(check(shipped()), ["paper"])
+    assert not any(
+        file.startswith("src/study/") for spec in specs.values() for file in spec.sources
+    )
+
+
+@pytest.mark.parametrize("module", ["study.stages", "study.measured"])
+def test_a_comparison_loads_no_drawing(module):
+    """Otherwise seconds would be measured again after a change of a drawing."""
+    assert not any("figures" in file for file in source_files(module))

@@ -39,7 +39,7 @@ use rule orbits as drift with:
 
 
 use rule orbits as needs with:
-    """study.figure_errors.needs"""
+    """study.figure_errors.figure_errors"""
     input:
         datasets=inputs_of("results/study/needs.nc"),
         why=reason("results/study/needs.nc"),

@@ -7,7 +7,7 @@ import numpy as np
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.verdict import windows
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
-from study.timing import Call
+from study.measured import Call
 
 from .cell import cells_of_k, sunflower_points
 from .verdicts import random_cells

@@ -93,26 +93,25 @@ def _takes_ball(function: str) -> bool:
 
 def _of_study() -> dict[str, File]:
     """Return the file of each part of the study."""
-    from study import failures, figure_errors, stages, work
+    from study import figure_errors, measured, stages
     from study.methods.counted_methods import METHODS
 
-    methods = failures.EDGE_METHODS[:1]
-    periodic: dict[tuple[str, ...], xr.Dataset] = {
-        ("periodic", "fig3"): _compute("periodic", {"period": 1})
-    }
+    methods = stages.EDGE_METHODS[:1]
+    kinds, inputs = {"fig3": "motion"}, ["periodic/fig3"]
+    periodic = _compute("periodic", {"period": 1})
     parts = {
-        "work": work.counted(2),
-        "edges": failures.edges(methods, 2),
-        "drift": failures.orbits(1000),
-        "needs": figure_errors.figure_errors(_PARTS["needs"], {"fig3": "motion"}, periodic),
-        "work_all": work.measured(METHODS[:1], 2, 1),
-        "edges_all": failures.edges(methods, 2),
-        "missed_all": failures.missed(methods, 10_000),
+        "work": stages.work(METHODS, 2),
+        "edges": stages.edges(methods, 2),
+        "drift": stages.drift(1000),
+        "needs": figure_errors.figure_errors(
+            periodic, scenes=_PARTS["needs"], measures=kinds, inputs=inputs
+        ),
+        "work_all": measured.timed_work(METHODS[:1], 2, 1),
+        "edges_all": stages.edges(methods, 2, "edges_all"),
+        "missed_all": measured.missed(methods, 10_000),
     }
     return {
-        f"study: {part}": File(
-            f"results/{STUDY}/{part}.nc", _saved(stages.described(part, data), "study")
-        )
+        f"study: {part}": File(f"results/{STUDY}/{part}.nc", _saved(data, "study"))
         for part, data in parts.items()
     }
 

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property
 from typing import Any, Generic, NamedTuple, overload
 
 from flint import acb, arb, ctx, fmpq
@@ -28,7 +28,8 @@ def exact(name: str, value: Exact) -> Fraction:
         )
     try:
         if isinstance(value, str) and _NUMBER.fullmatch(value):
-            return Fraction("".join(value.split()))
+            numerator, _, denominator = "".join(value.split()).partition("/")
+            return Fraction(numerator) / Fraction(denominator or 1)
         if isinstance(value, (int, Fraction, Decimal)) and not isinstance(value, bool):
             return Fraction(value)
     except (ValueError, ZeroDivisionError, OverflowError):
@@ -111,7 +112,17 @@ class Surface:
 
     def constants(self) -> tuple[arb, arb, arb]:
         """Return k, g and the energy in balls of the context's precision."""
-        return _constants(self, ctx.prec)
+        if ctx.prec not in self._constants:
+            k, g, energy = map(ball_of, (self.k, self.g, self.energy))
+            if self.width:
+                energy = energy.union(ball_of(self.energy + self.width))
+            self._constants[ctx.prec] = k, g, energy
+        return self._constants[ctx.prec]
+
+    @cached_property
+    def _constants(self) -> dict[int, tuple[arb, arb, arb]]:
+        """Constants by precision, as far as they were computed."""
+        return {}
 
     def radius(self) -> arb:
         """Return half the section's width along y = 0."""
@@ -173,12 +184,3 @@ class Surface:
         image = self.impact(*Jet.plane(1, x, y))
         rows = [jet.coefficients[1:] for jet in image[:2]]
         return rows, Impact(*(part.constant for part in image))
-
-
-@lru_cache(maxsize=50)
-def _constants(surface: Surface, precision: int) -> tuple[arb, arb, arb]:
-    """Return k, g and the energy in balls of this precision, which is the context's."""
-    k, g, energy = (ball_of(a) for a in (surface.k, surface.g, surface.energy))
-    if surface.width:
-        energy = energy.union(ball_of(surface.energy + surface.width))
-    return k, g, energy

@@ -1,12 +1,10 @@
 """The methods that are compared.
 
 `counted_methods` has the methods in this package's arithmetic, whose results are the same on every
-machine. `scipy_events` and `taylor` have those of libraries, whose results are measurements;
-`external_solver` applies them to one flight at a time. `pynamicalsys_lyapunov` has the exponents of
-a library.
+machine. `libraries` has those of other packages, whose results are measurements.
 """
 
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +13,8 @@ from pseudorigid.dynamics.ball import Ball
 Flights = tuple[np.ndarray, np.ndarray]
 
 
-class Method(Protocol):
+@dataclass
+class Method:
     """A method that finds the next impact; methods of a family differ in one setting."""
 
     name: str

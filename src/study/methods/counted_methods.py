@@ -89,8 +89,6 @@ def _orbit(settings: Settings, ball: Parameters, state: Numbers, out: np.ndarray
 class CountedMethod(Method):
     """A method of one of the kinds above."""
 
-    name: str
-    family: str
     settings: Settings
 
     def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:

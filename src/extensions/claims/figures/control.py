@@ -176,4 +176,4 @@ def _maps(
             panel.line(beside, value, color=style.pale(hue), lw=0.8)
         panel.bars(beside, low, high, color=hue, lw=0.7)
         shown = np.isfinite(value)
-        panel.dots(beside[shown], value[shown], hue, 3.0, hollow, _FORMS[form])
+        panel.dots(beside[shown], value[shown], hue, 3.0, hollow=hollow, marker=_FORMS[form])

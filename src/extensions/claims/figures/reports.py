@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray as xr
 
-from pseudorigid.figures.quantities import listing
+from pseudorigid.figures.kinds.reports import listing
 
 
 def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.panel import key
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import runs
+from pseudorigid.figures.canvas.sheet import unbroken_runs
 
 _HATCH = 400  # lines of the shading across the section
 _SHADE = "#f0c3a6"
@@ -20,7 +20,7 @@ def draw(scene: dict[str, Any], curves: xr.Dataset, orbits: xr.Dataset) -> Figur
     """Draw orbits, the proved curves, the areas inside, and points inside no invariant circle."""
     panel, regular, chaotic = section.over_orbits(scene, orbits)
     x, y = curves["x"].values, curves["y"].values
-    polygons = [(x[run], y[run]) for run in runs(np.isnan(x))]
+    polygons = [(x[run], y[run]) for run in unbroken_runs(np.isnan(x))]
     height = panel.high * panel.radius
     for y in np.linspace(-height, height, _HATCH):
         for polygon in polygons:

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from pseudorigid.figures.quantities import about_orbit
+from pseudorigid.figures.kinds.reports import about_orbit
 
 
 def horseshoe(

@@ -24,7 +24,9 @@ STAGES = {
     "work": Stage(f"{_STUDY}.work"),
     "edges": Stage(f"{_STUDY}.edges"),
     "drift": Stage(f"{_STUDY}.drift"),
-    "needs": Stage("study.figure_errors.needs", paper="pipeline.config.build_specs.paper_scenes"),
+    "needs": Stage(
+        "study.figure_errors.figure_errors", paper="pipeline.config.build_specs.paper_scenes"
+    ),
     "work_all": Stage("study.measured.work_all", measured=True),
     "edges_all": Stage("study.measured.edges_all", measured=True),
     "missed_all": Stage("study.measured.missed_all", measured=True),

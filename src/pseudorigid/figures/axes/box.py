@@ -62,9 +62,7 @@ class Box:
 
     def points(self, points: np.ndarray, color: str, size: float, **line_style: Any) -> None:
         """Draw opaque dots of `size` points across, in the order given."""
-        across, up = self.view(points[:, self.seen(points)])
-        line_style = {"mew": 0, "marker": "o"} | line_style
-        self.sheet.draw(across, up, ls="none", ms=size, color=color, **line_style)
+        self.sheet.dots(*self.view(points[:, self.seen(points)]), color, size, **line_style)
 
     def line(self, points: np.ndarray, color: str, width: float) -> None:
         """Draw a line of `width` points, broken where a coordinate is NaN."""

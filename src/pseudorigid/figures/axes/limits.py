@@ -25,11 +25,6 @@ _FEW = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
 _MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
-def of_window(low: float, high: float) -> dict[str, list[float]]:
-    """Return an axis with a window's edges as limits and round ticks inside."""
-    return {"limits": [low, high], "ticks": ticks(low, high, 4)}
-
-
 def of_data(
     *values: ArrayLike, margin: float = 0.0, room: float = 0.03, most: int = 8
 ) -> dict[str, list[float]]:

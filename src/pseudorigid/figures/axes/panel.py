@@ -72,8 +72,8 @@ class Axis:
         return [style.number(tick) for tick in self.ticks]
 
 
-class Axes:
-    """A frame with two axes; data beyond an axis are drawn at its end.
+class Panel:
+    """A frame with two axes and marks; data beyond an axis are drawn at its end.
 
     `frame` is (left, bottom, right, top) in pixels. Subclasses override the class attributes.
     """
@@ -148,9 +148,9 @@ class Axes:
         known = ~np.isnan(values)
         self.dots(x[known], values[known], color, size=1.7)
 
-    def dots(self, x: Any, y: Any, color: Any, size: float) -> None:
-        """Draw dots of `size` points; each subclass has its own."""
-        raise NotImplementedError
+    def dots(self, x: Any, y: Any, color: Any, size: float = 3.2, **options: Any) -> None:
+        """Draw marks of `size` points above lines and frames; `options` are those of Sheet.dots."""
+        self.sheet.dots(*self.place(x, y), color, size, zorder=4, **options)
 
     def note(
         self,
@@ -179,16 +179,6 @@ class Axes:
         self.sheet.text(across, up, text, ha=ha, va=va, size=self.size)
 
 
-class Panel(Axes):
-    """Axes with marks, also for data beyond an axis, which are drawn at its end."""
-
-    def dots(
-        self, x: Any, y: Any, color: Any, size: float = 3.2, hollow: bool = False, marker: str = "o"
-    ) -> None:
-        """Draw marks of `size` points, filled or hollow."""
-        _mark(self.sheet, *self.place(x, y), color, size, hollow, marker)
-
-
 class Window(Panel):
     """A panel that does not show data beyond its axes."""
 
@@ -200,10 +190,10 @@ class Window(Panel):
         beyond = not self.within(x, y).all()
         super().line(x, y, clip=self.frame if beyond else None, **line_style)
 
-    def dots(self, x: Any, y: Any, *arguments: Any, **options: Any) -> None:
+    def dots(self, x: Any, y: Any, color: Any, size: float = 3.2, **options: Any) -> None:
         """Draw the marks that lie inside the frame."""
         within = self.within(x, y)
-        super().dots(np.asarray(x)[within], np.asarray(y)[within], *arguments, **options)
+        super().dots(np.asarray(x)[within], np.asarray(y)[within], color, size, **options)
 
     def within(self, x: ArrayLike, y: ArrayLike) -> np.ndarray:
         """Return whether each point is within the limits; NaN counts as within."""
@@ -231,7 +221,7 @@ def _beside(
     return at + shift, side
 
 
-def upright(panels: Sequence[Axes], at: float, **line_style: Any) -> float:
+def upright(panels: Sequence[Panel], at: float, **line_style: Any) -> float:
     """Draw a line through panels at a value of the abscissa and return its x in pixels."""
     x = float(panels[0].place(at, 0.0)[0][0])
     for panel in panels:
@@ -284,15 +274,8 @@ def key(
         x = left + (i % columns) * width / columns
         y = top - (i // columns) * 1.45 * size * POINT
         if marker:
-            _mark(sheet, [x + 6], [y], color, points or 3.2, hollow, marker)
+            sheet.dots([x + 6], [y], color, points or 3.2, hollow, marker=marker, zorder=4)
         else:
             dashes = "--" if hollow else "-"
             sheet.draw([x - 8, x + 20], [y, y], lw=points or 0.9, color=color, ls=dashes)
         sheet.text(x + 7 * POINT, y, text, size=size)
-
-
-def _mark(
-    sheet: Sheet, across: Any, up: Any, color: Any, size: float, hollow: bool, marker: str
-) -> None:
-    edge = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
-    sheet.draw(across, up, ls="none", marker=marker, ms=size, color=color, zorder=4, **edge)

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 from ..canvas import style
 from ..canvas.sheet import POINT, Sheet
 from .limits import inside
-from .panel import Axes, Axis
+from .panel import Axis, Panel
 
 _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
 
 
-class Plane(Axes):
+class Plane(Panel):
     """A figure of a column's width that cuts off what lies beyond its axes.
 
     `axes` are two keys of scene["axes"], and `names` the names of these axes. The height `high` is
@@ -56,10 +56,12 @@ class Plane(Axes):
         """Draw a line inside the frame, broken where a coordinate is NaN."""
         super().line(x, y, clip=self.frame, **line_style)
 
-    def dots(self, x: ArrayLike, y: ArrayLike, color: Any, size: float, **line_style: Any) -> None:
+    def dots(
+        self, x: ArrayLike, y: ArrayLike, color: Any, size: float = 3.2, **line_style: Any
+    ) -> None:
         """Draw the dots of `size` points that lie within the limits, also across the frame."""
         x, y = np.array([x, y])[:, self.shows(x, y)]
-        self._dots(*self.place(x, y), color, size, **line_style)
+        self.sheet.dots(*self.place(x, y), color, size, **line_style)
 
     def shows(self, x: ArrayLike, y: ArrayLike) -> np.ndarray:
         """Return whether each point lies within the limits."""
@@ -92,7 +94,7 @@ class Plane(Axes):
             start, end = across - 18 * POINT, across - 4 * POINT
             if "dots" in line_style:
                 middle = [(start + end) / 2 + 3 * POINT]
-                self._dots(middle, [up], line_style["color"], line_style["dots"])
+                self.sheet.dots(middle, [up], line_style["color"], line_style["dots"])
             else:
                 self.sheet.draw([start, end], [up, up], **line_style)
             across = start - 8 * POINT
@@ -101,10 +103,6 @@ class Plane(Axes):
         """Move a label to the left if it would leave the sheet."""
         half_width = 0.32 * len(text) * style.PLAIN * POINT  # an upper bound
         return min(x, style.COLUMN - half_width - 6)
-
-    def _dots(self, across: Any, up: Any, color: Any, size: float, **line_style: Any) -> None:
-        line_style = {"mew": 0} | line_style
-        self.sheet.draw(across, up, ls="none", marker="o", ms=size, color=color, **line_style)
 
 
 def thousands(ticks: Sequence[float]) -> int:

@@ -27,7 +27,7 @@ from . import style
 
 POINT = style.DPI / 72  # pixels
 _GRID = 256  # steps of the rasteriser in a pixel
-_LONGEST = 5000  # vertices that matplotlib strokes at once without slowing down
+_MOST_SIDES = 5000  # of a line that matplotlib strokes at once without slowing down
 _AHEAD = 64  # vertices from a kept one to the one that defines the direction u in _end_of_piece
 _SAFETY = 1.0 - 1e-6  # factor on the tolerance; rounding errors of slopes are far smaller
 
@@ -59,6 +59,14 @@ class Sheet:
             artist.set_clip_box(TransformedBbox(Bbox([[left, bottom], [right, top]]), inches))
         self.figure.add_artist(artist)
 
+    def dots(
+        self, across: Any, up: Any, color: Any, size: float, hollow: bool = False, **line_style: Any
+    ) -> None:
+        """Draw marks of `size` points, filled or hollow dots unless the style says otherwise."""
+        edge = {"mfc": "white", "mec": color, "mew": 0.7} if hollow else {"mew": 0}
+        line_style = {"marker": "o"} | edge | line_style
+        self.draw(across, up, ls="none", ms=size, color=color, **line_style)
+
     def text(
         self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center"
     ) -> None:
@@ -84,7 +92,7 @@ def snap_to_pixels(pixels: Any) -> np.ndarray:
     return (np.floor(np.asarray(pixels) * _GRID) + 0.25) / _GRID
 
 
-def runs(gap: np.ndarray) -> list[slice]:
+def unbroken_runs(gap: np.ndarray) -> list[slice]:
     """Return a slice for each run of consecutive indices at which `gap` is false."""
     return np.ma.clump_unmasked(np.ma.array(gap, mask=gap)) if gap.size else []
 
@@ -92,11 +100,11 @@ def runs(gap: np.ndarray) -> list[slice]:
 def pieces(*coordinates: np.ndarray) -> Iterator[list[np.ndarray]]:
     """Yield the coordinates of each part of a line without NaN.
 
-    Parts of more than _LONGEST sides are cut into pieces, which share a vertex.
+    Parts of more than _MOST_SIDES sides are cut into pieces, which share a vertex.
     """
-    for run in runs(np.any(np.isnan(coordinates), axis=0)):
-        for first in range(run.start, max(run.stop - 1, run.start + 1), _LONGEST):
-            span = slice(first, min(first + _LONGEST + 1, run.stop))
+    for run in unbroken_runs(np.any(np.isnan(coordinates), axis=0)):
+        for first in range(run.start, max(run.stop - 1, run.start + 1), _MOST_SIDES):
+            span = slice(first, min(first + _MOST_SIDES + 1, run.stop))
             yield [coordinate[span] for coordinate in coordinates]
 
 
@@ -128,27 +136,20 @@ def _end_of_piece(
     du, dv = xs[ahead] - x0, ys[ahead] - y0
     near = _SAFETY * tolerance * math.sqrt(du * du + dv * dv)
     least, most, farthest, widest = -0.5, 0.5, 0, 0
-    u, v = _turned(xs, ys, first + 1, x0, y0, du, dv)
-    for i in range(first + 1, len(xs) - 1):
+    for i in range(first + 1, len(xs)):
+        wide, high = xs[i] - x0, ys[i] - y0
+        u, v = wide * du + high * dv, high * du - wide * dv
+        if i > first + 1:
+            slope = v / u if u > 0 else math.nan
+            accepted = least <= slope <= most and farthest + widest * abs(slope) < u - 1
+            if not (accepted or _passes(x, y, first, i, tolerance)):
+                return i - 1
         if 2 * abs(v) < u:
             least, most = max(least, (v - near) / u), min(most, (v + near) / u)
             farthest, widest = max(farthest, u), max(widest, abs(v))
         else:
             least = math.inf
-        u, v = _turned(xs, ys, i + 1, x0, y0, du, dv)
-        slope = v / u if u > 0 else math.nan
-        surely = least <= slope <= most and farthest + widest * abs(slope) < u - 1
-        if not (surely or _passes(x, y, first, i + 1, tolerance)):
-            return i
     return len(xs) - 1
-
-
-def _turned(
-    xs: list[int], ys: list[int], i: int, x0: int, y0: int, du: int, dv: int
-) -> tuple[int, int]:
-    """Return (u, v) of vertex i: its offset from (x0, y0), along and across (du, dv)."""
-    wide, high = xs[i] - x0, ys[i] - y0
-    return wide * du + high * dv, high * du - wide * dv
 
 
 def _passes(x: np.ndarray, y: np.ndarray, first: int, last: int, tolerance: float) -> bool:

@@ -44,31 +44,26 @@ _SETTINGS: Any = {
 
 
 @contextmanager
-def shipped_fonts() -> Iterator[None]:
-    """Let matplotlib find only the fonts that it ships with.
+def pinned() -> Iterator[None]:
+    """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system.
 
-    Fonts of the system may be other versions of these. There is no setting that leaves them out, so
-    a private attribute is used; a test fails if it stops having an effect.
+    Fonts of the system may be other versions of those that matplotlib ships with. There is no
+    setting that leaves them out, so a private attribute is used; a test fails if it stops having an
+    effect.
     """
     manager: Any = font_manager.fontManager
     folder = matplotlib.get_data_path()
     all_fonts = manager.ttflist
-    try:
-        manager.ttflist = [font for font in all_fonts if font.fname.startswith(folder)]
-        manager._findfont_cached.cache_clear()
-        yield
-    finally:
-        manager.ttflist = all_fonts
-        manager._findfont_cached.cache_clear()
-
-
-@contextmanager
-def pinned() -> Iterator[None]:
-    """Set matplotlib's defaults and this style, without matplotlibrc and fonts of the system."""
-    with matplotlib.rc_context(), shipped_fonts():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
-        yield
+    with matplotlib.rc_context():
+        try:
+            manager.ttflist = [font for font in all_fonts if font.fname.startswith(folder)]
+            manager._findfont_cached.cache_clear()
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(_SETTINGS)
+            yield
+        finally:
+            manager.ttflist = all_fonts
+            manager._findfont_cached.cache_clear()
 
 
 def pale(color: str) -> str:

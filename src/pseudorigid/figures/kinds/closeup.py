@@ -8,13 +8,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from ...dynamics.variables import rows
-from ..axes.limits import complete, of_window, refuse_empty
+from ..axes.limits import complete, refuse_empty, ticks
 from ..axes.plane import Plane
 from ..canvas import style
 
 _DOT = 3.4  # points
 _NAMES = style.NAMES["x"], style.NAMES["xdot"]
-plane = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
+empty_picture = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
 
 
 @style.pinned()
@@ -23,17 +23,18 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
 
     The scene's axes default to the window's. Raises ValueError if they or the window show nothing.
     """
-    if np.isnan(manifolds["x"].values).all():
+    x, xdot = manifolds["x"].values, manifolds["xdot"].values
+    if np.isnan(x).all():
         low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))
         raise ValueError(f"window: no branch of this length passes x {low}, xdot {high}")
-    scene = complete(
-        scene,
-        x=lambda: of_window(*map(float, manifolds.attrs["window_x"])),
-        xdot=lambda: of_window(*map(float, manifolds.attrs["window_xdot"])),
-    )
-    refuse_empty(scene["axes"], {name: manifolds[name].values for name in ("x", "xdot")})
-    picture = plane(scene)
-    x, xdot = manifolds["x"].values, manifolds["xdot"].values
+
+    def window(name: str) -> dict[str, list[float]]:
+        low, high = map(float, manifolds.attrs[f"window_{name}"])
+        return {"limits": [low, high], "ticks": ticks(low, high, 4)}
+
+    scene = complete(scene, x=partial(window, "x"), xdot=partial(window, "xdot"))
+    refuse_empty(scene["axes"], {"x": x, "xdot": xdot})
+    picture = empty_picture(scene)
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
         picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]

@@ -8,8 +8,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from ...dynamics.variables import final_exponents
+from ..axes import panel
 from ..axes.limits import complete, inside, of_data, refuse_empty, ticks
-from ..axes.panel import Axis, Window, key
 from ..axes.plane import Plane, thousands
 from ..canvas import style
 from ..canvas.sheet import POINT
@@ -17,7 +17,7 @@ from ..canvas.sheet import POINT
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
 _NAMES = "Number of impacts", "Lyapunov exponents"
-plane = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
+empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
 @style.pinned()
@@ -31,35 +31,35 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     final, chaotic = final_exponents(lyapunov), _chaotic(lyapunov)
     mixed = chaotic.any() and not chaotic.all()
-    chosen = chaotic if mixed else np.full(chaotic.shape, True)
-    greatest = exponent[:, chosen].max(axis=2)
+    in_inset = chaotic if mixed else np.full(chaotic.shape, True)
+    largest = exponent[:, in_inset].max(axis=2)
     scene = complete(
         scene,
         impact=lambda: of_data([0, int(impact[-1])], room=0.0),
         exponent=lambda: of_data(exponent),
-        largest=lambda: of_data(greatest[int(_INSET_START * len(greatest)) :], most=4),
+        largest=lambda: of_data(largest[int(_INSET_START * len(largest)) :], most=4),
     )
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
     lines = [(style.HUES[i % len(style.HUES)], i >= len(style.HUES)) for i in range(orbits)]
     # 48 pixels for each row of the key, which has two starts; rounded up to quarter inches
-    picture = plane(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
+    picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
         names = zip(scene["starts"], chaotic, lines, strict=True)
-        entries = [(_name(start, sea), hue, "", dashed) for start, sea, (hue, dashed) in names]
-        key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
-    ends = np.median(final[chosen], axis=0)
+        entries = [(_key_text(start, sea), hue, "", dashed) for start, sea, (hue, dashed) in names]
+        panel.key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
+    ends = np.median(final[in_inset], axis=0)
     inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
     if inset:
         later = impact >= inset.across.limits[0]
-        refuse_empty(scene["axes"], {"largest": greatest[later]})
+        refuse_empty(scene["axes"], {"largest": largest[later]})
     for orbit, (hue, dashed) in enumerate(lines):
         line_style = {"color": hue, "lw": 0.8, "ls": "--" if dashed else "-"}
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
             picture.line(impact[known], exponent[known, orbit, index], **line_style)
-        if inset and chosen[orbit]:
+        if inset and in_inset[orbit]:
             inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
     return picture.figure
@@ -74,14 +74,14 @@ def _chaotic(lyapunov: xr.Dataset) -> np.ndarray:
     return final_exponents(lyapunov).max(axis=1) > [regular_bound(int(n)) for n in lengths]
 
 
-def _name(start: Any, chaotic: bool) -> str:
+def _key_text(start: Any, chaotic: bool) -> str:
     """Return the key's text for a start: its coordinates, and "chaotic" or "regular"."""
     points = start.items() if isinstance(start, dict) else [("start", start)]
     text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
     return f"{text}: {'chaotic' if chaotic else 'regular'}"
 
 
-class _Inset(Window):
+class _Inset(panel.Window):
     size = 7.0
 
 
@@ -103,8 +103,8 @@ def _inset(
         return None
     marks = ticks(start, end, 5)
     power = thousands(picture.across.ticks)
-    across = Axis((start, end), marks, labels=[style.number(mark, power) for mark in marks])
+    across = panel.Axis((start, end), marks, labels=[style.number(mark, power) for mark in marks])
     bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
     wide = right - left
     frame = left + 0.2 * wide, bottom, right - 0.05 * wide, high - 0.18 * (high - low)
-    return _Inset(picture.sheet, frame, across, Axis(**largest))
+    return _Inset(picture.sheet, frame, across, panel.Axis(**largest))

@@ -12,7 +12,7 @@ from ..axes.plane import Plane
 from ..canvas import style
 
 _DOT = 2.4  # points
-plane = partial(Plane, axes=("t", "displacement"), names=("$t$", r"$-x,\ u$"))
+empty_picture = partial(Plane, axes=("t", "displacement"), names=("$t$", r"$-x,\ u$"))
 
 
 @style.pinned()
@@ -26,7 +26,7 @@ def draw(scene: dict[str, Any], motion: xr.Dataset) -> Figure:
     )
     both = {"t": [*t, np.nan, *t], "displacement": [*-x, np.nan, *u]}
     refuse_empty(scene["axes"], {name: np.array(both[name]) for name in both}, joined=True)
-    picture = plane(scene)
+    picture = empty_picture(scene)
     height = {"color": style.BLUE, "lw": 1.0}
     strain = {"color": style.VERMILION, "lw": 1.0, "ls": (0, (4, 1.2))}
     picture.line(t, -x, **height)

@@ -12,7 +12,7 @@ from ..axes.box import Box
 from ..axes.limits import complete_box
 from ..axes.panel import Entry
 from ..canvas import style
-from ..canvas.sheet import POINT, runs
+from ..canvas.sheet import POINT, unbroken_runs
 
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
@@ -86,7 +86,7 @@ def _tips(line: np.ndarray, all_lines: np.ndarray) -> list[int]:
     """Return the vertices of a line's sharp folds, in pixels (2, n), that no line continues."""
     reach, tips = _REACH * POINT, []
     all_lines = all_lines[:, ~np.isnan(all_lines[0])]
-    for run in runs(np.isnan(line[0])):
+    for run in unbroken_runs(np.isnan(line[0])):
         piece = line[:, run]
         steps = np.sqrt((np.diff(piece) ** 2).sum(axis=0))
         along = np.concatenate([[0.0], np.cumsum(steps)])
