@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from project import ROOT, SHIPPED
 
-from extensions.explorer import atlas, data, page
 from extensions.explorer import command as explore
+from extensions.explorer import data, page
 from extensions.explorer.command import EXPLORER
 from extensions.explorer.compiled import build
 from pipeline import config
@@ -143,14 +143,14 @@ def test_data_cannot_end_their_script(text):
 
 def test_the_atlas_has_the_values_of_a_sweep():
     """Each share is rounded to a step; one that is missing stays so."""
-    stored = atlas.stored()
+    stored = json.loads(data.ATLAS.read_text())
     k, energy = (np.array(stored[name]) for name in ("k", "energy"))
     steps = np.frombuffer(base64.b64decode(stored["regular"]), np.uint8)
     assert steps.size == k.size * energy.size
     assert np.all(np.diff(k) > 0) and np.all(np.diff(energy) > 0)
-    assert np.all((steps <= atlas.STEPS) | (steps == atlas.MISSING))
+    assert np.all((steps <= data.STEPS) | (steps == data.MISSING))
     if (ROOT / "results/atlas/sweep_plane.nc").is_file() and not changed_sweep():
-        assert atlas.rounded() == stored
+        assert data.rounded_atlas() == stored
 
 
 def changed_sweep():
@@ -209,12 +209,10 @@ def test_the_module_is_compiled_again_to_the_same_bytes():
 
 
 def test_no_display_means_no_browser(monkeypatch, tmp_path):
-    (tmp_path / EXPLORER).parent.mkdir()
-    (tmp_path / EXPLORER).touch()
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(explore, "ROOT", tmp_path)
     monkeypatch.setattr(explore, "locked", nullcontext)
-    monkeypatch.setattr(explore, "write", lambda checked: None)
+    monkeypatch.setattr(explore.page, "render", lambda checked: "")
     monkeypatch.setattr(explore.webbrowser, "open", lambda *_: pytest.fail("opened"))
     assert explore.run(Arguments(no_open=False, config={})) == 0
