@@ -90,32 +90,34 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     name = f"{PUBLISHED[PAPER]}/MANIFEST.json"
     if not (root / name).is_file():  # before the first ./reproduce accept
         return []
+    orbits = []
     try:
         manifest = json.loads(read_text(root / name))
-        return [
-            _orbits(figure, scene["config"], manifest["data"][scene["data"]["orbits"]]["variables"])
-            for figure, scene in manifest["scenes"].items()
-            if scene["config"]["picture"] == "portrait"
-            and all(isinstance(start, float) for start in scene["config"]["starts"])
-        ]
+        for figure, scene in manifest["scenes"].items():
+            block = scene["config"]
+            if block["picture"] != "portrait":
+                continue
+            starts, counts = block["starts"], block["impacts"]
+            if not all(isinstance(start, float) for start in starts):
+                continue
+            variables = manifest["data"][scene["data"]["orbits"]]["variables"]
+            orbits.append(
+                {
+                    "figure": figure,
+                    **block["ball"],
+                    "energy": block["energy"],
+                    "starts": starts,
+                    "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
+                    "block": BLOCK,
+                    "variables": {
+                        name: {part: variables[name][part] for part in ("sha256", "blocks")}
+                        for name in STATE
+                    },
+                }
+            )
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(f"{name}: broken: {error!r}: run ./reproduce accept") from None
-
-
-def _orbits(figure: str, block: YamlMapping, variables: dict[str, Any]) -> dict[str, Any]:
-    """Return a figure's starts and the hashes of its orbits."""
-    counts, starts = block["impacts"], block["starts"]
-    return {
-        "figure": figure,
-        **block["ball"],
-        "energy": block["energy"],
-        "starts": starts,
-        "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
-        "block": BLOCK,
-        "variables": {
-            name: {part: variables[name][part] for part in ("sha256", "blocks")} for name in STATE
-        },
-    }
+    return orbits
 
 
 def rounded_atlas(root: Path = ROOT) -> dict[str, Any]:

@@ -16,15 +16,11 @@ style-src 'unsafe-inline'">
 </head>"""
 
 
-class TypesettingError(ValueError):
-    """The article cannot be set. The message is one line."""
-
-
 def typeset(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
     """Return the PDF of the article, which takes its numbers from a JSON file in `root`.
 
     The bytes depend on the text, the numbers, the pictures and the version of typst alone. The PDF
-    is tagged (PDF/UA-1). Warnings of typst are errors.
+    is tagged (PDF/UA-1). Errors and warnings of typst are a ValueError of one line.
     """
     return _compiled(root, numbers, source, pdf_standards=["ua-1"])
 
@@ -37,22 +33,16 @@ def web_page(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
 
 
 def _compiled(root: Path, numbers: Path, source: Path, **options: Any) -> bytes:
-    """Return the document that typst compiles; raises TypesettingError for errors and warnings."""
+    """Return the document that typst compiles; raises ValueError for errors and warnings."""
     import typst
 
+    inputs = {"data": f"/{numbers.relative_to(root)}", "format": options.get("format", "pdf")}
     try:
         compiled, problems = typst.compile_with_warnings(
-            str(source),
-            root=str(root),
-            ignore_system_fonts=True,
-            sys_inputs={
-                "data": f"/{numbers.relative_to(root)}",
-                "format": options.get("format", "pdf"),
-            },
-            **options,
+            str(source), root=str(root), ignore_system_fonts=True, sys_inputs=inputs, **options
         )
     except (RuntimeError, typst.TypstError) as error:
-        raise TypesettingError(" ".join(str(error).split())) from None
+        raise ValueError(" ".join(str(error).split())) from None
     if problems := [each.message for each in problems if each.message != _KNOWN]:
-        raise TypesettingError("; ".join(problems))
+        raise ValueError("; ".join(problems))
     return compiled.encode() if isinstance(compiled, str) else bytes(compiled)
