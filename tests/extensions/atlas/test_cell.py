@@ -80,12 +80,9 @@ def test_the_energy_of_figure_2_has_six_islands_and_a_sea():
     assert 1 / numbers["rotation"] == pytest.approx(5.5876195834, rel=1e-9)
 
 
-def test_no_orbit_is_chaotic_near_rest():
+def test_near_rest_no_orbit_is_chaotic_and_rotation_numbers_near_zero_make_no_chain():
     numbers = cell.cell(0.2, -1.4, 40, 1000)
     assert numbers["regular"] == 1.0 and math.isnan(numbers["exponent"])
-
-
-def test_rotation_numbers_near_zero_make_no_chain():
     numbers = cell.cell(0.2, -2.49999999, 20, 400)
     assert numbers["rotation"] < 1e-4 and numbers["chain_period"] == 0
 

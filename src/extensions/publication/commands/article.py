@@ -9,7 +9,6 @@ from pipeline.records.sources import ROOT
 from .. import archive
 
 ARTICLE = "results/article.pdf"
-NUMBERS = "results/article/numbers.json"
 
 
 def run(args: Arguments) -> int:
@@ -20,8 +19,7 @@ def run(args: Arguments) -> int:
     from ..article import numbers, typesetting
 
     with locked(), interruptible(), one_line("article: "):
-        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.config))
-        pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
+        pdf = typesetting.typeset(ROOT, numbers.numbers_of(ROOT, args.config))
         write_whole(ROOT / ARTICLE, pdf)
     print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")
     for words in numbers.missing(numbers.read_citation()):
