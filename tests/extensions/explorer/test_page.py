@@ -239,10 +239,7 @@ def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
     assert person.state()["E"] == "0.008"
     exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, 0.008), 25000, 1)["exponent"]
     assert float(rows[-1]["exponent"]) == pytest.approx(float(exponent[0, 0]), rel=6e-4)
-    person.run(
-        "const s = document.getElementById('k-slide'); s.value = Math.sqrt(0.25);"
-        "s.dispatchEvent(new Event('input', {bubbles: true}))"
-    )
+    person.set("k-slide", 0.5)
     wait_for(lambda: person.state()["k"] == "0.25")
     assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
 
@@ -251,11 +248,9 @@ def test_bounds_of_the_energy_follow_k_and_g(person):
     """Eq. (31): -g^2/2k < E < k/2 - g."""
     person.type("g", "0.05")
     wait_for(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
-    slide = "const s = document.getElementById('E-slide'); s.value = args[0];"
-    slide += "s.dispatchEvent(new Event('input', {bubbles: true}))"
     for end, bound in ((1, 0.05), (0, -0.00625)):
-        person.run(slide, end)
-        energy = float(person.find("E").get_attribute("value"))
+        person.set("E-slide", end)
+        energy = float(person.value("E"))
         assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
         assert person.text("E-error") == ""
     person.type("E", "0.03")

@@ -138,22 +138,25 @@ def test_a_folder_that_is_no_tree_is_one_line(accepted, tmp_path):
 # ---- results that were changed together with their records ----
 
 
-def test_a_dataset_with_a_fitting_record_differs_in_the_layer_data(moved):
-    forge(moved, DATA)
-    checked = config.load(moved.config)
-    specs = build_specs(checked, ["paper"])
-    assert DATA not in Freshness(moved.path, specs).outdated()
+@pytest.mark.parametrize(
+    ("path", "like", "wrong", "words"),
+    [
+        (
+            DATA,
+            None,
+            {"fig3.png", "fig3.svg"},
+            f"data: {DATA}: variable strain differs from block 0",
+        ),
+        (DRAWING, "paper_figures/fig4.png", {"fig3.png"}, f"drawing: {DRAWING}: "),
+    ],
+)
+def test_a_result_with_a_fitting_record_differs_in_its_layer(moved, path, like, wrong, words):
+    forge(moved, path, like and (moved.path / like).read_bytes())
+    specs = build_specs(config.load(moved.config), ["paper"])
+    assert path not in Freshness(moved.path, specs).outdated()
     found = verified(moved)
-    assert (found.status, set(found.wrong)) == (1, {"fig3.png", "fig3.svg"})
-    for words in found.wrong.values():
-        assert words[0].startswith(f"data: {DATA}: variable strain differs from block 0 on")
-
-
-def test_a_drawing_with_a_fitting_record_differs_in_the_layer_drawing(moved):
-    forge(moved, DRAWING, (moved.path / "paper_figures" / "fig4.png").read_bytes())
-    found = verified(moved)
-    assert (found.status, set(found.wrong)) == (1, {"fig3.png"})
-    assert found.wrong["fig3.png"][0].startswith(f"drawing: {DRAWING}: ")
+    assert (found.status, set(found.wrong)) == (1, wrong)
+    assert all(lines[0].startswith(words) for lines in found.wrong.values())
 
 
 @pytest.mark.slow
