@@ -49,7 +49,8 @@ def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
     monkeypatch.setattr(command, "locked", nullcontext)
     monkeypatch.setattr(figures, "make", lambda *_: 0)
     args = Arguments(config=config.load(moved.config), dry_run=False, options=[])
-    with pytest.raises(UsageError, match=rf"^{command.__name__[31:]}: [^\n]*{DATA}[^\n]*$"):
+    name = command.__name__.rpartition(".")[2]
+    with pytest.raises(UsageError, match=rf"^{name}: [^\n]*{DATA}[^\n]*$"):
         command.run(args)
     assert not [*(moved.path / "results").glob("*site*"), *moved.path.glob("results/article*")]
 
