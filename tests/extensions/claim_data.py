@@ -2,7 +2,7 @@
 
 import json
 
-from extensions.atlas import blocks
+from extensions.atlas import cell
 from extensions.atlas.last_curve import last_curve
 from extensions.claims.analyses.clusters import clusters
 from extensions.claims.analyses.control import control
@@ -28,8 +28,8 @@ def sweep(ks, energies, starts, impacts):
     """Return the dataset of a sweep over k and E/g^2."""
     work = {"starts": starts, "impacts": impacts}
     cells = [[k, energy] for k in ks for energy in energies]
-    block = blocks.block_of_cells_of_a_sweep(cells, **work)
-    dataset = blocks.cells_of_a_sweep(block, k=ks, energy=energies)
+    block = cell.block_of_cells_of_a_sweep(cells, **work)
+    dataset = cell.cells_of_a_sweep(block, k=ks, energy=energies)
     return dataset.assign_attrs(g=0.04, config=json.dumps(work))
 
 

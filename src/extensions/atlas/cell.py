@@ -1,45 +1,84 @@
-"""One cell (k, E) of a sweep: share of regular orbits, chains of islands, exponent of the sea.
+"""Cells (k, E) of a sweep: share of regular orbits, chains of islands, exponent of the sea.
 
-Lengths are in g R and energies are E/g^2. The sea is the set of orbits that are not regular.
+Lengths are in g R and energies are E/g^2. The sea is the set of orbits that are not regular. Cells
+are computed in blocks; the dataset of a sweep does not depend on the blocks.
 """
 
 import math
 from collections import Counter
 from collections.abc import Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pseudorigid.dynamics import fixed_point
+from pseudorigid.dynamics.variables import described
 from pseudorigid.dynamics.verdict import classify_orbits
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 
-PERIODS = 24  # most islands of a chain; longer chains count as curves around the fixed point
-LOCKED = 1e-5  # turns an impact; a winding number as near to a fraction is taken to equal it
+MAX_ISLANDS = 24  # of a chain; longer chains count as curves around the fixed point
+WINDING_TOLERANCE = 1e-5  # turns an impact; a winding number as near to a fraction counts as equal
 NORMAL_95 = 1.959964  # standard deviations on either side of the mean that hold 95 %
 BATCH_SIZE = 40_000  # orbits followed together: SIMD lanes stay full, and memory small
 _GOLDEN_RATIO = 0.6180339887498949  # the smaller one
 
-# Variable -> (long name, type). A cell has one number of each, and one of `chains` per period.
+AXES = {"k": ("Euler inertia", "m R^2"), "energy": ("energy over g^2", "m (gravity/omega)^2")}
+# Variable -> long name. A cell has one number of each, and one of `chains` per number of islands.
 VARIABLES = {
-    "trace": ("trace of the fixed point's Jacobian", "f8"),
-    "rotation": ("rotation number of the fixed point, NaN where it is not elliptic", "f8"),
-    "regular": ("share of the section's area with regular orbits", "f8"),
-    "regular_low": ("lower end of its 95 % interval, starts and threshold together", "f8"),
-    "regular_high": ("upper end of its 95 % interval, starts and threshold together", "f8"),
-    "regular_strict": ("the share with half the threshold", "f8"),
-    "regular_lenient": ("the share with twice the threshold", "f8"),
-    "exponent": ("Lyapunov exponent an impact of the other orbits, the sea, pooled", "f8"),
-    "exponent_error": ("standard error of the exponent, from the spread between orbits", "f8"),
-    "exponent_low": ("lower quartile of the single orbits' exponents", "f8"),
-    "exponent_high": ("upper quartile of the single orbits' exponents", "f8"),
-    "followed": ("mean number of impacts of an orbit", "f8"),
-    "chain_period": ("islands of the largest chain, 0 where there is none", "i4"),
-    "chain_turns": ("turns around the fixed point in that many impacts", "i4"),
-    "chain_share": ("share of the section's area in that chain's islands", "f8"),
-    "chains": ("regular starts in chains of so many islands", "i4"),
+    "trace": "trace of the fixed point's Jacobian",
+    "rotation": "rotation number of the fixed point, NaN where it is not elliptic",
+    "regular": "share of the section's area with regular orbits",
+    "regular_low": "lower end of its 95 % interval, starts and threshold together",
+    "regular_high": "upper end of its 95 % interval, starts and threshold together",
+    "regular_strict": "the share with half the threshold",
+    "regular_lenient": "the share with twice the threshold",
+    "exponent": "Lyapunov exponent an impact of the other orbits, the sea, pooled",
+    "exponent_error": "standard error of the exponent, from the spread between orbits",
+    "exponent_low": "lower quartile of the single orbits' exponents",
+    "exponent_high": "upper quartile of the single orbits' exponents",
+    "followed": "mean number of impacts of an orbit",
+    "chain_period": "islands of the largest chain, 0 where there is none",
+    "chain_turns": "turns around the fixed point in that many impacts",
+    "chain_share": "share of the section's area in that chain's islands",
+    "chains": "regular starts in chains of so many islands",
 }
+
+
+def block_of_cells_of_a_sweep(
+    cells: list[tuple[float, float]], starts: int, impacts: int
+) -> xr.Dataset:
+    """Compute regular and chaotic motion in cells [k, E/g^2], as from `kinds.parts`."""
+    rows: list[dict[str, Any]] = []
+    for k, row in groupby(cells, key=lambda pair: pair[0]):
+        rows += cells_of_k(k, [e for _, e in row], starts, impacts)
+    table: dict[str, tuple[Any, ...]] = {}
+    for name, text in VARIABLES.items():
+        values = np.array([row[name] for row in rows])
+        table[name] = ("cell", "period")[: values.ndim], values, text
+    for axis, values in zip(AXES, np.array(cells, float).T, strict=True):
+        table[axis] = "cell", values, *AXES[axis]
+    table["period"] = "period", np.arange(1, MAX_ISLANDS + 1), "islands of a chain"
+    return xr.Dataset(described(table))
+
+
+def cells_of_a_sweep(
+    *blocks: xr.Dataset, k: list[float], energy: list[float], **orbits: int
+) -> xr.Dataset:
+    """Join blocks, in the order of their cells, to the dataset of a sweep on (k, energy).
+
+    `orbits` are starts and impacts, which decided the blocks.
+    """
+    joined = xr.concat(blocks, "cell", data_vars="minimal", coords="minimal", compat="override")
+    data: dict[str, Any] = {}
+    for name in VARIABLES:
+        variable = joined.variables[name]
+        values = variable.values.reshape(len(k), len(energy), *variable.shape[1:])
+        data[name] = ("k", "energy", *variable.dims[1:]), values, variable.attrs
+    data |= described({"k": ("k", k, *AXES["k"]), "energy": ("energy", energy, *AXES["energy"])})
+    return xr.Dataset(data | {"period": joined.variables["period"]})
 
 
 def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
@@ -53,10 +92,10 @@ def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
     followed for, so that it does not depend on when an orbit was classified.
 
     A regular orbit belongs to a chain of q islands if its winding number around the fixed point is
-    within LOCKED of a fraction p/q, q <= PERIODS, but not of the fixed point's own rotation number.
-    On curves around the fixed point the winding number changes from curve to curve; in islands it
-    does not. Chains inside the main island and islands around islands are counted, too, and chains
-    of the same p/q count as one.
+    within WINDING_TOLERANCE of a fraction p/q, q <= MAX_ISLANDS, but not of the fixed point's own
+    rotation number. On curves around the fixed point the winding number changes from curve to
+    curve; in islands it does not. Chains inside the main island and islands around islands are
+    counted, too, and chains of the same p/q count as one.
     """
     return cells_of_k(k, [e], starts, impacts)[0]
 
@@ -68,9 +107,9 @@ def cells_of_k(
     cells = []
     step = max(1, BATCH_SIZE // starts)
     for batch in (energies[first : first + step] for first in range(0, len(energies), step)):
-        places, traces, rotations = zip(*(fixed_point.numbers(k, e) for e in batch), strict=True)
+        fixed_x, traces, rotations = zip(*(fixed_point.numbers(k, e) for e in batch), strict=True)
         states = np.concatenate([sunflower_points(k, e, starts) for e in batch], axis=1)
-        centre, expected = np.repeat(places, starts), np.repeat(rotations, starts)
+        centre, expected = np.repeat(fixed_x, starts), np.repeat(rotations, starts)
         verdicts = classify_orbits(k, states, centre, expected, impacts)
         for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True)):
             orbits = verdicts[i * starts : (i + 1) * starts]
@@ -85,11 +124,11 @@ def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
     """
     starts, regular = orbits.regular.size, orbits.regular
     sea = np.sort(orbits.exponent[~regular & ~np.isnan(orbits.exponent)])
-    apart = ~(np.abs(orbits.winding - rotation) <= LOCKED)
-    turns, periods = fractions(orbits.winding[regular & apart])
-    # Of equally frequent chains `most_common` returns the first: the smallest period, then turns.
-    chains = sorted(zip(periods[periods > 0].tolist(), turns[periods > 0].tolist(), strict=True))
-    ((period, winds), count) = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
+    apart = ~(np.abs(orbits.winding - rotation) <= WINDING_TOLERANCE)
+    turns, islands = nearest_fractions(orbits.winding[regular & apart])
+    # Of equally frequent chains `most_common` returns the first: the fewest islands, then turns.
+    chains = sorted(zip(islands[islands > 0].tolist(), turns[islands > 0].tolist(), strict=True))
+    ((chain_period, chain_turns), count) = (Counter(chains).most_common(1) or [((0, 0), 0)])[0]
     sea_or_nan = sea if sea.size else np.array([math.nan])
     low, high = np.quantile(sea_or_nan, (0.25, 0.75), method="lower")
     return {
@@ -103,10 +142,10 @@ def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
         "exponent_low": low,
         "exponent_high": high,
         "followed": np.mean(orbits.followed),
-        "chain_period": period,
-        "chain_turns": winds,
+        "chain_period": np.int32(chain_period),
+        "chain_turns": np.int32(chain_turns),
         "chain_share": count / starts,
-        "chains": np.bincount(periods, minlength=PERIODS + 1)[1:],
+        "chains": np.bincount(islands, minlength=MAX_ISLANDS + 1)[1:].astype(np.int32),
     }
 
 
@@ -118,36 +157,37 @@ def wilson(count: int, total: int) -> tuple[float, float]:
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return p and the least q <= PERIODS with p/q within LOCKED of each number, or zeros."""
-    turns, periods = np.zeros(winding.size, np.int64), np.zeros(winding.size, np.int64)
-    for q in range(1, PERIODS + 1):
+def nearest_fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return p and the least q of fractions p/q that winding numbers equal; zeros without one.
+
+    q is at most MAX_ISLANDS, and numbers are equal to within WINDING_TOLERANCE.
+    """
+    turns, islands = np.zeros(winding.size, np.int64), np.zeros(winding.size, np.int64)
+    for q in range(1, MAX_ISLANDS + 1):
         nearest = np.rint(winding * q)
-        hit = (periods == 0) & (np.abs(winding - nearest / q) < LOCKED)
-        turns[hit], periods[hit] = nearest[hit], q
-    return turns, periods
+        equal = (islands == 0) & (np.abs(winding - nearest / q) < WINDING_TOLERANCE)
+        turns[equal], islands[equal] = nearest[equal], q
+    return turns, islands
 
 
 @jit
-def _spiral(e: float, k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray) -> None:
-    """Write x, v = xdot and w = udot of states evenly over half the section, on a golden spiral."""
+def sunflower_points(k: float, e: float, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section.
+
+    They lie on a golden spiral. v is xdot, w is udot, and s = v + w the contact speed.
+    """
     energy = 2.0 * e + 1.0 / k  # twice the energy above that of the ball at rest
-    wide = math.sqrt(energy / k)
-    high = math.sqrt((1.0 + k) * energy)
-    steep = math.sqrt((1.0 + k) * energy / k)
-    for i in range(x.size):
-        area = (i + 0.5) / x.size  # share of the half disk that is nearer to the centre
+    radius_x = math.sqrt(energy / k)
+    radius_y = math.sqrt((1.0 + k) * energy)
+    largest_s = math.sqrt((1.0 + k) * energy / k)
+    x, v, w = np.empty(count), np.empty(count), np.empty(count)
+    for i in range(count):
+        area = (i + 0.5) / count  # share of the half disk that is nearer to the centre
         sine, cosine = sincos(math.pi * (i * _GOLDEN_RATIO - int(i * _GOLDEN_RATIO)))
         radius = math.sqrt(area)
-        y = high * radius * sine
-        s = steep * math.sqrt(1.0 - area)
-        x[i] = 1.0 / k + wide * radius * cosine
+        y = radius_y * radius * sine
+        s = largest_s * math.sqrt(1.0 - area)
+        x[i] = 1.0 / k + radius_x * radius * cosine
         v[i] = (y + k * s) / (1.0 + k)
         w[i] = (s - y) / (1.0 + k)
-
-
-def sunflower_points(k: float, e: float, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section."""
-    x, v, w = np.empty(count), np.empty(count), np.empty(count)
-    _spiral(e, k, x, v, w)
     return x, v, w

@@ -22,16 +22,14 @@ def run(args: Arguments) -> int:
             raise UsageError("--slurm: there is no sbatch on this machine")
         args.options = [f"--profile={ROOT / 'profiles' / 'slurm'}", *args.options]
         add_packages("slurm")
-    files: figures.Drawings = {}
     names = [
         n
         for n in sweeps
         if not args.sweep or {n, sweeps[n].as_mapping().get("over")} & {*args.sweep}
     ]
-    if args.word == "atlas":
-        files = figures.drawings_of(args.config, "atlas", names)
+    drawings = figures.drawings_of(args.config, "atlas", names) if args.word == "atlas" else {}
     artifact_paths = paths.artifact_paths(variants)
-    stages = (("atlas", name, "sweep") for name in names)  # which a scene may be without
-    data = dict.fromkeys(artifact_paths[key] for key in stages if key in artifact_paths)
+    data = [artifact_paths.get(("atlas", name, "sweep")) for name in names]  # None for verdicts
     with locked():
-        return figures.make(args.config, "atlas", files | {path: path for path in data}, args)
+        files = drawings | {path: path for path in data if path}
+        return figures.make(args.config, "atlas", files, args)

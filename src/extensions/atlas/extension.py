@@ -10,10 +10,10 @@ _MODULE = "extensions.atlas.command"
 EXTENSION = Extension(
     stages={
         "sweep": Stage(
-            "extensions.atlas.blocks.cells_of_a_sweep",
+            "extensions.atlas.cell.cells_of_a_sweep",
             "k energy starts impacts",
-            parts="extensions.atlas.grid.parts",
-            part="extensions.atlas.blocks.block_of_cells_of_a_sweep",
+            parts="extensions.atlas.kinds.parts",
+            part="extensions.atlas.cell.block_of_cells_of_a_sweep",
         ),
         "verdicts": Stage("extensions.atlas.verdicts.verdicts"),
     },

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 from decimal import Context, Decimal
-from typing import Annotated, Literal, Self
+from itertools import product
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Tag
 
@@ -38,6 +39,25 @@ class Span(Block):
     """Number of values, both ends included."""
     spacing: Literal["even", "log"] = "even"
     """`even` gives neighbours equal differences, `log` gives them equal ratios."""
+
+    def numbers(self) -> list[float]:
+        """Return the values of the axis.
+
+        Evenly spaced ones are exact to twelve digits where the ends are decimals. Those in equal
+        ratios have six digits; they are computed in decimals, which have the same bits everywhere.
+        """
+        steps = self.count - 1
+        if self.spacing == "even":
+            first, last = exact(self.from_), exact(self.to)
+            values = [first + (last - first) * i / steps for i in range(self.count)]
+            twelve = Context(prec=12)
+            return [
+                float(twelve.divide(Decimal(v.numerator), Decimal(v.denominator))) for v in values
+            ]
+        start, end = (_FORTY_DIGITS.ln(Decimal(str(value))) for value in (self.from_, self.to))
+        step = _FORTY_DIGITS.divide(_FORTY_DIGITS.subtract(end, start), Decimal(steps))
+        powers = (_FORTY_DIGITS.fma(step, Decimal(i), start) for i in range(self.count))
+        return [float(Context(prec=6).plus(_FORTY_DIGITS.exp(power))) for power in powers]
 
 
 Values = Annotated[
@@ -105,6 +125,17 @@ class Verdicts(Picture):
     stages = ("verdicts",)
 
 
+def parts(sweep: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return what decides the data of each block of a sweep: cells [k, E/g^2] and orbits.
+
+    Cells are counted along the energies of one k, then along those of the next k. A part has as
+    many of them as the sweep's field `block` says.
+    """
+    cells, size = list(map(list, product(sweep["k"], sweep["energy"]))), sweep["block"]
+    orbits = {name: sweep[name] for name in ("starts", "impacts")}
+    return [{"cells": cells[i : i + size]} | orbits for i in range(0, len(cells), size)]
+
+
 def _axis(given: Span | list[float], axis: str) -> list[float]:
     """Return the numbers of an axis; CompletionError if they do not increase."""
     if isinstance(given, Span):
@@ -112,7 +143,9 @@ def _axis(given: Span | list[float], axis: str) -> list[float]:
             raise CompletionError((axis, "to"), given.to, f"a number above from = {given.from_}")
         if given.spacing == "log" and not given.from_ > 0:
             raise CompletionError((axis, "from"), given.from_, "a number > 0 where spacing is log")
-    values = _values(given)
+        values = given.numbers()
+    else:
+        values = list(map(float, given))
     if not rising(values):
         shown = given.as_mapping() if isinstance(given, Span) else given
         raise CompletionError((axis,), shown, "increasing numbers that differ in six digits")
@@ -136,23 +169,3 @@ def _energy_errors(
         if not exact(last) < highest:
             words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
             yield ("energy",), last, words
-
-
-def _values(axis: Span | list[float]) -> list[float]:
-    """Return the numbers of an axis.
-
-    Evenly spaced ones are exact to twelve digits where the ends are decimals. Those in equal ratios
-    have six digits; they are computed in decimals, which have the same bits everywhere.
-    """
-    if isinstance(axis, list):
-        return [float(value) for value in axis]
-    low, high, count = axis.from_, axis.to, axis.count
-    if axis.spacing != "log":
-        first, last = exact(low), exact(high)
-        values = [first + (last - first) * i / (count - 1) for i in range(count)]
-        twelve = Context(prec=12)
-        return [float(twelve.divide(Decimal(v.numerator), Decimal(v.denominator))) for v in values]
-    start, end = (_FORTY_DIGITS.ln(Decimal(str(value))) for value in (low, high))
-    step = _FORTY_DIGITS.divide(_FORTY_DIGITS.subtract(end, start), Decimal(count - 1))
-    powers = (_FORTY_DIGITS.fma(step, Decimal(i), start) for i in range(count))
-    return [float(Context(prec=6).plus(_FORTY_DIGITS.exp(power))) for power in powers]

@@ -187,26 +187,18 @@ class OrbitSearch:
 
     def orbit(self, turns: int, period: int) -> SymmetricOrbit:
         """Return an orbit with so many turns in a period; raise ValueError if none is found."""
-        found = self.find(turns, period)
-        if found is not None:
-            return found
+        excess_turns = self._excess_turns(turns, period)
         first, last = self.between
+        whole = [self.between] if excess_turns(first) > 0.0 > excess_turns(last) else []
+        for bracket in itertools.chain(whole, self._brackets(excess_turns, _CELLS)):
+            if orbit := self._solve(excess_turns, period, bracket):
+                return orbit
         nearby, _ = winding(self.ball, self.energy, np.linspace(first, last, _CELLS), _IMPACTS)
         raise ValueError(
             f"no symmetric orbit of rotation number {turns}/{period} = {turns / period:.6f} is "
             f"found on the part of y = 0 between {first:g} and {last:g}, where orbits have "
             f"{nearby.min():.6f} to {nearby.max():.6f}: choose other nobles, or leave nobles out"
         )
-
-    def find(self, turns: int, period: int) -> SymmetricOrbit | None:
-        """Return an orbit with so many turns in a period, or None if none is found."""
-        excess_turns = self._excess_turns(turns, period)
-        first, last = self.between
-        brackets: Iterator[Interval] = self._brackets(excess_turns, _CELLS)
-        if excess_turns(first) > 0.0 > excess_turns(last):
-            brackets = itertools.chain([self.between], brackets)
-        solved = (self._solve(excess_turns, period, bracket) for bracket in brackets)
-        return next((orbit for orbit in solved if orbit is not None), None)
 
     def innermost(self, turns: int, period: int, cells: int) -> SymmetricOrbit | None:
         """Return the orbit that is nearest to the fixed point, or None if none is found.
@@ -216,7 +208,7 @@ class OrbitSearch:
         """
         excess_turns = self._excess_turns(turns, period)
         bracket = next(self._brackets(excess_turns, cells), None)
-        return None if bracket is None else self._solve(excess_turns, period, bracket)
+        return bracket and self._solve(excess_turns, period, bracket)
 
     def _excess_turns(self, turns: int, period: int) -> Function:
         """Return the function of a start that is zero on an orbit with these turns."""
@@ -271,7 +263,7 @@ class OrbitSearch:
 
         width = _MIN_HALF_WIDTH
         while width < _MAX_HALF_WIDTH:
-            for above, below in ((start - width, start + width), (start + width, start - width)):
+            for above, below in itertools.permutations((start - width, start + width)):
                 if asymmetry(above) > 0.0 > asymmetry(below):
                     return _bisect(asymmetry, above, below)
             width *= 2.0

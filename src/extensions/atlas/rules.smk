@@ -10,7 +10,7 @@ localrules:
 
 
 use rule orbits as sweep_block with:
-    """extensions.atlas.blocks.block_of_cells_of_a_sweep"""
+    """extensions.atlas.cell.block_of_cells_of_a_sweep"""
     input:
         why=reason("results/{variant}/sweep_{scene}.{number}.nc"),
     output:
@@ -20,7 +20,7 @@ use rule orbits as sweep_block with:
 
 
 use rule orbits as sweep with:
-    """extensions.atlas.blocks.cells_of_a_sweep"""
+    """extensions.atlas.cell.cells_of_a_sweep"""
     input:
         blocks=inputs_of("results/{variant}/sweep_{scene}.nc"),
         why=reason("results/{variant}/sweep_{scene}.nc"),

@@ -17,7 +17,6 @@ A best threshold gives the fewest wrong verdicts on the first set of cells; the 
 
 import math
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from itertools import repeat
 from typing import Any
 
@@ -31,8 +30,7 @@ from pseudorigid.dynamics.variables import described, of_rows
 from pseudorigid.dynamics.verdict import classify_orbits, means, windows
 from pseudorigid.kernel.tangents import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
 
-from .blocks import AXES
-from .cell import sunflower_points
+from .cell import AXES, sunflower_points
 
 LONG, EARLY = 400_000, 20_000  # impacts
 SURELY_CHAOTIC = 10 * GROWTH_THRESHOLD  # a regular orbit's growth is about 0.85 at any length
@@ -68,16 +66,25 @@ def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
     """
     drawn = [cell for number in range(len(SETS)) for cell in random_cells(cells, number)]
     with ThreadPoolExecutor(threads()) as pool:
-        results = list(pool.map(_cell, *zip(*drawn, strict=True), repeat(orbits)))
-    orbit_keys = ("growth", "unsettled", "alignment", "safe", "followed", "truth")
-    sets = [
-        {key: np.concatenate([cell[key] for cell in part], axis=-1) for key in orbit_keys}
-        for part in (results[:cells], results[cells:])
-    ]
-    thresholds = [_thresholds(sets[0], *method) for method in METHODS.values()]
-    quantities = [key for key, _ in METHODS.values()]
-    errors = [list(map(partial(_errors, orbit), quantities, thresholds)) for orbit in sets]
-    missed, alarms, cost = np.moveaxis(np.array(errors), 2, 0)
+        results = pool.map(_cell, *zip(*drawn, strict=True), repeat(orbits))
+        quantities, rows = zip(*results, strict=True)
+    of_sets: Arrays = {}  # ([length,] set, orbit)
+    for name in quantities[0]:
+        values = np.concatenate([cell[name] for cell in quantities], axis=-1)
+        of_sets[name] = values.reshape(*values.shape[:-1], len(SETS), cells * orbits)
+    truth, thresholds, errors = of_sets["truth"], [], []
+    for quantity, fixed in METHODS.values():
+        values, threshold = of_sets[quantity], np.full(len(LENGTHS), fixed, float)
+        if fixed is None:
+            threshold[:] = [_best_threshold(first, truth[0]) for first, *_ in values]
+        regular = values < threshold[:, None, None]
+        cost = np.repeat(np.array(LENGTHS, float)[:, None], len(SETS), axis=1)
+        if quantity == "safe":
+            regular, cost = values, of_sets["followed"].mean(axis=-1)
+        shares = [(regular & ~truth).mean(axis=-1), (~regular & truth).mean(axis=-1)]
+        errors.append([*shares, cost])
+        thresholds.append(threshold)
+    missed, alarms, cost = np.transpose(errors, (1, 3, 0, 2))
     variables = {
         "wrong": (_EACH, missed + alarms, "share of wrong verdicts"),
         "missed": (_EACH, missed, "chaotic orbits called regular, share of all"),
@@ -88,26 +95,9 @@ def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
         "cells": ("set", SETS, "set of cells"),
         "length": ("length", LENGTHS, "largest number of impacts"),
     }
-    numbers = np.array([_summary(cell) for cell in results])
-    numbers = numbers.reshape(len(SETS), cells, len(_CELL))
+    numbers = np.reshape(rows, (len(SETS), cells, len(_CELL)))
     data = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
     return xr.Dataset(data, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
-
-
-def _thresholds(orbits: Arrays, key: str, fixed: float | None) -> np.ndarray:
-    """Return the threshold of a method after each of LENGTHS, the best one if none is fixed."""
-    if fixed is not None:
-        return np.full(len(LENGTHS), fixed)
-    return np.array([_best_threshold(values, orbits["truth"]) for values in orbits[key]])
-
-
-def _errors(orbits: Arrays, key: str, threshold: np.ndarray) -> np.ndarray:
-    """Return the shares missed and falsely alarmed and the cost (3, length) of a method."""
-    regular, cost = orbits[key] < threshold[:, None], np.array(LENGTHS, float)
-    if key == "safe":
-        regular, cost = orbits["safe"], orbits["followed"].mean(axis=1)
-    truth = orbits["truth"]
-    return np.array([(regular & ~truth).mean(axis=1), (~regular & truth).mean(axis=1), cost])
 
 
 def random_cells(count: int, number: int) -> list[tuple[float, float]]:
@@ -125,27 +115,37 @@ def random_cells(count: int, number: int) -> list[tuple[float, float]]:
     return cells
 
 
-def _cell(k: float, e: float, count: int) -> dict[str, Any]:
-    """Return the quantities by which each method decides on a cell's orbits, and the truth."""
+def _cell(k: float, e: float, count: int) -> tuple[Arrays, list[Any]]:
+    """Return quantities of a cell's orbits, and the values of _CELL.
+
+    The quantities are those by which the methods decide, and the truth.
+    """
     x, _, rotation = fixed_point.numbers(k, e)
     states = np.stack(sunflower_points(k, e, count))
     orbits = k, states, np.full(count, x), np.full(count, rotation)
     safe = [classify_orbits(*orbits, length) for length in LENGTHS]
-    return {
-        "k": k,
-        "energy": e,
-        **_growth_and_truth(*orbits),
+    quantities, exponent_long = _growth_and_truth(*orbits)
+    quantities |= {
         "alignment": _alignment(*orbits),
         "safe": np.array([verdicts.regular for verdicts in safe]),
         "followed": np.array([verdicts.followed for verdicts in safe]),
-        "exponent": safe[-1].exponent,
     }
+    truth, exponent = quantities["truth"], safe[-1].exponent
+    sea = ~truth & ~np.isnan(exponent)
+    row = [k, e, np.mean(truth), math.nan, math.nan, math.nan]
+    if np.count_nonzero(sea) > 1:
+        error = np.std(exponent[sea], ddof=1) / math.sqrt(np.count_nonzero(sea))
+        row[3:] = np.mean(exponent[sea]), error, np.mean(exponent_long[sea])
+    return quantities, row
 
 
 def _growth_and_truth(
     k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray
-) -> Arrays:
-    """Return growth and difference of winding numbers after each of LENGTHS, and the truth."""
+) -> tuple[Arrays, np.ndarray]:
+    """Return growth and difference of winding numbers after each of LENGTHS, with the truth.
+
+    The exponents of the orbits come second.
+    """
     turning, growing = windows((*LENGTHS, EARLY, LONG))
     turning = turning[: 3 * len(LENGTHS)]
     orbits = begin(k, states, centre, expected)
@@ -161,12 +161,8 @@ def _growth_and_truth(
         propagate_with_tangent(orbits, k, EARLY, LONG, turning, growing, turned, sums)
         exponent[rest] = orbits[SIZE] / LONG
         truth[rest] = means(turning, growing, turned, sums)[1][-1] < GROWTH_THRESHOLD
-    return {
-        "growth": growth[: len(LENGTHS)],
-        "unsettled": np.array([np.abs(a - b) for _, a, b in winding]),
-        "truth": truth,
-        "exponent_long": exponent,
-    }
+    unsettled = np.array([np.abs(a - b) for _, a, b in winding])
+    return {"growth": growth[: len(LENGTHS)], "unsettled": unsettled, "truth": truth}, exponent
 
 
 def _alignment(
@@ -200,14 +196,3 @@ def _best_threshold(values: np.ndarray, truth: np.ndarray) -> float:
     above = np.sum(truth) - np.concatenate([[0], np.cumsum(truth)])
     at = int(np.argmin(below + above))
     return float(values[min(at, values.size - 1)])
-
-
-def _summary(cell: dict[str, Any]) -> tuple[float, ...]:
-    """Return the values of _CELL for one cell."""
-    sea = ~cell["truth"] & ~np.isnan(cell["exponent"])
-    shared, long = cell["exponent"][sea], cell["exponent_long"][sea]
-    numbers = cell["k"], cell["energy"], np.mean(cell["truth"])
-    if shared.size < 2:
-        return *numbers, math.nan, math.nan, math.nan
-    error = np.std(shared, ddof=1) / math.sqrt(shared.size)
-    return *numbers, np.mean(shared), error, np.mean(long)

@@ -1,5 +1,12 @@
-"""Data of the page: scenes of config.yaml, hashes of published orbits, the atlas."""
+"""Data of the page: scenes of config.yaml, hashes of published orbits, the atlas.
 
+The atlas is a small map of the share of regular motion over k and E/g^2. It is committed, because
+the sweep behind it takes minutes. Renew it after ./reproduce atlas:
+
+    .venv/bin/python -m extensions.explorer.data
+"""
+
+import base64
 import json
 import tomllib
 from pathlib import Path
@@ -11,14 +18,15 @@ import yaml
 from pipeline.config.paths import PAPER, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
-from pipeline.records.files import read_text
+from pipeline.records.files import read_text, write_whole
 from pipeline.records.sources import ROOT
-
-from . import atlas
 
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 _PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
+# The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING stands for no value.
+ATLAS = Path(__file__).with_name("atlas.json")
+STEPS, MISSING = 250, 255
 
 
 def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
@@ -37,7 +45,7 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
         },
         "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),
-        "atlas": atlas.stored() | {"steps": atlas.STEPS, "missing": atlas.MISSING},
+        "atlas": json.loads(read_text(ATLAS)) | {"steps": STEPS, "missing": MISSING},
     }
 
 
@@ -82,29 +90,55 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     name = f"{PUBLISHED[PAPER]}/MANIFEST.json"
     if not (root / name).is_file():  # before the first ./reproduce accept
         return []
+    orbits = []
     try:
         manifest = json.loads(read_text(root / name))
-        return [
-            _orbits(figure, scene["config"], manifest["data"][scene["data"]["orbits"]]["variables"])
-            for figure, scene in manifest["scenes"].items()
-            if scene["config"]["picture"] == "portrait"
-            and all(isinstance(start, float) for start in scene["config"]["starts"])
-        ]
+        for figure, scene in manifest["scenes"].items():
+            block = scene["config"]
+            if block["picture"] != "portrait":
+                continue
+            starts, counts = block["starts"], block["impacts"]
+            if not all(isinstance(start, float) for start in starts):
+                continue
+            variables = manifest["data"][scene["data"]["orbits"]]["variables"]
+            orbits.append(
+                {
+                    "figure": figure,
+                    **block["ball"],
+                    "energy": block["energy"],
+                    "starts": starts,
+                    "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
+                    "block": BLOCK,
+                    "variables": {
+                        name: {part: variables[name][part] for part in ("sha256", "blocks")}
+                        for name in STATE
+                    },
+                }
+            )
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(f"{name}: broken: {error!r}: run ./reproduce accept") from None
+    return orbits
 
 
-def _orbits(figure: str, block: YamlMapping, variables: dict[str, Any]) -> dict[str, Any]:
-    """Return a figure's starts and the hashes of its orbits."""
-    counts, starts = block["impacts"], block["starts"]
+def rounded_atlas(root: Path = ROOT) -> dict[str, Any]:
+    """Return the atlas of the sweep that the tree at `root` has.
+
+    `k` and `energy`, in g^2, are the values of the grid, and `regular` the shares in STEPS as bytes
+    in base64, row by row of k.
+    """
+    import numpy as np
+
+    from pipeline.records.artifacts import load  # takes long to import
+
+    sweep = load(root / "results/atlas/sweep_plane.nc")
+    share = sweep["regular"].transpose("k", "energy").values
+    steps = np.where(np.isnan(share), MISSING, np.rint(STEPS * np.nan_to_num(share)))
     return {
-        "figure": figure,
-        **block["ball"],
-        "energy": block["energy"],
-        "starts": starts,
-        "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
-        "block": BLOCK,
-        "variables": {
-            name: {part: variables[name][part] for part in ("sha256", "blocks")} for name in STATE
-        },
+        "k": sweep["k"].values.tolist(),
+        "energy": sweep["energy"].values.tolist(),
+        "regular": base64.b64encode(steps.astype(np.uint8).tobytes()).decode(),
     }
+
+
+if __name__ == "__main__":
+    write_whole(ATLAS, json.dumps(rounded_atlas(), separators=(",", ":")) + "\n")

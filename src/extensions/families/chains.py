@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 
-from extensions.atlas.blocks import AXES
+from extensions.atlas.cell import AXES
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import attributes_of, described
 

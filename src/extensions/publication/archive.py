@@ -12,17 +12,23 @@ import json
 import os
 import tarfile
 import tempfile
-from collections import Counter
 from collections.abc import Collection, Iterator
 from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-from pipeline.checks import manifest, published_sets, verify
+from pipeline.checks import manifest, verify
 from pipeline.checks.layers import Comparison, dataset_difference
-from pipeline.checks.published_sets import SUMS, ChecksumError, PublishedSet, format_sums, read_sums
+from pipeline.checks.published_sets import (
+    MANIFEST,
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    committed_sets,
+    format_sums,
+    read_sums,
+)
 from pipeline.config.paths import PAPER, PUBLISHED, Config
 from pipeline.declaration import extensions
 from pipeline.records import files
@@ -109,11 +115,11 @@ def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Con
     paths = _sources(root) if packages else []
     paths += [str(file.relative_to(root)) for pattern in _INPUTS for file in root.glob(pattern)]
     counts = []  # of datasets, in words
-    for published_set in published_sets.committed_sets(config):
+    for published_set in committed_sets(config):
         paths += published_set.text_files
         if not manifest.is_present(root, published_set):
             continue
-        names = [*read_sums(root, published_set.folder), SUMS, published_sets.MANIFEST]
+        names = [*read_sums(root, published_set.folder), SUMS, MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]
         data = {path for stages in published_set.data.values() for path in stages.values()}
         present = sorted(path for path in data if (root / path).is_file())
@@ -231,81 +237,66 @@ def _read_folder(folder: Path, config: Config) -> Contents:
 def compare(root: Path, config: Config, other: Path) -> int:
     """Compare this tree with an archive, an unpacked one, or another tree; print a line a file.
 
-    Returns 0 if both have the same files with the same bytes. Raises ArchiveError if `other` is
-    none of these.
+    A file that differs has a line for each layer too. Returns 0 if both have the same files with
+    the same bytes. Raises ArchiveError if `other` is none of these.
     """
     theirs = _read_folder(other, config) if other.is_dir() else read(other)
     ours = contents(root, config)
     if any(name.startswith(f"{PACKAGES}/") for name in theirs):  # it has the sources too
         ours |= {name: read_bytes(root / name) for name in _sources(root)}
+    # SUMS and ABOUT list the datasets that exist; requirements/ has the hashes of packages.
+    names = sorted({*ours, *theirs} - {SUMS, ABOUT})
+    names = [name for name in names if not name.startswith(f"{PACKAGES}/")]
+    sets = {f"{s.folder}/{name}": s for s in committed_sets(config) for name in s.drawn}
     absent = f"not in the {'folder' if other.is_dir() else 'archive'}"
-    states = {}
-    for name in sorted({*ours, *theirs}):
-        # SUMS and ABOUT list the datasets that exist; requirements/ has the hashes of packages.
-        if name in (SUMS, ABOUT) or name.startswith(f"{PACKAGES}/"):
-            continue
-        states[name] = "identical" if ours.get(name) == theirs.get(name) else "differs"
-        if name not in ours or name not in theirs:
-            states[name] = "missing here" if name in theirs else absent
-    _print_states(root, config, states, theirs)
-    counts = Counter(states.values())
-    found = [state for state in ("identical", "differs", "missing here", absent) if counts[state]]
-    print("", ", ".join(f"{counts[state]} {state}" for state in found), sep="\n")
-    return int(counts["identical"] < len(states))
-
-
-def _print_states(root: Path, config: Config, states: dict[str, str], theirs: Contents) -> None:
-    """Print a line for each file, and one for each layer in which it differs from `theirs`."""
-    width, sets = max(map(len, states)), published_sets.committed_sets(config)
-    with tempfile.TemporaryDirectory() as folder:  # `_layers` compares files
-        for name, state in states.items():
-            manifests = name.endswith(f"/{published_sets.MANIFEST}") and name in theirs
-            if state == "differs" or manifests:
-                files.write_whole(Path(folder, name), theirs[name])
-        for name, state in states.items():
+    counts = dict.fromkeys(("identical", "differs", "missing here", absent), 0)
+    width = max(map(len, names))
+    with tempfile.TemporaryDirectory() as scratch:  # a comparison by layers needs files
+        folder = Path(scratch)
+        for name, data in theirs.items():
+            if name.endswith(f"/{MANIFEST}") or ours.get(name, data) != data:
+                files.write_whole(folder / name, data)
+        for name in names:
+            layers: dict[str, str] = {}
+            if name not in ours or name not in theirs:
+                state = "missing here" if name in theirs else absent
+            elif ours[name] == theirs[name]:
+                state = "identical"
+            else:
+                state = "differs"
+                if name.endswith(".nc"):
+                    layers = {"data": _data_difference(root, name, folder)}
+                elif name in sets:
+                    layers = _drawing_differences(root, sets[name], name, folder)
+            counts[state] += 1
             print(f"{name:{width}}  {state}")
-            layers = _layers(root, sets, name, Path(folder)) if state == "differs" else {}
             for layer, words in layers.items():
                 print(f"{'':{width}}  {layer}: {words}".replace(f"{folder}/", "the other "))
-
-
-def _largest_difference(ours: xr.Dataset, theirs: xr.Dataset) -> float:
-    """Return the largest difference of two numbers at the same place of a variable."""
-    gaps = [0.0]
-    for name in ours.variables.keys() & theirs.variables.keys():
-        a, b = ours.variables[name], theirs.variables[name]
-        if a.shape == b.shape and a.dtype.kind in "iuf" and b.dtype.kind in "iuf":
-            gaps.append(float(np.nanmax(np.abs(a.values - b.values), initial=0.0)))
-    return max(gaps)
-
-
-def _layers(root: Path, sets: list[PublishedSet], path: str, other: Path) -> dict[str, str]:
-    """Return layer -> how a file of this tree differs from its copy in the folder `other`."""
-    if path.endswith(".nc"):
-        return {"data": _data_difference(root, path, other)}
-    folder, name = os.path.split(path)
-    for published_set in sets:
-        if folder == published_set.folder and name in published_set.drawn:
-            return _drawing_differences(root, published_set, name, other)
-    return {}
+    print("", ", ".join(f"{n} {state}" for state, n in counts.items() if n), sep="\n")
+    return int(counts["identical"] < len(names))
 
 
 def _data_difference(root: Path, path: str, other: Path) -> str:
-    """Return how a dataset of this tree differs from its copy."""
+    """Return how a dataset of this tree differs from its copy in the folder `other`."""
     try:
         ours, theirs = load(root / path), load(other / path)
         words = dataset_difference(root, path, manifest.describe_data(theirs))
     except (ArtifactError, FileError) as error:
         return str(error)
-    size = f"numbers differ by at most {_largest_difference(ours, theirs):.3g}"
+    gaps = [0.0]
+    for name in ours.variables.keys() & theirs.variables.keys():
+        a, b = ours.variables[name], theirs.variables[name]
+        if a.shape == b.shape and {a.dtype.kind, b.dtype.kind} <= {*"iuf"}:
+            gaps.append(float(np.nanmax(np.abs(a.values - b.values), initial=0.0)))
+    size = f"numbers differ by at most {max(gaps):.3g}"
     return f"{words}; {size}" if words else "the same in other bytes"
 
 
 def _drawing_differences(
-    root: Path, published_set: PublishedSet, name: str, other: Path
+    root: Path, published_set: PublishedSet, path: str, other: Path
 ) -> dict[str, str]:
-    """Return layer -> how a published picture differs from its copy."""
-    path = f"{published_set.folder}/{name}"
+    """Return layer -> how a published picture differs from its copy in the folder `other`."""
+    name = os.path.basename(path)
     image = root / published_set.results / "differences" / name
     layers: dict[str, str] = {}
     try:

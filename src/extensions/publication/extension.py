@@ -44,7 +44,6 @@ EXTENSION = Extension(
     removed={("archive", "--machine"): "archive on such a machine"},
     generated=(
         "article.pdf",
-        "article/numbers.json",
         "site/*.html",
         "site/article.pdf",
         "site/paper/*.nc",

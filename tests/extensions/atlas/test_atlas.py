@@ -12,7 +12,7 @@ from pseudorigid.figures.axes import limits
 from pseudorigid.figures.axes.panel import Axis
 from pseudorigid.figures.canvas import render, style
 
-PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0], "starts": 9, "impacts": 100}
+PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0]}
 WIDTH, HEIGHT = atlas.WIDE / 4, atlas.HIGH // 3  # pixels of a cell of PLANE
 # The lower ends of the two panels of PLANE.
 LOWER = 320
@@ -35,32 +35,41 @@ def image_of(sweep, **given):
     return render.pixels(atlas.plane(sweep, dataset(sweep, **given)))[::-1]
 
 
-def commonest(image, row, column, bottom):
-    """Return the commonest colour around a place of a cell of PLANE where no curve is."""
-    across, up = int(atlas.LEFT + (column + 0.3) * WIDTH), int(bottom + (row + 0.3) * HEIGHT)
-    patch = image[up - 12 : up + 13, across - 12 : across + 13].reshape(-1, 3)
-    colors, counts = np.unique(patch, axis=0, return_counts=True)
-    return "#" + bytes(colors[counts.argmax()]).hex()
+def around(image, x, y, reach):
+    """Return the pixels (n, 3) around a place."""
+    x, y = int(x), int(y)
+    return image[y - reach : y + reach + 1, x - reach : x + reach + 1].reshape(-1, 3)
 
 
 def colours(name):
     return ["#" + bytes(row).hex() for row in raster.palette(name)]
 
 
-def test_a_cell_has_the_colour_of_its_value():
+def test_cells_have_the_colours_of_their_values_and_a_resonance_its_curve():
+    """The curve is where the closed form has it."""
     share = np.linspace(-0.2, 0.99, 12).reshape(3, 4)
     share[1, 1] = 1.7
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
     image, scale = image_of(PLANE, regular=share, exponent=exponent), colours("viridis")
+
+    def commonest(row, column, bottom):
+        place = atlas.LEFT + (column + 0.3) * WIDTH, bottom + (row + 0.3) * HEIGHT  # no curve there
+        colors, counts = np.unique(around(image, *place, 12), axis=0, return_counts=True)
+        return "#" + bytes(colors[counts.argmax()]).hex()
+
     for row, column in np.ndindex(3, 4):
         wanted = scale[min(max(int(share[row, column] * 64), 0), 63)]
-        assert commonest(image, row, column, UPPER) == wanted
-    assert commonest(image, 2, 3, LOWER) == style.GRID  # no sea
+        assert commonest(row, column, UPPER) == wanted
+    assert commonest(2, 3, LOWER) == style.GRID  # no sea
+    across = atlas.LEFT + (np.log10(fixed_point.resonance(0.2, 1, 6)) + 1.5) / 4 * atlas.WIDE
+    up = UPPER + (0.2 - 0.05) / 0.3 * 3 * HEIGHT
+    for shift, drawn in ((0, True), (-37, False)):
+        assert (around(image, across + shift, up, 3).sum(axis=1).max() > 700) == drawn
 
 
 def test_cells_fill_whole_pixels():
     # At these energies and k there is no curve.
-    sweep = PLANE | {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
+    sweep = {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
     share = np.random.default_rng(1).random((100, 160))
     image, scale = image_of(sweep, regular=share), colours("viridis")
     upper = LOWER + 600 + (UPPER - LOWER - 3 * HEIGHT)
@@ -77,16 +86,6 @@ def test_a_scale_has_sixty_four_colours_in_order(name):
     assert len(set(colours(name))) == 64
     light = raster.palette(name).sum(axis=1, dtype=int)
     assert light[0] < light[20] < light[40] < light[63]
-
-
-def test_a_resonance_is_drawn_where_the_closed_form_has_it():
-    across = atlas.LEFT + (np.log10(fixed_point.resonance(0.2, 1, 6)) + 1.5) / 4 * atlas.WIDE
-    up = int(UPPER + (0.2 - 0.05) / 0.3 * 3 * HEIGHT)
-    image = image_of(PLANE)
-    for shift, drawn in ((0, True), (-37, False)):
-        x = int(across) + shift
-        patch = image[up - 3 : up + 4, x - 3 : x + 4].reshape(-1, 3)
-        assert (patch.sum(axis=1).max() > 700) == drawn
 
 
 def drawn(figure, color, dots):
@@ -128,7 +127,7 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
     wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # the edges of cells pass k = 0
     long = LINE | {"energy": [0.625 * i for i in range(1, 60)]}
-    for sweep in (PLANE, wide, long):
+    for sweep in (wide, long):
         figure = atlas.draw(sweep, dataset(sweep, **nothing))
     assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
 

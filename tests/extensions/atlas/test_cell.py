@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from dataset_hash import content_hash
 
-from extensions.atlas import blocks, cell, grid
+from extensions.atlas import cell, kinds
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import tangents
@@ -65,7 +65,7 @@ def test_wilsons_interval(count, interval):
 
 def test_fractions_are_the_simplest_nearby():
     winding = np.array([1 / 6, 1 / 6 + 2e-5, 2 / 12, 3 / 23, 0.0, 0.41421356])
-    turns, periods = cell.fractions(winding)
+    turns, periods = cell.nearest_fractions(winding)
     assert periods.tolist() == [6, 0, 6, 23, 1, 0]
     assert turns.tolist() == [1, 0, 1, 3, 0, 0]
 
@@ -80,12 +80,9 @@ def test_the_energy_of_figure_2_has_six_islands_and_a_sea():
     assert 1 / numbers["rotation"] == pytest.approx(5.5876195834, rel=1e-9)
 
 
-def test_no_orbit_is_chaotic_near_rest():
+def test_near_rest_no_orbit_is_chaotic_and_rotation_numbers_near_zero_make_no_chain():
     numbers = cell.cell(0.2, -1.4, 40, 1000)
     assert numbers["regular"] == 1.0 and math.isnan(numbers["exponent"])
-
-
-def test_rotation_numbers_near_zero_make_no_chain():
     numbers = cell.cell(0.2, -2.49999999, 20, 400)
     assert numbers["rotation"] < 1e-4 and numbers["chain_period"] == 0
 
@@ -132,8 +129,8 @@ def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
 def joined(size):
     """The dataset of the small sweep, computed in blocks of this size."""
     sweep = SMALL | {"block": size}
-    parts = [blocks.block_of_cells_of_a_sweep(**part) for part in grid.parts(sweep)]
-    return blocks.cells_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
+    parts = [cell.block_of_cells_of_a_sweep(**part) for part in kinds.parts(sweep)]
+    return cell.cells_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
 
 
 def test_the_size_of_blocks_does_not_change_the_bytes():
@@ -142,7 +139,7 @@ def test_the_size_of_blocks_does_not_change_the_bytes():
 
 def test_the_dataset_has_each_cell_at_its_coordinates_with_the_bits_that_it_has_alone():
     data = joined(4)
-    assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.PERIODS}
+    assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.MAX_ISLANDS}
     assert set(data.data_vars) == set(cell.VARIABLES)
     for k, energy in product(SMALL["k"], SMALL["energy"]):
         here = data.sel(k=k, energy=energy)

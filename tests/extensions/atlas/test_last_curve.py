@@ -22,13 +22,9 @@ def test_convergents_of_noble_numbers():
         assert abs(p / q - last_curve.value(noble)) < 1.0 / (q * q)
 
 
-@pytest.fixture(scope="module")
-def edge():
+def test_residues_on_either_side_of_breakup():
     nobles = [[0, 5, 1, 15], [0, 5, 1, 17]]
-    return last_curve.last_curve(BALL, ENERGY, 6, (-0.2, -0.0325639), 60_000, 100, nobles)
-
-
-def test_residues_on_either_side_of_breakup(edge):
+    edge = last_curve.last_curve(BALL, ENERGY, 6, (-0.2, -0.0325639), 60_000, 100, nobles)
     size = np.abs(edge["residue"].values)
     assert edge["period"].values.min() >= 50
     assert size[0, -1] < 0.01 < 0.1 * size[0, 1]
@@ -39,21 +35,14 @@ def test_residues_on_either_side_of_breakup(edge):
     )
 
 
-@pytest.mark.parametrize("noble, convergent", [(0, 0), *slowly((1, 1))])
-def test_a_residue_is_that_of_newtons_method_in_sixty_digits(edge, noble, convergent):
-    orbit = edge.isel(noble=noble, convergent=convergent)
-    period, turns = int(orbit["period"]), int(orbit["turns"])
-    start = BALL.start(float(orbit["place"]), ENERGY)
+@pytest.mark.parametrize(("turns", "period"), [(4, 23), *slowly((19, 113))])
+def test_a_residue_is_that_of_newtons_method_in_sixty_digits(turns, period):
+    orbit = last_curve.OrbitSearch(BALL, ENERGY, (-0.2, -0.0325639)).orbit(turns, period)
+    start = BALL.start(orbit.start, ENERGY)
     (x, v, w), product = periodic_point(BALL, ENERGY, start, period)
     assert abs(float(v - w * BALL.k)) < 1e-10 and abs(float(x) - start[0]) < 1e-9
-    assert math.gcd(turns, period) == 1
     residue = float((3 - product[0, 0] - product[1, 1] - product[2, 2]) / 4)
-    assert float(orbit["residue"]) == pytest.approx(residue, rel=1e-3)
-
-
-def test_rotation_numbers_that_no_orbit_has_are_refused():
-    with pytest.raises(ValueError, match=r"no symmetric orbit of rotation number 1/5 = 0.2"):
-        last_curve.last_curve(BALL, ENERGY, 2, (-0.2, -0.1), 100, 10, [[0, 4, 1]])
+    assert orbit.residue == pytest.approx(residue, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -75,7 +64,14 @@ def test_a_noble_number_between_two_numbers():
         assert min(ends) < last_curve.value(noble) < max(ends)
 
 
-@pytest.mark.parametrize("between", [(0.55, 0.65), (-0.4, -0.3)])
-def test_a_part_without_the_last_curve_is_refused(between):
-    with pytest.raises(ValueError, match=r"^between = .* is not allowed: begin among curves"):
-        last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10)
+@pytest.mark.parametrize(
+    ("between", "nobles", "message"),
+    [
+        ((0.55, 0.65), None, "^between = .* is not allowed: begin among curves"),
+        ((-0.4, -0.3), None, "^between = .* is not allowed: begin among curves"),
+        ((-0.2, -0.1), [[0, 4, 1]], "no symmetric orbit of rotation number 1/5 = 0.2"),
+    ],
+)
+def test_parts_without_the_last_curve_or_an_orbit_are_refused(between, nobles, message):
+    with pytest.raises(ValueError, match=message):
+        last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10, nobles)

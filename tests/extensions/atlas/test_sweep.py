@@ -23,11 +23,6 @@ SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 2
 BOTH = ["png", "svg"]
 
 
-def specs():
-    """Build specifications of a sweep of six cells."""
-    return build_specs(checked(plane=SMALL), ["atlas"])
-
-
 def checked(**sweeps):
     return config.check(of_scenes("fig3", sweeps=sweeps))
 
@@ -52,11 +47,12 @@ def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
     monkeypatch.setattr(parts, "PAUSE", 0.0)
     first, second, third = (paths.part_path("results/atlas/sweep_plane.nc", i) for i in range(3))
     other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
-    progress = parts.Parts(specs() | {other.result: other}, {second, third, other.result})
+    specs = build_specs(checked(plane=SMALL), ["atlas"])
+    progress = parts.Parts(specs | {other.result: other}, {second, third, other.result})
     assert progress.done(second) == "plane: 2 of 3 blocks"
     assert progress.done(third) == "plane: 3 of 3 blocks"
     monkeypatch.setattr(parts, "PAUSE", 1000.0)
-    progress = parts.Parts(specs(), {first, second, third})
+    progress = parts.Parts(specs, {first, second, third})
     lines = [progress.done(path) for path in (first, second, third)]
     assert lines == ["plane: 1 of 3 blocks", None, "plane: 3 of 3 blocks"]
     assert parts._duration(9971) == "2 h 46 min" and parts._duration(183) == "3 min 3 s"
@@ -72,17 +68,14 @@ def set_sweep(tree, block):
     tree.write(tree.document() | {"sweeps": {"small": block}})
 
 
-def data(tree):
-    """Return the files of the sweep's data."""
-    return list((tree.path / "results" / "atlas").rglob("*.nc"))
-
-
 def hashes(tree):
-    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in data(tree)}
+    files = (tree.path / "results" / "atlas").rglob("*.nc")
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
 def times(tree):
-    return {file.name: file.stat().st_mtime_ns for file in data(tree)}
+    files = (tree.path / "results" / "atlas").rglob("*.nc")
+    return {file.name: file.stat().st_mtime_ns for file in files}
 
 
 @pytest.mark.slow

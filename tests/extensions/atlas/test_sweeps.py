@@ -5,7 +5,7 @@ import pytest
 from documents import complaint, good
 from project import SHIPPED
 
-from extensions.atlas import grid
+from extensions.atlas import kinds
 from pipeline import config
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
@@ -36,7 +36,7 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
     sweeps = {n: s.as_mapping() for n, s in config.load(SHIPPED).variants["atlas"].items()}
     assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
     assert sweeps["line"]["k"] == [0.2]
-    assert sum(len(part["cells"]) for part in grid.parts(sweeps["plane"])) == 160 * 160
+    assert sum(len(part["cells"]) for part in kinds.parts(sweeps["plane"])) == 160 * 160
 
 
 @pytest.mark.parametrize(

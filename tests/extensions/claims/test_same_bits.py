@@ -15,7 +15,7 @@ SMALL = """
 from dataset_hash import content_hash
 from pseudorigid import Ball
 from extensions.claims.analyses import clusters, control, flux, jumps, rotation, spread
-from extensions.atlas import blocks, last_curve
+from extensions.atlas import cell, last_curve
 ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
 for dataset in (
     spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),
@@ -25,7 +25,7 @@ for dataset in (
     jumps.jumps(ball, 0.01, [0.0018], 60),
     flux.flux(ball, 0.01, 6, 5e-3, 60, sea, 13, 300),
     last_curve.last_curve(ball, 0.01, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
-    blocks.block_of_cells_of_a_sweep([[0.2, 6.25], [0.1, 0.3]], 20, 2000),
+    cell.block_of_cells_of_a_sweep([[0.2, 6.25], [0.1, 0.3]], 20, 2000),
 ):
     print(content_hash(dataset))
 """

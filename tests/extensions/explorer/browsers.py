@@ -21,7 +21,7 @@ _TIMEOUT = 180  # seconds that a script may take
 
 
 @contextmanager
-def started(name, folder, width=1200, height=900):
+def started(name, folder, width=1400, height=1000):
     """Start a browser with its profile in `folder`; skip the test if it is not installed."""
     missing = [program for program in PROGRAMS[name] if not shutil.which(program)]
     if missing:

@@ -1,4 +1,4 @@
-"""Browsers and pages of the tests of the explorer."""
+"""Browsers and pages of the tests of the explorer. A browser is started once for all tests."""
 
 import browsers
 import pytest
@@ -11,35 +11,54 @@ from extensions.explorer import page
 from pipeline import config
 
 
-@pytest.fixture(scope="module", params=["chromium", *slowly("firefox")])
-def browser(request, tmp_path_factory):
-    """A browser on a page that has the kernel, and functions to read and write arrays."""
-    folder = tmp_path_factory.mktemp(request.param)
-    file = folder / "page.html"
+@pytest.fixture(scope="session")
+def chromium(tmp_path_factory):
+    with browsers.started("chromium", tmp_path_factory.mktemp("chromium")) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="session")
+def firefox(tmp_path_factory):
+    with browsers.started("firefox", tmp_path_factory.mktemp("firefox")) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="session", params=["chromium", *slowly("firefox")])
+def either(request):
+    """Chromium, then Firefox."""
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(scope="session")
+def kernel_page(tmp_path_factory):
+    """The address of a page that has the kernel, and functions to read and write arrays."""
+    file = tmp_path_factory.mktemp("kernel") / "page.html"
     script = f"<script>{page.kernel_scripts()}\n{SCRIPT}</script>"
     file.write_text(f'<!doctype html><meta charset="utf-8">{script}', encoding="utf-8")
-    with browsers.started(request.param, folder / "profile") as opened:
-        opened.open(file.as_uri())
-        yield opened
-
-
-@pytest.fixture(scope="module")
-def address(tmp_path_factory):
-    file = tmp_path_factory.mktemp("page") / "explorer.html"
-    file.write_text(page.render(config.load(SHIPPED)), encoding="utf-8")
     return file.as_uri()
 
 
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory):
-    with browsers.started("chromium", tmp_path_factory.mktemp("chromium"), 1400, 1000) as browser:
-        yield browser
+@pytest.fixture
+def browser(either, kernel_page):
+    """A browser on the page of the kernel."""
+    if either.run("return location.href") != kernel_page:
+        either.open(kernel_page)
+    return either
+
+
+@pytest.fixture(scope="session")
+def address(tmp_path_factory):
+    """The address of the explorer."""
+    file = tmp_path_factory.mktemp("page") / "explorer.html"
+    file.write_text(page.render(config.load(SHIPPED)), encoding="utf-8")
+    return file.as_uri()
 
 
 @pytest.fixture
 def person(chromium, address, request):
     """Someone who opens the page, or one of its addresses; nothing may go wrong until the end."""
     chromium.resize(1400, 1000)
+    chromium.errors()  # of tests before
     user = Person(chromium, address)
     user.open(getattr(request, "param", ""))
     yield user

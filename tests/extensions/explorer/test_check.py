@@ -18,14 +18,15 @@ RESOURCES = "return performance.getEntriesByType('resource').map(entry => entry.
 
 
 @pytest.fixture
-def opened(browser, tmp_path):
+def opened(either, tmp_path):
     """A function that opens the page from a file in a browser."""
 
     def show():
         (tmp_path / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
-        browser.open((tmp_path / "explorer.html").as_uri())
-        return browser
+        either.open((tmp_path / "explorer.html").as_uri())
+        return either
 
+    either.errors()  # of tests before
     return show
 
 

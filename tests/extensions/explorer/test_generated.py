@@ -14,14 +14,17 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from project import ROOT, SHIPPED
+from report_pages import Outline, rendered
 
-from extensions.explorer import atlas, data, page
 from extensions.explorer import command as explore
+from extensions.explorer import data, page
 from extensions.explorer.command import EXPLORER
 from extensions.explorer.compiled import build
 from pipeline import config
+from pipeline.checks.manifest import describe_data
 from pipeline.cli.arguments import Arguments
 from pipeline.config.schema.kinds import KINDS
+from pipeline.records.artifacts import load
 
 
 @pytest.fixture(scope="module")
@@ -82,12 +85,12 @@ def test_only_the_scripts_of_the_page_may_run(text):
 def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     """Another folder, locale, time zone and order of sets."""
     tree = tmp_path / "another place"
-    for part in ("src", "paper_figures", "pyproject.toml", "CITATION.cff", "config.yaml"):
-        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
-        tree.mkdir(exist_ok=True)
-        copy(ROOT / part, tree / part)
+    machine_code = shutil.ignore_patterns("*.nb?")
+    shutil.copytree(ROOT / "src", tree / "src", ignore=machine_code)
+    shutil.copytree(ROOT / "paper_figures", tree / "paper_figures")
+    for file in ("pyproject.toml", "CITATION.cff"):
+        shutil.copy(ROOT / file, tree)
     shutil.copy(SHIPPED, tree / "config.yaml")
-    (tree / "docs").mkdir()
     settings = {"PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
     subprocess.run(
         [sys.executable, "-m", "extensions.explorer.page"],
@@ -143,52 +146,44 @@ def test_data_cannot_end_their_script(text):
 
 def test_the_atlas_has_the_values_of_a_sweep():
     """Each share is rounded to a step; one that is missing stays so."""
-    stored = atlas.stored()
+    stored = json.loads(data.ATLAS.read_text())
     k, energy = (np.array(stored[name]) for name in ("k", "energy"))
     steps = np.frombuffer(base64.b64decode(stored["regular"]), np.uint8)
     assert steps.size == k.size * energy.size
     assert np.all(np.diff(k) > 0) and np.all(np.diff(energy) > 0)
-    assert np.all((steps <= atlas.STEPS) | (steps == atlas.MISSING))
-    if (ROOT / "results/atlas/sweep_plane.nc").is_file() and not changed_sweep():
-        assert atlas.rounded() == stored
+    assert np.all((steps <= data.STEPS) | (steps == data.MISSING))
+    sweep = ROOT / "results/atlas/sweep_plane.nc"
+    committed = json.loads((ROOT / "more_figures/atlas/MANIFEST.json").read_text())["data"]
+    if sweep.is_file() and describe_data(load(sweep)) == committed[sweep.name]:
+        assert data.rounded_atlas() == stored
 
 
-def changed_sweep():
-    """Whether the sweep here is not the published one."""
-    from pipeline.checks.manifest import describe_data
-    from pipeline.records.artifacts import load
-
-    committed = json.loads((ROOT / "more_figures/atlas/MANIFEST.json").read_text())
-    here = describe_data(load(ROOT / "results/atlas/sweep_plane.nc"))
-    return committed["data"]["sweep_plane.nc"]["variables"] != here["variables"]
-
-
-KERNEL = "src/pseudorigid/kernel/flight.py"
-
-
-def test_explore_writes_the_page_and_opens_it(tmp_path, tree):
-    """A comment in the kernel changes nothing."""
-    browser = tmp_path / "browser"
-    browser.write_text(f"#!/bin/sh\necho \"$1\" > '{tmp_path}/opened'\n")
-    browser.chmod(0o755)
-    result = tree.run("explore", "--no-open", BROWSER=str(browser))
-    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: open it in a browser")
-    assert not (tmp_path / "opened").exists()
-    written = (tree.path / EXPLORER).read_bytes()
-    with (tree.path / KERNEL).open("a") as file:
-        file.write("\n# A comment.\n")
-    result = tree.run("explore", BROWSER=str(browser))
-    assert result.stdout.startswith(f"{EXPLORER}  0.2 MB: opened in a browser")
-    assert (tmp_path / "opened").read_text().strip() == (tree.path / EXPLORER).as_uri()
-    assert (tree.path / EXPLORER).read_bytes() == written
-    tree.run("clean", "--yes")
-    assert not (tree.path / EXPLORER).exists()
+@pytest.mark.parametrize(
+    ("display", "no_open", "done"),
+    [(":0", False, "opened"), (":0", True, "open it"), ("", False, "open it")],
+)
+def test_explore_writes_the_page_and_opens_it(
+    monkeypatch, tmp_path, capsys, text, display, no_open, done
+):
+    for name in ("WAYLAND_DISPLAY", "BROWSER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("DISPLAY", display)
+    opened = []
+    monkeypatch.setattr(explore, "ROOT", tmp_path)
+    monkeypatch.setattr(explore, "locked", nullcontext)
+    monkeypatch.setattr(page, "render", lambda checked: text)
+    monkeypatch.setattr(explore.webbrowser, "open", lambda uri: opened.append(uri) or True)
+    assert explore.run(Arguments(no_open=no_open, config={})) == 0
+    assert (tmp_path / EXPLORER).read_text(encoding="utf-8") == text
+    assert opened == [(tmp_path / EXPLORER).as_uri()] * (done == "opened")
+    assert capsys.readouterr().out == f"{EXPLORER}  0.2 MB: {done} in a browser\n"
 
 
 def test_an_edit_of_the_kernel_asks_for_another_module(tree):
-    text = (tree.path / KERNEL).read_text()
+    file = tree.path / "src/pseudorigid/kernel/flight.py"
+    text = file.read_text()
     assert text.count("h4 = h2 * h2") == 1
-    (tree.path / KERNEL).write_text(text.replace("h4 = h2 * h2", "h4 = h2 * h2 + 0.0"))
+    file.write_text(text.replace("h4 = h2 * h2", "h4 = h2 * h2 + 0.0"))
     result = tree.run("explore", "--no-open")
     line = r"reproduce: the kernel was edited since .*: run \.venv/bin/python -m \S+build\n"
     assert result.returncode == 1 and re.fullmatch(line, result.stdout)
@@ -208,13 +203,20 @@ def test_the_module_is_compiled_again_to_the_same_bytes():
     assert build.compiled(build.WASM) == build.MODULE.read_bytes()
 
 
-def test_no_display_means_no_browser(monkeypatch, tmp_path):
-    (tmp_path / EXPLORER).parent.mkdir()
-    (tmp_path / EXPLORER).touch()
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(explore, "ROOT", tmp_path)
-    monkeypatch.setattr(explore, "locked", nullcontext)
-    monkeypatch.setattr(explore, "write", lambda checked: None)
-    monkeypatch.setattr(explore.webbrowser, "open", lambda *_: pytest.fail("opened"))
-    assert explore.run(Arguments(no_open=False, config={})) == 0
+def links(html):
+    return [a["href"] for a in Outline(html).all("a") if "explorer.html" in a["href"]]
+
+
+def test_a_link_opens_the_scene_of_a_figure(reported):
+    found = links(rendered(reported))
+    assert "../explorer.html" in found
+    assert all(link.startswith("../explorer.html") for link in found)
+    assert (reported.path / "results/explorer.html").is_file()
+    opened = {link.partition("#")[2] for link in found} - {""}
+    scenes = {*data.collect(config.load(reported.config), reported.path)["scenes"]}
+    assert {"fig3", "fig6", "fig7", "low/fig3"} <= opened <= scenes
+
+
+def test_in_the_site_the_explorer_is_beside_the_report(reported):
+    found = links(rendered(reported, beside={"Article": "article.html"}))
+    assert found and all(link.startswith("explorer.html") for link in found)

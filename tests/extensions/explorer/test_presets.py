@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 import yaml
-from person import DISK
 from project import fresh_tree, shipped, wait_for
 
-from pipeline import config
 from pipeline.records.artifacts import load
-from pseudorigid import Ball
-from pseudorigid.dynamics.orbits import scene_orbits
 
 
 def copied(person, kind):
@@ -22,23 +18,6 @@ def copied(person, kind):
     assert block["picture"] == kind
     assert max(map(len, text.splitlines())) <= 100
     return name, block
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("person", [f"{DISK}&next=300"], indirect=True)
-def test_orbits_of_two_clicks_are_copied(person, tmp_path):
-    person.click(0.4, 0.3)
-    person.click(-0.2)
-    assert len(person.settled()) == 2
-    places = [start.split(":") for start in person.starts()]
-    assert np.allclose([*map(float, places[0]), float(places[1][0])], [0.4, 0.3, -0.2], atol=0.01)
-    name, block = copied(person, "portrait")
-    document = shipped() | {"scenes": {name: block}, "variants": {}}
-    (tmp_path / "config.yaml").write_text(yaml.safe_dump(document))
-    block = config.load(tmp_path / "config.yaml").variants["paper"][name].as_mapping()
-    orbits = scene_orbits(Ball(**block["ball"]), block["energy"], block["starts"], block["impacts"])
-    for variable, values in person.every_point().items():
-        assert np.array_equal(orbits[variable].values, values)
 
 
 @pytest.mark.slow  # it draws eight figures

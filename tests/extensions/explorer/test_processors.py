@@ -9,10 +9,8 @@ import pytest
 from doubles import bits
 from sections import sea
 
-from extensions.explorer.compiled import build
+from extensions.explorer.compiled import build, entry_points
 from pseudorigid import Ball, orbit
-from pseudorigid.kernel import arithmetic, impact
-from pseudorigid.kernel.spectrum import push_frame, with_logarithms
 from study import states
 
 BALL, ENERGY = states.BALL, states.ENERGY
@@ -54,23 +52,11 @@ int main(void) {
 """
 
 
-def followed(start):
-    """The 24 doubles of an orbit that has been followed, by numba's kernel."""
-    x, v, w = start
-    k, g, coefficients = BALL.k, BALL.g, impact.impact_coefficients(BALL.k)
-    vector, grown = np.array([0.0, k * w, -v]), 0.0
-    frame, lengths = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (1.0, 1.0, 1.0)
-    sums = (0.0, 0.0, 0.0)
-    for _ in range(FOLLOWED):
-        x, v, w, tau, *flight, _ = impact.step_with_flight(x, v, w, k, g, coefficients, None)
-        vector = np.array(impact.tangent(*vector, k, g, coefficients, x, w, *flight))
-        length = float(abs(vector[0]) + abs(vector[1]) + abs(vector[2]))
-        if not 1e-50 < length < 1e50:
-            grown += arithmetic.log(length)
-            vector = vector / length
-        *frame, lengths, sums = push_frame(*frame, lengths, sums, k, g, coefficients, x, w, *flight)
-    first = with_logarithms(sums, lengths)[0]
-    return [x, v, w, *vector, *sum(frame, ()), *lengths, *sums, tau, grown, first]
+def followed(begin):
+    """The 24 doubles of an orbit that this processor has followed, from those at its start."""
+    orbit = [tuple(map(tuple, np.reshape(begin, (8, 3)).tolist()))]
+    entry_points.follow(orbit, BALL.k, BALL.g, FOLLOWED, np.empty(5 * FOLLOWED))
+    return np.ravel(orbit[0])
 
 
 def angles():
@@ -106,12 +92,11 @@ def test_another_processor_gives_the_same_bits(processor, triple, tmp_path):
     result = subprocess.run(command, input=np.array(given).tobytes(), stdout=-1, check=True)
     theirs = np.split(np.frombuffer(result.stdout), np.cumsum([4 * IMPACTS, 24, 4 * 264]))
     ours = orbit(BALL, start, IMPACTS)
-    table = np.array([(*arithmetic.sincos(t), arithmetic.log(t)) for t in angles().tolist()])
     expected = (
         np.array([ours[name].values for name in ("x", "xdot", "udot", "tau")]),
-        np.array(followed(start)),
+        followed(begin),
         Ball(BALL.k, BALL.g).after(many, TOGETHER),
-        table,
+        np.array([*map(entry_points.elementary, angles().tolist())]),
     )
     for mine, other in zip(expected, theirs, strict=True):
         assert np.array_equal(bits(mine.ravel()), bits(other))

@@ -127,10 +127,11 @@ def test_only_another_archive_is_replaced(accepted, packed, tmp_path):
 def test_a_damaged_archive_is_refused_in_one_line(packed, tmp_path):
     good, path = packed.read_bytes(), tmp_path / "a.tar"
     in_data = good.index(b"\x89HDF") + 9000
-    changed = good[:in_data] + b"!" + good[in_data + 1 :]
-    for content in (b"", b"text", good[: len(good) // 2], good[:-12000], changed):
+    for content, words in (
+        (good[: len(good) // 2], "(no archive|not made by)"),
+        (good[:in_data] + b"!" + good[in_data + 1 :], "damaged: results/paper/"),
+    ):
         path.write_bytes(content)
-        words = "damaged: results/paper/" if content == changed else "(no archive|not made by)"
         with pytest.raises(archive.ArchiveError, match=rf"a.tar: {words}[^\n]+$"):
             archive.read(path)
 

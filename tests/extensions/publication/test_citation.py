@@ -3,17 +3,18 @@
 import yaml
 from project import check_jsonschema
 
-from extensions.publication import citation
+from extensions.publication.article import numbers
 from pipeline import config
 from pipeline.checks import manifest, published_sets
 from pipeline.records.sources import ROOT
 
 
 def test_the_citation_fits_the_official_schema(tmp_path):
-    whole, schema = (ROOT / citation.CITATION).read_text(), "vendor.citation-file-format"
+    file, schema = tmp_path / numbers.CITATION, "vendor.citation-file-format"
+    whole = (ROOT / numbers.CITATION).read_text()
     for text, expected in ((whole, 0), (whole.replace("license:", "licence:"), 1)):
-        (tmp_path / citation.CITATION).write_text(text)
-        status, output = check_jsonschema("--builtin-schema", schema, tmp_path / citation.CITATION)
+        file.write_text(text)
+        status, output = check_jsonschema("--builtin-schema", schema, file)
         assert status == expected, output
 
 
@@ -29,16 +30,17 @@ def test_each_published_figure_is_in_the_codecheck_manifest():
 
 
 def test_what_nobody_has_given_is_listed_until_it_is_given():
-    facts = citation.read()
-    assert "doi, of the archived software" in citation.missing(facts)
-    assert "ORCIDs of the authors" in citation.missing(facts)
-    author = {"given-names": "Ann", "family-names": "Bee", "orcid": "https://orcid.org/0-1"}
+    facts = numbers.read_citation()
+    assert {"doi, of the archived software", "ORCIDs of the authors"} <= {*numbers.missing(facts)}
     facts |= {
-        "authors": [author],
+        "authors": [
+            {"given-names": "Ann", "family-names": "Bee", "orcid": "https://orcid.org/0-1"}
+        ],
         "doi": "10.1/x",
         "repository-code": "https://example.org/x",
         "date-released": "2026-01-01",
     }
-    assert not citation.missing(facts)
-    assert citation.name_of(author) == "Ann Bee"
-    assert citation.addresses(facts) == ["https://example.org/x", "https://doi.org/10.1/x"]
+    stated = numbers._of_citation(facts)
+    assert not stated["missing"]
+    assert stated["authors"] == [{"name": "Ann Bee", "orcid": "https://orcid.org/0-1"}]
+    assert stated["addresses"] == ["https://example.org/x", "https://doi.org/10.1/x"]

@@ -9,7 +9,8 @@ import sys
 import pytest
 from project import ROOT, run
 
-from extensions.publication import archive, downloads
+from extensions.publication import archive
+from extensions.publication.commands.archive import download, requirements_for
 from pipeline import config
 from pipeline.cli.packages import wheels
 from pipeline.cli.session import UsageError
@@ -21,7 +22,7 @@ PYTHON = ".".join(platform.python_version_tuple()[:2])
 def test_the_conditions_of_requirements_are_those_of_the_other_python(
     python, tmp_path, monkeypatch
 ):
-    lines = downloads.requirements_for("lock", python)
+    lines = requirements_for("lock", python)
     names = [line.partition("==")[0] for line in lines]
     assert "greenlet" in names and "pyreadline3" not in names
     assert all(" --hash=sha256:" in line and ";" not in line for line in lines)
@@ -29,7 +30,7 @@ def test_the_conditions_of_requirements_are_those_of_the_other_python(
     (tmp_path / "requirements").mkdir()
     (tmp_path / "requirements" / "lock.txt").write_text(conditions)
     monkeypatch.setattr(wheels, "ROOT", tmp_path)
-    assert len(downloads.requirements_for("lock", python)) == (2 if python == "3.11" else 0)
+    assert len(requirements_for("lock", python)) == (2 if python == "3.11" else 0)
 
 
 @pytest.mark.parametrize(
@@ -53,7 +54,7 @@ def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accept
     checked, sums = config.load(tree.config), []
     for name in ("one.tar", "two.tar"):
         try:
-            packages = downloads.download(tmp_path / f"packages of {name}", PYTHON)
+            packages = download(tmp_path / f"packages of {name}", PYTHON)
         except UsageError as error:
             pytest.skip(str(error))
         sums.append(archive.write(tree.path, checked, tmp_path / name, packages))

@@ -1,15 +1,18 @@
-"""./reproduce site: the folder is replaced whole, and nothing of a user is deleted."""
+"""./reproduce site and article: what is not as committed is not published, nothing is deleted."""
 
 import re
 from contextlib import nullcontext
 
 import pytest
+from archives import DATA, forge
 from project import SHIPPED
 
-from extensions.publication.commands import site
+from extensions.publication.commands import article, site
 from pipeline import config
+from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.commands import clean
+from pipeline.cli.session import UsageError
 
 
 def write(folder, *names):
@@ -36,12 +39,20 @@ def test_a_file_that_the_command_did_not_write_is_refused(tmp_path, name):
         site._refuse_others(tmp_path)
 
 
-def test_without_committed_figures_no_site_is_written(moved):
-    (moved.path / "paper_figures" / "SHA256SUMS").unlink()
-    result = moved.run("site")
-    assert result.returncode == 1
-    assert "reproduce: site: " in result.stdout
-    assert not list((moved.path / "results").glob("*site*"))
+@pytest.mark.parametrize("command", [site, article])
+def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
+    command, moved, monkeypatch
+):
+    """One was edited by hand: its record fits, only the manifest tells."""
+    forge(moved, DATA)
+    monkeypatch.setattr(command, "ROOT", moved.path)
+    monkeypatch.setattr(command, "locked", nullcontext)
+    monkeypatch.setattr(figures, "make", lambda *_: 0)
+    args = Arguments(config=config.load(moved.config), dry_run=False, options=[])
+    name = command.__name__.rpartition(".")[2]
+    with pytest.raises(UsageError, match=rf"^{name}: [^\n]*{DATA}[^\n]*$"):
+        command.run(args)
+    assert not [*(moved.path / "results").glob("*site*"), *moved.path.glob("results/article*")]
 
 
 def test_clean_deletes_what_was_published_and_nothing_else(tmp_path, monkeypatch):

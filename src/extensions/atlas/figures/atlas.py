@@ -90,7 +90,7 @@ def cells(
     """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
-    first, last = raster.outer_edges(sweep["k"])
+    first, *_, last = raster.edges(sweep["k"])
     up = linear(first, last, 7, "$k$")
     panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
     panel.minor()
@@ -226,9 +226,10 @@ def _energy_axis(values: Sequence[float]) -> Axis:
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
     name = r"$E/g^2$"
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        first, last = raster.outer_edges(values)
+        first, *_, last = raster.edges(values)
         return linear(first, last, 5, name)
-    axis = decades(raster.outer_edges(log10(values)), name)
+    first, *_, last = raster.edges(log10(values)).tolist()
+    axis = decades((first, last), name)
     return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
 
 

@@ -78,9 +78,3 @@ def edges(values: Sequence[float] | np.ndarray) -> np.ndarray:
         return np.array([values[0] - 0.5, values[0] + 0.5])
     middle = 0.5 * (values[1:] + values[:-1])
     return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
-
-
-def outer_edges(values: Sequence[float] | np.ndarray) -> tuple[float, float]:
-    """Return the first and the last border of cells."""
-    first, *_, last = edges(values).tolist()
-    return first, last

@@ -4,9 +4,8 @@ They take doubles, 32-bit counts, and addresses in the module's memory. k, g and
 `pseudorigid.Ball`, and are not checked.
 """
 
-from numba import int64
+from numba import carray, int64  # type: ignore[attr-defined] # numba marks no exports
 from numba.extending import register_jitable
-from numba.np.numpy_support import carray
 
 from pseudorigid.kernel import arithmetic, formulas, impact, lanes, spectrum
 

@@ -1,13 +1,17 @@
-"""What article.typ takes from the results, as JSON: numbers, verdicts, captions and hashes."""
+"""What article.typ takes from the results, as JSON: numbers, verdicts, captions and hashes.
+
+Title, authors and addresses are those of CITATION.cff, a file in the Citation File Format.
+"""
 
 import hashlib
 import json
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+
+import yaml
 
 from extensions.claims import ledger as claims
 from extensions.claims.ledger.schema import VERDICT_WORDS
@@ -17,10 +21,11 @@ from pipeline.checks.quantities import measured, printed
 from pipeline.checks.report.captions import caption_of
 from pipeline.config import PAPER, PUBLISHED, Config
 from pipeline.records.files import read_text
+from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.paper import EXPONENT
 
-from .. import citation
-
+CITATION = "CITATION.cff"
+_ADDRESSES = {"repository-code": "{}", "doi": "https://doi.org/{}"}  # of CITATION.cff
 _HASH_DIGITS = 16  # of a dataset's hash
 Table = dict[str, Any]
 # scene -> axis -> the labels that the paper prints at its ticks
@@ -29,12 +34,31 @@ PRINTED_TICKS: dict[str, dict[str, list[float]]] = tomllib.loads(
 )
 
 
+def read_citation() -> Table:
+    """Return the content of CITATION.cff."""
+    content: Table = yaml.safe_load(read_text(ROOT / CITATION))
+    return content
+
+
+def missing(cff: Table) -> list[str]:
+    """Return what a publication still needs and nobody has given in CITATION.cff, in words."""
+    people = [author for author in cff["authors"] if "family-names" in author]
+    needed = {
+        "names of the authors": bool(people),
+        "ORCIDs of the authors": bool(people) and all("orcid" in person for person in people),
+        "repository-code, the repository's address": "repository-code" in cff,
+        "doi, of the archived software": "doi" in cff,
+        "date-released": "date-released" in cff,
+    }
+    return [words for words, present in needed.items() if not present]
+
+
 def numbers_of(root: Path, config: Config) -> str:
     """Return the JSON text for a tree whose results are current and as committed.
 
     Raises ValueError, which names the file, if a manifest is missing or broken.
     """
-    cff = citation.read()
+    cff = read_citation()
     verdicts = claims.read_json(read_text(root / claims.DATA))
     counts = Counter(row.verdict for row in verdicts)
     sets = published_sets.committed_sets(config)
@@ -51,13 +75,7 @@ def numbers_of(root: Path, config: Config) -> str:
         figures[scene] |= {"rows": _rows(root, config, scene), "settings": entry["config"]}
     return json.dumps(
         {
-            "title": citation.title(cff),
-            "authors": [_author(author) for author in cff["authors"]],
-            "missing": citation.missing(cff),
-            "date": str(cff.get("date-released", "")),
-            "addresses": citation.addresses(cff),
-            "keywords": cff["keywords"],
-            "version": cff["version"],
+            **_of_citation(cff),
             "claims": [asdict(row) for row in verdicts],
             "counts": {word: counts[word] for word in VERDICT_WORDS},
             "statements": claims.checkable(verdicts),
@@ -73,9 +91,19 @@ def numbers_of(root: Path, config: Config) -> str:
     )
 
 
-def _author(author: Table) -> Table:
-    """Return name and ORCID of an author of CITATION.cff."""
-    return {"name": citation.name_of(author), "orcid": author.get("orcid", "")}
+def _of_citation(cff: Table) -> Table:
+    """Return what the article states of CITATION.cff; an author is a person or a group."""
+    names = [a.get("name") or f"{a['given-names']} {a['family-names']}" for a in cff["authors"]]
+    orcids = [author.get("orcid", "") for author in cff["authors"]]
+    return {
+        "title": f"[Re] {cff['references'][0]['title']}",
+        "authors": [{"name": n, "orcid": o} for n, o in zip(names, orcids, strict=True)],
+        "missing": missing(cff),
+        "date": str(cff.get("date-released", "")),
+        "addresses": [form.format(cff[key]) for key, form in _ADDRESSES.items() if key in cff],
+        "keywords": cff["keywords"],
+        "version": cff["version"],
+    }
 
 
 def _source_lines(root: Path) -> dict[str, int]:
@@ -92,15 +120,12 @@ def _rows(root: Path, config: Config, scene: str) -> Table:
     values = measured(root, config.variants, PAPER, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
     axes = config.scenes[scene].given_axes()
-    return rows | {
-        f"ticks, {axis}": {"paper": _listed(ticks), "ours": _listed(axes[axis].ticks)}
-        for axis, ticks in PRINTED_TICKS[scene].items()
-    }
-
-
-def _listed(ticks: list[float]) -> str:
-    """Return the labels of ticks with commas between them."""
-    return ", ".join(f"{tick:g}" for tick in ticks)
+    for axis, ticks in PRINTED_TICKS[scene].items():
+        labels = {"paper": ticks, "ours": axes[axis].ticks}
+        rows[f"ticks, {axis}"] = {
+            who: ", ".join(f"{tick:g}" for tick in given) for who, given in labels.items()
+        }
+    return rows
 
 
 def _figure(
@@ -110,6 +135,12 @@ def _figure(
     caption = caption_of(scene, entry["config"])
     # For print an SVG file if there is one, for the web page the file that loads faster.
     files = [f"{published.folder}/{name}" for name in sorted(entry["figures"])]
+    datasets = []
+    for file in sorted(Path(path).name for path in entry["data"].values()):
+        variables = data[file]["variables"]
+        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
+        digest = hashlib.sha256(digests.encode()).hexdigest()
+        datasets.append({"file": file, "hash": digest[:_HASH_DIGITS]})
     return {
         "title": caption.title[0].upper() + caption.title[1:],
         "shows": caption.shows,
@@ -117,13 +148,5 @@ def _figure(
         "web_file": min(files, key=lambda file: (root / file).stat().st_size),
         "scene": scene,
         "command": published.command,
-        "datasets": list(_datasets(entry["data"].values(), data)),
+        "datasets": datasets,
     }
-
-
-def _datasets(files: Iterable[str], data: Table) -> Iterator[Table]:
-    """Yield file and hash of each dataset of a picture."""
-    for file in sorted(Path(path).name for path in files):
-        variables = data[file]["variables"]
-        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
-        yield {"file": file, "hash": hashlib.sha256(digests.encode()).hexdigest()[:_HASH_DIGITS]}

@@ -16,43 +16,33 @@ style-src 'unsafe-inline'">
 </head>"""
 
 
-class TypesettingError(ValueError):
-    """The article cannot be set. The message is one line."""
-
-
-def typeset(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
-    """Return the PDF of the article, which takes its numbers from a JSON file in `root`.
+def typeset(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
+    """Return the PDF of the article, which takes its numbers from JSON, and pictures from `root`.
 
     The bytes depend on the text, the numbers, the pictures and the version of typst alone. The PDF
-    is tagged (PDF/UA-1). Warnings of typst are errors.
+    is tagged (PDF/UA-1). Errors and warnings of typst are a ValueError of one line.
     """
     return _compiled(root, numbers, source, pdf_standards=["ua-1"])
 
 
-def web_page(root: Path, numbers: Path, source: Path = _SOURCE) -> bytes:
+def web_page(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
     """Return the article as one HTML page, with the figures in it and formulas in MathML."""
     page = _compiled(root, numbers, source, format="html").decode()
     head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
     return page.replace("</head>", head, 1).encode()
 
 
-def _compiled(root: Path, numbers: Path, source: Path, **options: Any) -> bytes:
-    """Return the document that typst compiles; raises TypesettingError for errors and warnings."""
+def _compiled(root: Path, numbers: str, source: Path, **options: Any) -> bytes:
+    """Return the document that typst compiles; raises ValueError for errors and warnings."""
     import typst
 
+    inputs = {"data": numbers, "format": options.get("format", "pdf")}
     try:
         compiled, problems = typst.compile_with_warnings(
-            str(source),
-            root=str(root),
-            ignore_system_fonts=True,
-            sys_inputs={
-                "data": f"/{numbers.relative_to(root)}",
-                "format": options.get("format", "pdf"),
-            },
-            **options,
+            str(source), root=str(root), ignore_system_fonts=True, sys_inputs=inputs, **options
         )
     except (RuntimeError, typst.TypstError) as error:
-        raise TypesettingError(" ".join(str(error).split())) from None
+        raise ValueError(" ".join(str(error).split())) from None
     if problems := [each.message for each in problems if each.message != _KNOWN]:
-        raise TypesettingError("; ".join(problems))
+        raise ValueError("; ".join(problems))
     return compiled.encode() if isinstance(compiled, str) else bytes(compiled)

@@ -1,14 +1,31 @@
-"""./reproduce archive: write the figures and what they were made from into one file."""
+"""./reproduce archive: write the figures and what they were made from into one file.
+
+An archive that runs without a network has the locked packages, which are downloaded first.
+"""
 
 import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from packaging.markers import Marker
 
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import CommandLineError, interruptible, locked, one_line
+from pipeline.cli.packages.wheels import (
+    HASH,
+    logical_lines,
+    pip_environment,
+    pip_settings,
+    sha256_of,
+)
+from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
 from pipeline.records.sources import ROOT
 
-from .. import archive, downloads
+from .. import archive
 
 FOLDER = "results/archive"
+REQUIREMENTS = ("uv", "build", "lock")  # what an installation needs
 
 
 def run(args: Arguments) -> int:
@@ -25,7 +42,57 @@ def run(args: Arguments) -> int:
         if args.with_packages:
             archive.refuse_unpublished(ROOT, args.config)  # before the download
             folder = ROOT / FOLDER / f"packages{name}"
-            packages = downloads.download(folder, python)
+            packages = download(folder, python)
         digest = archive.write(ROOT, args.config, path, packages)
     print(f"{digest}  {file}  {path.stat().st_size / 1e6:.1f} MB")
     return 0
+
+
+def download(folder: Path, python: str) -> list[Path]:
+    """Download the locked packages for a version of Python, such as 3.13, and return the files.
+
+    Files that are in `folder` already are kept. A package without a wheel is downloaded as source.
+    UsageError, with pip's own message, if that fails.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [line for name in REQUIREMENTS for line in requirements_for(name, python)]
+    pip = [sys.executable, "-I", "-m", "pip"]
+    options = ["--no-deps", "--require-hashes", "--quiet", "--progress-bar=off"]
+    options += [f"--dest={folder}", f"--python-version={python}"]
+    with tempfile.TemporaryDirectory() as scratch:
+        requirements = Path(scratch, "requirements.txt")
+        requirements.write_text("\n".join(lines))
+        result = subprocess.run(
+            [*pip, "download", *options, "-r", str(requirements)],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+            env=pip_environment(pip_settings(pip)),
+        )
+    if result.returncode:
+        errors = [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
+        message = (errors or result.stderr.splitlines() or ["pip failed"])[-1]
+        raise UsageError(f"cannot download the packages: {message.removeprefix('ERROR: ')}")
+    wanted = set(HASH.findall("\n".join(lines)))
+    files = [file for file in sorted(folder.iterdir()) if sha256_of(file) in wanted]
+    if len(files) != len(lines):
+        raise UsageError(f"{folder} has {len(files)} packages of {len(lines)}: delete it and retry")
+    return files
+
+
+def requirements_for(name: str, python: str) -> list[str]:
+    """Return the requirements for a version of Python on this machine, without their conditions.
+
+    Pip would evaluate the conditions for the Python that runs it.
+    """
+    target = {"python_version": python, "python_full_version": f"{python}.0"}
+    target |= {"sys_platform": "linux", "platform_system": "Linux"}
+    target["platform_machine"] = platform.machine()
+    needed = []
+    for line in logical_lines(name):
+        pin, _, marker = line.partition(" --hash")[0].partition(";")
+        if not marker or Marker(marker.strip()).evaluate(target):
+            hashes = " ".join(f"--hash=sha256:{digest}" for digest in HASH.findall(line))
+            needed.append(f"{pin.strip()} {hashes}")
+    return needed

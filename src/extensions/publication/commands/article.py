@@ -6,10 +6,9 @@ from pipeline.cli.session import interruptible, locked, one_line
 from pipeline.records.files import write_whole
 from pipeline.records.sources import ROOT
 
-from .. import archive, citation
+from .. import archive
 
 ARTICLE = "results/article.pdf"
-NUMBERS = "results/article/numbers.json"
 
 
 def run(args: Arguments) -> int:
@@ -20,10 +19,9 @@ def run(args: Arguments) -> int:
     from ..article import numbers, typesetting
 
     with locked(), interruptible(), one_line("article: "):
-        write_whole(ROOT / NUMBERS, numbers.numbers_of(ROOT, args.config))
-        pdf = typesetting.typeset(ROOT, ROOT / NUMBERS)
+        pdf = typesetting.typeset(ROOT, numbers.numbers_of(ROOT, args.config))
         write_whole(ROOT / ARTICLE, pdf)
     print(f"{ARTICLE}  {len(pdf) / 1e6:.1f} MB")
-    for words in citation.missing(citation.read()):
-        print(f"to be filled in in {citation.CITATION}: {words}")
+    for words in numbers.missing(numbers.read_citation()):
+        print(f"to be filled in in {numbers.CITATION}: {words}")
     return 0

@@ -68,16 +68,14 @@ def _write(folder: Path, args: Arguments) -> None:
     (folder / PAPER).mkdir(parents=True)
     for file in data:
         shutil.copyfile(file, folder / PAPER / file.name)
-    numbers_file = folder / "numbers.json"
-    numbers_file.write_text(numbers.numbers_of(ROOT, args.config), encoding="utf-8")
+    measured = numbers.numbers_of(ROOT, args.config)
     files = {
         "index.html": _INDEX.read_bytes(),
         "report.html": page.render(ROOT, args.config, _BESIDE).encode(),
         "explorer.html": explorer.render(args.config).replace("</header>", _LINKS, 1).encode(),
-        "article.pdf": typesetting.typeset(ROOT, numbers_file),
-        "article.html": typesetting.web_page(ROOT, numbers_file),
+        "article.pdf": typesetting.typeset(ROOT, measured),
+        "article.html": typesetting.web_page(ROOT, measured),
     }
-    numbers_file.unlink()
     for name, content in files.items():
         (folder / name).write_bytes(content)
 
