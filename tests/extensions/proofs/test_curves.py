@@ -16,9 +16,8 @@ from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, Surface, prove_curve
-from extensions.proofs.checks import circle, curve
-from extensions.proofs.checks.certificate import NotProvedError
-from extensions.proofs.enclosure import complex_flight
+from extensions.proofs.checkers import circle, complex_flight, curve
+from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.search import curve as search
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of

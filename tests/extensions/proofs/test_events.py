@@ -10,10 +10,10 @@ from flint import arb, ctx
 from independent_solver import exact_map
 
 from extensions.proofs import THEOREMS
-from extensions.proofs.checks import events
+from extensions.proofs.checkers import events, fixed_point
 from pseudorigid.dynamics.fixed_point import resonance
 
-CHECKERS = (events.check_resonance, events.check_doubling, events.check_grazing)
+CHECKERS = (fixed_point.check_resonance, events.check_doubling, events.check_grazing)
 EVENTS = [name for name, theorem in THEOREMS.items() if theorem.checker in CHECKERS]
 BOXED = [name for name in EVENTS if "radius" in THEOREMS[name].bounds]
 

@@ -9,10 +9,18 @@ from certificates import numbers, refused, with_field, with_rows
 from flint import acb, arb, ctx
 
 from extensions.proofs import THEOREMS, Surface
-from extensions.proofs.checks import circle, events, graph, hsets, jump, one_zero, periodic
-from extensions.proofs.checks.certificate import NotProvedError, box, holds_throughout
-from extensions.proofs.checks.hsets import HSet
-from extensions.proofs.enclosure import fixed_point
+from extensions.proofs.checkers import (
+    circle,
+    events,
+    fixed_point,
+    graph,
+    hsets,
+    jump,
+    one_zero,
+    periodic,
+)
+from extensions.proofs.checkers.certificate import NotProvedError, box, holds_throughout
+from extensions.proofs.checkers.hsets import HSet
 from study import reference_solver
 from study.enclosure import flight, jets
 from study.enclosure.flight import Flight

@@ -105,7 +105,7 @@ def test_a_theorem_is_checked_again_if_its_certificate_or_the_code_changed(tmp_p
     assert (wrong.returncode, steps(wrong.stdout)) == (1, set())
     edit(certificates / "unstable.toml", "margin = 5.7", "margin = 5.6")
 
-    tree.append("extensions/proofs/checks/periodic.py")
+    tree.append("extensions/proofs/checkers/periodic.py")
     assert steps(tree.succeed("prove", "one-fixed-point", "unstable")) == names - {"fixed-point"}
     assert steps(tree.succeed("prove", "unstable", "--again")) == {"unstable"}
     (certificates / "unstable.toml").unlink()

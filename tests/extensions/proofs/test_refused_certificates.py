@@ -22,15 +22,14 @@ from second_checker import NotProvedError as SecondNotProvedError
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, Surface
-from extensions.proofs.checks import ellipticity, horseshoe, jump, periodic, twist
-from extensions.proofs.checks.certificate import Finding, NotProvedError
-from extensions.proofs.checks.hsets import HSet
-from extensions.proofs.enclosure.newton import enclose_zero
-from extensions.proofs.search import approximate_orbits
+from extensions.proofs.checkers import fixed_point, horseshoe, jump, periodic, twist
+from extensions.proofs.checkers.certificate import Finding, NotProvedError
+from extensions.proofs.checkers.hsets import HSet
+from extensions.proofs.checkers.newton import enclose_zero
 from extensions.proofs.search import horseshoe as horseshoe_search
 from extensions.proofs.search import jump as jump_search
-from extensions.proofs.search.ellipticity import propose as propose_ellipticity
-from extensions.proofs.search.periodic import propose_only_fixed_point
+from extensions.proofs.search.fixed_point import propose_elliptic, propose_unique
+from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
 from pseudorigid import Ball, symmetric_orbits
 from study.enclosure.surface import ball_of
@@ -159,7 +158,7 @@ def test_boxes_of_another_size_and_points_of_another_orbit_are_refused(checker, 
         refused(name, with_field(text, "radius", f'"{40 * radius}"'), checker)
     for rows in (points + points, points[:-1] or points * 2):
         assert f"points, not {period}" in refused(name, with_rows(text, "points", rows), checker)
-    (point,) = approximate_orbits.points(theorem.bounds["surface"], 1, "elliptic")
+    (point,) = approximate_points(theorem.bounds["surface"], 1, "elliptic")
     refused(name, with_rows(text, "points", [map(repr, point)] * period), checker)
 
 
@@ -175,7 +174,7 @@ def test_an_orbit_of_another_type_is_refused(checker):
 ])  # fmt: skip
 def test_an_orbit_run_through_twice_is_no_orbit_of_twice_the_period(prove, at, error):
     constants = [Fraction(value) for value in ("1/3", "1/25", "1/10")]
-    points = approximate_orbits.points(Surface(*constants), 3, "hyperbolic")
+    points = approximate_points(Surface(*constants), 3, "hyperbolic")
     centres = [[Fraction(a) for a in point] for point in points]
     radius = Fraction(1, 10**9)
     assert prove(at(*constants), centres, radius)
@@ -213,34 +212,32 @@ def test_no_jump_is_proved_where_the_map_is_smooth():
 
 def only_fixed_point(k, g, energy):
     """The certificate of one fixed point up to an energy of a ball."""
-    return propose_only_fixed_point(
-        with_bounds(THEOREMS["one-fixed-point"], k=k, g=g, energy=energy)
-    )
+    return propose_unique(with_bounds(THEOREMS["one-fixed-point"], k=k, g=g, energy=energy))
 
 
 def elliptic(k, g, energy, trace):
     """The certificate of an elliptic fixed point up to an energy of a ball."""
     theorem = with_bounds(THEOREMS["fixed-point-elliptic"], k=k, g=g, energy=energy, trace=trace)
-    return propose_ellipticity(theorem)
+    return propose_elliptic(theorem)
 
 
 def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are_three():
     ball, low = (Fraction(1, 5), Fraction(1, 25)), Fraction(1, 100)
     text = only_fixed_point(*ball, low)
-    assert periodic.check_only_fixed_point(text, *ball, low)
+    assert fixed_point.check_unique(text, *ball, low)
     assert "up to 1/100" in refused("one-fixed-point", text)
     assert symmetric_orbits(Ball(k=0.2, g=0.01), 0.03, 1).sizes["orbit"] == 3
     k, g, energy = Fraction(1, 5), Fraction(1, 100), Fraction(3, 100)
     text = only_fixed_point(k, g, energy)
     with pytest.raises(NotProvedError, match="second fixed point is not excluded"):
-        periodic.check_only_fixed_point(text, k, g, energy)
+        fixed_point.check_unique(text, k, g, energy)
 
 
 def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_another_theta():
     ball, trace = (Fraction(1, 5), Fraction(1, 25)), Fraction("-0.46")
     for energy in (Fraction(1, 20), Fraction(61, 1000)):
         text = elliptic(*ball, energy, Fraction("-0.5"))
-        assert ellipticity.check(text, *ball, energy, Fraction("-0.5"))
+        assert fixed_point.check_elliptic(text, *ball, energy, Fraction("-0.5"))
         assert f"up to {energy}" in refused("fixed-point-elliptic", text)
     text = THEOREMS["fixed-point-elliptic"].text()
     for theta, reason in (
@@ -251,7 +248,7 @@ def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_a
     # At k = 1 and this energy the fixed point has long been inverse hyperbolic.
     text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
     with pytest.raises(NotProvedError, match="not proved to be above"):
-        ellipticity.check(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
+        fixed_point.check_elliptic(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
 
 
 @pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (3, 0.5)])

@@ -12,9 +12,9 @@ from sections import BALL
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, Surface, search_certificate
-from extensions.proofs.checks import jump, periodic
+from extensions.proofs.checkers import jump, periodic
+from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
-from extensions.proofs.enclosure.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.theorems.statements import theorem_verdict
 from pipeline import config
 from pipeline.config.build_specs import build_specs
@@ -242,6 +242,6 @@ def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
         sources = specs[f"results/theorems/theorem_{name}.nc"].sources
         certificates = [file for file in sources if file.endswith(".toml")]
         assert certificates == [f"{CERTIFICATES}/{THEOREMS[name].certificate}"]
-        assert {f"src/extensions/proofs/checks/{each}.py" for each in ("curve", "twist")} <= {
+        assert {f"src/extensions/proofs/checkers/{each}.py" for each in ("curve", "twist")} <= {
             *sources
         }

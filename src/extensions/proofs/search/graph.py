@@ -21,7 +21,7 @@ from pseudorigid.dynamics.variables import chart, states_of
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
-from ..checks import graph, hsets
+from ..checkers import graph, hsets
 from .certificate_text import Theorem, header, rows
 from .chains import DoubleMap, Parallelogram, chain
 

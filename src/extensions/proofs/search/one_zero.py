@@ -7,8 +7,8 @@ from flint import ctx
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import ball_of
 
-from ..checks.one_zero import BITS, PLACES, over_band
-from ..enclosure.fixed_point import energy_at
+from ..checkers.fixed_point import energy_at
+from ..checkers.one_zero import BITS, PLACES, over_band
 from .certificate_text import Theorem, ball_header, bisected, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]

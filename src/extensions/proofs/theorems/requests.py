@@ -14,9 +14,8 @@ from pseudorigid.dynamics.variables import chart, states_of
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Exact, Surface, exact
 
-from ..checks import curve, horseshoe, periodic
-from ..checks.certificate import Finding
-from ..search import approximate_orbits
+from ..checkers import curve, horseshoe, periodic
+from ..checkers.certificate import Finding
 from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search
@@ -39,7 +38,7 @@ def prove_orbit(
 
     Returns
     -------
-    checks.periodic.Orbit
+    checkers.periodic.Orbit
         Enclosures `points` (x, y), `impacts` and `trace`; `type`; and `radius`, the largest number
         of one digit for which the orbit is proved to be the only one in boxes of that size.
 
@@ -81,7 +80,7 @@ def prove_horseshoe(
 
     Returns
     -------
-    str, checks.certificate.Finding
+    str, checkers.certificate.Finding
         The certificate, and the result of its checker: digits, margins, parts.
 
     Raises
@@ -127,7 +126,7 @@ def prove_curve(
 
     Returns
     -------
-    str, checks.certificate.Finding
+    str, checkers.certificate.Finding
         The certificate, and the result of its checker. `digits` has enclosures of the curve's
         "rotation number", of the "area" inside it and of its "share" of the section. `parts` has
         "polygons", the vertices (x, y) of a polygon between the fixed point and the curve; no orbit
@@ -190,7 +189,7 @@ def _request(
         if energy is None:
             energy = Fraction(float(orbit.attrs["energy"]))
         surface = Surface(Fraction(ball.k), Fraction(ball.g), exact("energy", energy))
-    near, states = approximate_orbits.ball(surface), states_of(orbit)
+    near, states = orbit_search.nearest_ball(surface), states_of(orbit)
     actual, expected = float(np.ravel(near.energy(*states))[0]), float(surface.energy)
     if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
         raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")

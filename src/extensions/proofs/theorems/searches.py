@@ -1,4 +1,4 @@
-"""The search for a certificate of each theorem: search.X.propose_Y for checks.X.check_Y."""
+"""The search for a certificate of each theorem: search.X.propose_Y for checkers.X.check_Y."""
 
 from importlib import import_module
 
@@ -24,6 +24,6 @@ def search_certificate(name: str) -> str:
     'proved'
     """
     theorem = THEOREMS[name]
-    module = import_module(theorem.checker.__module__.replace(".checks.", ".search."))
+    module = import_module(theorem.checker.__module__.replace(".checkers.", ".search."))
     propose = getattr(module, theorem.checker.__name__.replace("check", "propose"))
     return propose(theorem, **theorem.hints)

@@ -1,4 +1,4 @@
-"""Birkhoff's normal form of an area-preserving map at an elliptic fixed point.
+"""The twist of elliptic orbits: Birkhoff's normal form of an area-preserving map.
 
 In z = q + i p, dx ^ dy = dq ^ dp, the map is z -> lambda z + ..., lambda = exp(-i omega). If y
 pushes x forward (DP[0, 1] > 0) it turns clockwise: 0 < omega < pi. A change of variables
@@ -9,21 +9,31 @@ z + sum h_ij z^i conj(z)^j, degree by degree, leaves only the terms that commute
 if lambda^j != 1 for j up to the order plus one (Siegel and Moser, Lectures on Celestial Mechanics,
 sections 23 and 31). tau_2 depends on how the changes of variables are chosen, but not where
 tau_1 = 0.
+
+README.md has Moser's theorem ("Invariant curves"). The map is analytic near an orbit because its
+enclosure shows that the first root of each flight is simple. tau_1 depends continuously on the
+energy, so it has a zero between two energies at which its signs differ.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import accumulate
 from operator import mul
+from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, ctx
 
 from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface
 
+from . import periodic
+from .certificate import Certificate, Finding, check_stated, lower_bound
 from .periodic import Orbit
 
 I = acb(0, 1)  # noqa: E741
+CLOSE = Fraction(1, 10**9)  # largest relative distance of a certificate's twist from the true one
 
 
 @dataclass(frozen=True)
@@ -120,3 +130,72 @@ def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
             raise NotProvedError("the normal form drifts: the map does not keep area")
         twists.append(term.imag * 2**n)
     return tuple(twists)
+
+
+def check(text: str, surface: Surface, **bounds: Any) -> Finding:
+    """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
+
+    The bounds are those of `periodic.prove_stated`. The twist is in radians per unit of the action
+    (Siegel and Moser, Lectures on Celestial Mechanics, sections 32-34).
+    """
+    with ctx.workprec(periodic.BITS):
+        certificate = Certificate(text, "twist", surface)
+        orbit = periodic.prove_stated(certificate, surface, type="elliptic", **bounds)
+        form = normal_form(surface, orbit)
+        (twist,) = form.twists
+        stated = certificate.number("twist")
+        check_stated("twist", [twist], [stated], CLOSE * abs(stated))
+        if not abs(twist) > 0:
+            raise NotProvedError("the twist may be zero")
+        margins = {"twist": lower_bound(abs(twist)), "nonresonance": lower_bound(form.nonresonance)}
+        return Finding({"twist": twist, "trace": orbit.trace}, margins)
+
+
+def check_zero(
+    text: str, k: Fraction, g: Fraction, *, radius: Fraction, width: Fraction
+) -> Finding:
+    """Prove that the fixed point's twist changes from positive to negative in a band of energies.
+
+    The fixed point must be the only one within the radius, and `width` is the largest width of the
+    certificate's band. The digits are the band, and the second twist over it (Dullin, Meiss and
+    Sterling, Generic twistless bifurcations, Nonlinearity 13, 2000).
+    """
+    with ctx.workprec(periodic.BITS):
+        certificate = Certificate(text, "zero of the twist")
+        low = certificate.surface((k, g))
+        band = certificate.number("width")
+        if not 0 < band <= width:
+            raise NotProvedError(
+                f"the band is {float(band):g} wide, not {float(width):g} as stated"
+            )
+        periodic.prove_stated(certificate, low, period=1, type="elliptic", radius=radius)
+        between = Surface(k, g, low.energy, band)
+        centres = certificate.numbers("points", 2)
+        forms = falling_twist(between, centres, certificate.number("radius"), order=5)
+        second = forms[2].twists[1]
+        if not second < 0:
+            raise NotProvedError("the second twist is not proved to be negative in the band")
+        margins = {
+            "twist": min(lower_bound(forms[0].twists[0]), lower_bound(-forms[1].twists[0])),
+            "second twist": lower_bound(-second),
+            "nonresonance": lower_bound(forms[2].nonresonance),
+        }
+        return Finding({"energy": between.constants()[2], "second twist": second}, margins)
+
+
+def falling_twist(
+    band: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction, order: int
+) -> list[NormalForm]:
+    """Prove that a fixed point's twist is positive at a band's lower end, negative at its upper.
+
+    Returns the normal forms at the two ends and over the whole band, so that the twist is
+    continuous there. Raises NotProvedError.
+    """
+    ends = [Surface(band.k, band.g, energy) for energy in (band.energy, band.energy + band.width)]
+    forms = [
+        normal_form(surface, periodic.prove(surface, centres, radius), order)
+        for surface in (*ends, band)
+    ]
+    if not (forms[0].twists[0] > 0 and forms[1].twists[0] < 0):
+        raise NotProvedError("the twist is not proved to fall through zero in the band")
+    return forms

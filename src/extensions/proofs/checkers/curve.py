@@ -17,8 +17,7 @@ from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
-from ..enclosure import complex_flight
-from . import periodic
+from . import complex_flight, periodic
 from .certificate import Certificate, Finding, Range, Window, lower_bound
 from .circle import Cells, derivative, evaluate, noble, real_values, rotated, transform, values
 from .periodic import Point

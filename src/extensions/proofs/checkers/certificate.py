@@ -142,6 +142,13 @@ def check_stated(
             raise NotProvedError(f"the {name} is not the stated one, near {float(near):.10g}")
 
 
+def check_within(name: str, value: arb, limits: Range) -> None:
+    """Check that an enclosed quantity lies between exact limits."""
+    low, high = limits
+    if not ball_of(low) < value < ball_of(high):
+        raise NotProvedError(f"the {name} is not proved to lie where the statement says")
+
+
 def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: arb) -> bool:
     """Return whether a property is proved on an interval, in pieces not narrower than a width.
 

@@ -10,14 +10,13 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Impact, Surface, ball_of, fraction_of
+from study.enclosure.surface import Impact, Surface, ball_of
 
-from ..enclosure.newton import enclose_zero, newton
 from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound
+from .newton import enclose_zero, newton
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
-_RADIUS = Fraction(1, 10**8)  # of the box in which a fixed point is proved over a band of energies
 
 Point = tuple[arb, arb]  # x and y = xdot - k udot
 
@@ -52,25 +51,6 @@ def check(text: str, surface: Surface, **bounds: Any) -> Finding:
         digits = {"x": x, "xdot": xdot, "udot": udot, "period": period, "trace": orbit.trace}
         margins = {"radius": float(orbit.radius), "trace": lower_bound(abs(abs(orbit.trace) - 2))}
         return Finding(digits, margins, {"orbit": orbit})
-
-
-def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
-    """Prove that the map has one fixed point at each energy from -g^2/(2k) up to a given one.
-
-    This verifies the two inequalities of the argument in README.md.
-    """
-    with ctx.workprec(BITS):
-        certificate = Certificate(text, "only fixed point", ball=(k, g))
-        certificate.check("energy_up_to", energy)
-        theta = certificate.number("theta_below")
-        square = (2 * k * energy / (g * g) + 1) / (1 + k)  # theta^2 is at most this
-        if not (theta - Fraction(1, 100)) ** 2 < square <= theta**2:
-            raise NotProvedError("theta is not proved to be below the stated one")
-        room = 3 * arb.pi() / 2 - ball_of(theta)
-        if not (room > 0 and theta * k < 2):
-            raise NotProvedError("a second fixed point is not excluded")
-        margins = {"theta": lower_bound(room), "earlier": lower_bound(ball_of(2 - theta * k))}
-        return Finding({"energies up to": ball_of(energy)}, margins)
 
 
 def prove_stated(
@@ -120,16 +100,6 @@ def _prove_with_properties(
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
     check_window(surface, orbit, window)
     return orbit
-
-
-def prove_fixed_point_over(
-    k: Fraction, g: Fraction, energy: arb, theta: arb
-) -> tuple[Surface, Orbit]:
-    """Prove the fixed point over a band around an energy's ball; theta is half its flight time."""
-    bottom = fraction_of(energy.lower()) - CLOSE
-    band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
-    x = ball_of(g / k) * theta * theta.cot()
-    return band, prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
 
 
 def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction) -> Orbit:

@@ -23,8 +23,8 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import ball_of
 
-from ..enclosure.fixed_point import energy_at
 from .certificate import Certificate, Finding, Range, lower_bound
+from .fixed_point import energy_at
 
 BITS = 128
 MOST_BANDS = 1000
