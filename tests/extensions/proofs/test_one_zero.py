@@ -90,9 +90,7 @@ def test_a_function_falls_through_zero_once_only():
     plus, minus, falls = (arb(1), arb(0, 9)), (arb(-1), arb(0, 9)), (arb(0, 1), arb(-1))
 
     def margin(rows):
-        return one_zero._margin_of_one_zero(
-            [one_zero._sign_stage(one_zero.Enclosed(*row), "zero") for row in rows], "zero"
-        )
+        return one_zero.margin_of_one_zero([one_zero.Enclosed(*row) for row in rows], "zero")
 
     assert margin([plus, falls, falls, minus, minus]) == 1
     for rows in (

@@ -85,7 +85,7 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
     ("six-elliptic-doubling", "radius", "0", "not 2e-10 as stated"),
     ("fixed-point", "radius", "-4e-3", "not 0.004 as stated"),
     ("twist-six", "twist", "0", "not the stated"),
-    ("twist-zero", "width", "0", "wide"),
+    ("twist-zero", "width", "0", "not at most"),
     ("twist-zero", "energy", "-1/250", "not allowed: above"),
     ("curve-six", "loss", "0.02", "6 times the loss"),
     ("horseshoe-outer", "leaves", 6, "saddles"),

@@ -23,6 +23,7 @@ from .certificate import (
     check_within,
     holds_throughout,
     lower_bound,
+    naming,
 )
 from .newton import System, enclose_zero, solve
 from .periodic import BITS, CLOSE, check_distinct
@@ -91,7 +92,10 @@ def check_grazing(
         system = partial(grazing, k, g, halves=halves)
         values = _prove_event(certificate, system, len(halves), radius)
         check_within("energy", values[0], energies)
-        slopes = [_energy_slope(*system(values, by=by)) for by in ("speed", "gap")]
+        slopes = []  # of the energy, by the contact speed or by the gap, along the zeros
+        for by in ("speed", "gap"):
+            _, rows = system(values, by=by)
+            slopes.append(-solve(rows, [row[len(values)] for row in rows])[0])
         for slope, sign, name in zip(slopes, sides, ("longer", "shorter"), strict=True):
             if not sign * slope > 0:
                 where = "above" if sign > 0 else "below"
@@ -109,14 +113,11 @@ def _prove_event(
 ) -> list[arb]:
     """Prove that a system has one zero in the certificate's box, and enclose it narrowly."""
     centre = certificate.row("event", unknowns)
-    values = enclose_zero(system, box(centre, certificate.radius(radius) + CLOSE))
+    boxes = box(centre, certificate.at_least("radius", radius) + CLOSE)
+    with naming("the box around the event"):
+        values = enclose_zero(system, boxes)
     check_stated("event", values, centre, CLOSE)
     return values
-
-
-def _energy_slope(values: list[arb], slopes: list[list[arb]]) -> arb:
-    """Return the energy's derivative by the last variable, along the zeros of a system."""
-    return -solve(slopes, [row[len(values)] for row in slopes])[0]
 
 
 def _land(flight: Flight, gap: Jet | int = 0) -> tuple[Jet, Jet, Jet]:

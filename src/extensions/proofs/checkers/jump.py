@@ -36,9 +36,7 @@ def check(
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "jump set", surface)
-        size = certificate.number("radius")
-        if not 0 < size <= radius:
-            raise NotProvedError(f"the radius is {float(size):g}, not at most {float(radius):g}")
+        size = certificate.at_most("radius", radius)
         speed = ball_of(certificate.number("speed"))
         points = stated_points(surface, speed)
         transversality = _transversality(surface, speed)

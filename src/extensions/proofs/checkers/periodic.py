@@ -12,7 +12,7 @@ from flint import arb, arb_mat, ctx
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Impact, Surface, ball_of
 
-from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound
+from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound, naming
 from .newton import enclose_zero, newton
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
@@ -68,8 +68,10 @@ def prove_stated(
     than the certificate's by CLOSE, so that they contain the stated boxes around the orbit's own
     points. Raises NotProvedError.
     """
-    centres, size = certificate.numbers("points", 2), certificate.radius(radius)
-    orbit = _prove_with_properties(surface, centres, size + CLOSE, period, type, window)
+    centres, size = certificate.numbers("points", 2), certificate.at_least("radius", radius)
+    _check_count(centres, period, "points")
+    orbit = prove(surface, centres, size + CLOSE)
+    _check_properties(surface, orbit, type, window)
     for point, centre in zip(orbit.points, centres, strict=True):
         check_stated("orbit's point", point, centre, CLOSE)
     return replace(orbit, radius=size)
@@ -81,25 +83,28 @@ def prove_saddles(
     """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
     with ctx.workprec(BITS):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
-        return _prove_with_properties(surface, centres, radius, period, "hyperbolic", window)
+        _check_count(centres, period, "saddles")
+        orbit = prove(surface, centres, radius)
+        _check_properties(surface, orbit, "hyperbolic", window)
+        return orbit
 
 
-def _prove_with_properties(
-    surface: Surface,
-    centres: Sequence[Sequence[Fraction]],
-    radius: Fraction,
-    period: int,
-    type: str,
-    window: Window | None,
-) -> Orbit:
-    """Prove an orbit near the centres, with a prime period, a type and a point in the window."""
+def _check_count(centres: Sequence, period: int, name: str) -> None:
     if len(centres) != period:
-        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-    orbit = prove(surface, centres, radius)
+        raise NotProvedError(f"the certificate has {len(centres)} {name}, not {period}")
+
+
+def _check_properties(surface: Surface, orbit: Orbit, type: str, window: Window | None) -> None:
+    """Check that an orbit has a type, and one of its points in the window, if one is given."""
     if orbit.type != type:
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
-    check_window(surface, orbit, window)
-    return orbit
+    if window is None:
+        return
+    for x, y in orbit.points:
+        sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
+        if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
+            return
+    raise NotProvedError("no point of the orbit is proved to lie in the statement's window")
 
 
 def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction) -> Orbit:
@@ -108,7 +113,8 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
     Raises NotProvedError where no orbit, more than one, or a shorter one cannot be excluded.
     """
     boxes = [a for centre in centres for a in box(centre, radius)]
-    values = enclose_zero(partial(_shooting, surface), boxes)
+    with naming("the boxes around the orbit"):
+        values = enclose_zero(partial(_shooting, surface), boxes)
     orbit = enclose(surface, _pairs(values), radius)
     check_distinct(orbit.points)
     return orbit
@@ -163,14 +169,3 @@ def enclose(
     else:
         raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
     return Orbit(tuple((x, y) for x, y in points), tuple(impacts), matrix, kind, radius)
-
-
-def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
-    """Check that one of the orbit's points is proved to lie in the window, if one is given."""
-    if window is None:
-        return
-    for x, y in orbit.points:
-        sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
-        if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
-            return
-    raise NotProvedError("no point of the orbit is proved to lie in the statement's window")

@@ -29,7 +29,7 @@ from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface
 
 from . import periodic
-from .certificate import Certificate, Finding, check_stated, lower_bound
+from .certificate import Certificate, Finding, check_stated, lower_bound, naming
 from .periodic import Orbit
 
 I = acb(0, 1)  # noqa: E741
@@ -56,14 +56,23 @@ def normal_form(surface: Surface, orbit: Orbit, order: int = 3) -> NormalForm:
     if not all(distance > 0 for distance in distances):
         raise NotProvedError(f"a power of the multiplier up to {order + 1} may be 1")
     nonresonance = min(distances, key=lambda distance: distance.lower())
-    return NormalForm(_twists(multiplier, map_, order), nonresonance)
+    normal = _normalised(multiplier, map_, order, order + 2)
+    twists: list[arb] = []
+    for n in range(1, (order + 1) // 2):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
+        term = normal[n + 1, n] * multiplier.conjugate()
+        drift = term.real if n == 1 else term.real + twists[0] ** 2 / 8
+        if not drift.contains(0):
+            raise NotProvedError("the normal form drifts: the map does not keep area")
+        twists.append(term.imag * 2**n)
+    return NormalForm(tuple(twists), nonresonance)
 
 
 def complex_map(surface: Surface, orbit: Orbit, order: int) -> tuple[acb, Jet]:
     """Return lambda, and the jet of P^n in z and conj(z); the errors are those of `normal_form`."""
     x, y = Jet.plane(order, *orbit.points[0])
-    for _ in orbit.points:
-        x, y, *_ = surface.impact(x, y)
+    with naming("a flight from the orbit"):
+        for _ in orbit.points:
+            x, y, *_ = surface.impact(x, y)
     (a, b), cosine = orbit.matrix.table()[0], orbit.trace / 2
     if not (abs(cosine) < 1 and abs(b) > 0):
         raise NotProvedError("the point is not proved to be elliptic")
@@ -119,19 +128,6 @@ def _normalised(multiplier: acb, map_: Jet, order: int, resonance: int) -> Jet:
     return normal
 
 
-def _twists(multiplier: acb, map_: Jet, order: int) -> tuple[arb, ...]:
-    """Return tau_1, tau_2, ..."""
-    normal = _normalised(multiplier, map_, order, order + 2)
-    twists: list[arb] = []
-    for n in range(1, (order + 1) // 2):  # of exp(i tau_1 I + ...), in |z|^2 = 2 I
-        term = normal[n + 1, n] * multiplier.conjugate()
-        drift = term.real if n == 1 else term.real + twists[0] ** 2 / 8
-        if not drift.contains(0):
-            raise NotProvedError("the normal form drifts: the map does not keep area")
-        twists.append(term.imag * 2**n)
-    return tuple(twists)
-
-
 def check(text: str, surface: Surface, **bounds: Any) -> Finding:
     """Prove that the twist of a certificate's elliptic orbit is the stated one, and not zero.
 
@@ -163,13 +159,8 @@ def check_zero(
     with ctx.workprec(periodic.BITS):
         certificate = Certificate(text, "zero of the twist")
         low = certificate.surface((k, g))
-        band = certificate.number("width")
-        if not 0 < band <= width:
-            raise NotProvedError(
-                f"the band is {float(band):g} wide, not {float(width):g} as stated"
-            )
+        between = Surface(k, g, low.energy, certificate.at_most("width", width))
         periodic.prove_stated(certificate, low, period=1, type="elliptic", radius=radius)
-        between = Surface(k, g, low.energy, band)
         centres = certificate.numbers("points", 2)
         forms = falling_twist(between, centres, certificate.number("radius"), order=5)
         second = forms[2].twists[1]

@@ -22,7 +22,7 @@ from study.enclosure.surface import Surface, fraction_of
 
 from ..checkers.certificate import Finding
 from ..checkers.circle import derivative, noble, real_values, rotated, transform
-from ..checkers.curve import Curve
+from ..checkers.curve import Curve, normal_vector
 from .certificate_text import Theorem, fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
 from .periodic import centre_rows, nearest_ball, points_of, polished
@@ -256,8 +256,8 @@ def _newton_step(
         image, matrix = _power(surface, here[i], len(centres))
         error = [a - b for a, b in zip(image, there[i], strict=True)]
         size = max(size, *(abs(float(a)) for a in error))
-        normals.append(_normal(here[i], tangent[i], centres[0]))
-        after = _normal(there[i], tangent_there[i], centres[0])
+        normals.append(normal_vector(here[i], tangent[i], centres[0])[0])
+        after = normal_vector(there[i], tangent_there[i], centres[0])[0]
         along.append(_det(error, after))
         across.append(_det(tangent_there[i], error))
         twist.append(_det([a * normals[i][0] + b * normals[i][1] for a, b in matrix], after))
@@ -299,10 +299,3 @@ def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
 
 def _det(a: Sequence[arb], b: Sequence[arb]) -> arb:
     return a[0] * b[1] - a[1] * b[0]
-
-
-def _normal(point: Sequence[arb], tangent: Sequence[arb], centre: Sequence[arb]) -> tuple[arb, arb]:
-    """Return N = -(K - c)/det(K - c, L)."""
-    x, y = (a - b for a, b in zip(point, centre, strict=True))
-    size = _det((x, y), tangent)
-    return -x / size, -y / size

@@ -131,28 +131,19 @@ class Theorem:
 
 
 class _Limits(NamedTuple):
-    """Limits as text; the format `x` of limits is "low < x < high"."""
+    """Limits whose format `x` is "low < x < high"."""
 
-    low: str
-    high: str
+    low: Fraction
+    high: Fraction
 
     def __format__(self, name: str) -> str:
-        return f"{self.low} < {name} < {self.high}"
-
-
-def _limits(limits: Range) -> _Limits:
-    return _Limits(*map(_decimal, limits))
+        return f"{_decimal(self.low)} < {name} < {_decimal(self.high)}"
 
 
 def _decimal(value: Fraction) -> str:
     """Format an exact number without rounding: as a short decimal, or else as a fraction."""
     short = f"{float(value):g}", repr(float(value)), str(value)
     return next(text for text in short if Fraction(text) == value)
-
-
-def _region(window: Window) -> str:
-    """Format a window as inequalities of x and xdot."""
-    return f"{_limits(window[0]):x} and {_limits(window[1]):xdot}"
 
 
 def _words(bounds: dict[str, Any]) -> dict[str, Any]:
@@ -162,9 +153,10 @@ def _words(bounds: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, Fraction):
             words[name] = _decimal(value)
         elif name == "window" and value:
-            words[name] = _region(value)
+            x, xdot = (_Limits(*limits) for limits in value)
+            words[name] = f"{x:x} and {xdot:xdot}"
         elif isinstance(value, tuple) and isinstance(value[0], Fraction):
-            words[name] = _limits(value)
+            words[name] = _Limits(*value)
     if "energy" in bounds:
         words["up_to"] = _highest_energy(bounds["k"], bounds["g"], bounds["energy"])
     if "type" in bounds:
