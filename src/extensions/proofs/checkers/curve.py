@@ -241,7 +241,7 @@ def _bound_of_error(
 ) -> arb:
     """Bound |e| on the strip, from its discrete Fourier coefficients up to frequency `highest`.
 
-    Coefficient q of `count` points is the sum of all e_(q + m count), and |e_q| is at highest
+    Coefficient q of `count` points is the sum of all e_(q + m count), and |e_q| is at most
     2 image exp(-2 pi wide |q|).
     """
     two_pi = 2 * arb.pi()
@@ -298,9 +298,9 @@ def _bounds(
     on_wide_edge: list[acb] = []  # x and y over the upper edge of the wide strip, and their images
     edge: list[EdgeBounds] = []
     for (here, there), around in zip(pairwise(cycle), boxes, strict=True):
-        for box in around:
-            surface.impact(*box)  # raises an error where a flight has no first root
         with naming("the strip around the curve"):
+            for box in around:
+                surface.impact(*box)  # raises an error where a flight has no first root
             below, top = _over_strip(surface, here, claim)
             edge += _over_edge(surface, here, there, claim, below)
             for point, root in top:
