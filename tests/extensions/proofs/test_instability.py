@@ -103,8 +103,8 @@ CHANGES = {
     "coefficients = 7.4": "another form",
     # a margin that is not there, or too small
     "margin = 5.61": "not proved to be above |A| by 5.61",
-    "margin = 5.59": "the margin is 5.59, not 5.6",
-    "margin = -5.6": "the margin is -5.6, not 5.6",
+    "margin = 5.59": "margin is 5.59, not 5.6",
+    "margin = -5.6": "margin is -5.6, not 5.6",
     "margin = nan": "not an exact number",
     # bands that miss the resonance
     theta(LOW - 1, LOW): "hold the resonance",

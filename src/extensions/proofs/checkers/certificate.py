@@ -103,15 +103,16 @@ class Certificate:
         """Return a number, which must be at least the statement's."""
         value = self.number(name)
         if not value >= least:
-            text = name.replace("_", " ")
-            raise NotProvedError(f"the {text} is {float(value):g}, not {float(least):g} as stated")
+            found, stated = float(value), float(least)
+            raise NotProvedError(f"the certificate's {name} is {found:g}, not {stated:g} as stated")
         return value
 
     def at_most(self, name: str, most: Fraction) -> Fraction:
         """Return a positive number, which must be at most the statement's."""
         value = self.number(name)
         if not 0 < value <= most:
-            raise NotProvedError(f"the {name} is {float(value):g}, not at most {float(most):g}")
+            found, stated = float(value), float(most)
+            raise NotProvedError(f"the certificate's {name} is {found:g}, not at most {stated:g}")
         return value
 
     def whole(self, name: str) -> int:
