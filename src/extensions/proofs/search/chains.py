@@ -64,7 +64,8 @@ class DoubleMap:
     def step(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:
         """Return the images of points (2, n); raises ValueError for one outside the section."""
         for _ in range(impacts):
-            state = self.ball.state_xy(*points, self.energy)
+            x, y = points
+            state = self.ball.state_xy(x, y, self.energy)
             points = chart(self.ball.k, *self.ball.after(state)[:3])
         return points
 
