@@ -63,10 +63,15 @@ class DoubleMap:
 
     def step(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:
         """Return the images of points (2, n); raises ValueError for one outside the section."""
+        k, g = self.ball.k, self.ball.g
         for _ in range(impacts):
             x, y = points
-            state = self.ball.state_xy(x, y, self.energy)
-            points = chart(self.ball.k, *self.ball.after(state)[:3])
+            square = ((1.0 + k) * (2.0 * self.energy + x * (2.0 * g - k * x)) - y * y) / k
+            if not np.all(square > 0.0):
+                raise ValueError("a point is outside the section")
+            s = np.sqrt(square)
+            state = x, (y + k * s) / (1.0 + k), (s - y) / (1.0 + k)
+            points = chart(k, *self.ball.after(state)[:3])
         return points
 
     def jacobian(self, point: np.ndarray) -> np.ndarray:
