@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from extensions.proofs import THEOREMS
-from extensions.proofs.checks import curve
+from extensions.proofs.checkers import curve
 from extensions.proofs.theorems.statements import Theorem
 
 

@@ -1,6 +1,6 @@
 """Proofs in ball arithmetic: theorems with certificates, and correctly rounded orbits.
 
-`search` proposes certificates, and `checks` decides about them without the searches. Both enclose
+`search` proposes certificates, and `checkers` decides about them without the searches. Both enclose
 the impact map by `study.enclosure`. `theorems` has the statements, `true_orbits` the orbits of
 exact starts, and `proved_impacts` proves the impacts behind the figures.
 """
@@ -11,7 +11,7 @@ from typing import Any
 _MODULES = {
     "Surface": "study.enclosure.surface",
     "THEOREMS": "extensions.proofs.theorems.statements",
-    "search_certificate": "extensions.proofs.theorems.searches",
+    "search_certificate": "extensions.proofs.theorems.requests",
     "prove_orbit": "extensions.proofs.theorems.requests",
     "prove_curve": "extensions.proofs.theorems.requests",
     "prove_horseshoe": "extensions.proofs.theorems.requests",

@@ -9,7 +9,8 @@ from slowly import slowly
 
 from extensions.proofs import THEOREMS
 
-OTHER_CONSTANTS = [("k", "1/4"), ("g", "1/24"), ("energy", "1/99")]
+# A theorem of each checker.
+ONE_OF_EACH = [*{theorem.checker: name for name, theorem in reversed(THEOREMS.items())}.values()]
 
 
 def numbers(text, field):

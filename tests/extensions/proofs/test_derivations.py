@@ -47,18 +47,6 @@ def test_numbers_that_come_with_formulas(derived):
     assert value["smooth"] == pytest.approx(0.00176, rel=1e-14)
 
 
-@pytest.mark.parametrize(("poisson", "excited"), [(0.3, 2), (0.1, 2), (0.0, 1)])
-def test_modes_that_an_axial_force_excites_by_eigenvectors(poisson, excited):
-    """Count the eigenspaces of the stiffness in which the force has a component."""
-    lame, shear = poisson / ((1 + poisson) * (1 - 2 * poisson)), 0.5 / (1 + poisson)
-    stiffness = 2 * shear * np.eye(6)
-    stiffness[:3, :3] += lame
-    values, vectors = np.linalg.eigh(stiffness)
-    spaces, index = np.unique(np.round(values, 9), return_inverse=True)
-    components = np.bincount(index, weights=vectors[2] ** 2, minlength=spaces.size)
-    assert np.sum(components > 1e-12) == excited
-
-
 # ---- a derivation can fail
 
 

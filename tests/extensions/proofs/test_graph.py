@@ -12,9 +12,9 @@ from flint import arb, ctx
 from slowly import slowly
 
 from extensions.proofs import THEOREMS
-from extensions.proofs.checks import jump
-from extensions.proofs.checks.certificate import NotProvedError
-from extensions.proofs.checks.hsets import HSet, LocalMap, covering_margins
+from extensions.proofs.checkers import jump
+from extensions.proofs.checkers.certificate import NotProvedError
+from extensions.proofs.checkers.hsets import HSet, LocalMap, covering_margins
 from extensions.proofs.search.chains import DoubleMap, Parallelogram
 
 SMALL = "entropy-lower"

@@ -8,8 +8,8 @@ from mpmath import mp, mpc, mpf
 from sections import BALL
 
 from extensions.proofs import THEOREMS, true_orbit
-from extensions.proofs.checks import birkhoff, instability
-from extensions.proofs.checks.certificate import Certificate
+from extensions.proofs.checkers import fixed_point, twist
+from extensions.proofs.checkers.certificate import Certificate
 from extensions.proofs.escape import escape
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
@@ -34,7 +34,7 @@ def image(x, y, energy):
     return position(t), b + g * t - k * (x * mpmath.sin(t) + c * mpmath.cos(t))
 
 
-def fixed_point(energy):
+def fixed_point_at(energy):
     return mpmath.findroot(lambda x: image(x, mpf(0), energy)[0] - x, mpf("-0.2487"))
 
 
@@ -44,7 +44,7 @@ def derivative(part, x, energy, orders):
 
 
 def trace(energy):
-    x = fixed_point(energy)
+    x = fixed_point_at(energy)
     return derivative(0, x, energy, (1, 0)) + derivative(1, x, energy, (0, 1))
 
 
@@ -52,7 +52,7 @@ def test_independent_code_finds_the_energy_and_the_coefficients():
     """Numerical derivatives in 40 digits, and the normal form's coefficients in closed form."""
     with mp.workdps(40):
         energy = mpmath.findroot(trace, (mpf("0.0373"), mpf("0.0375")), tol=1e-25)
-        x = fixed_point(energy)
+        x = fixed_point_at(energy)
         beta = mpmath.sqrt(derivative(0, x, energy, (0, 1)))  # sin(omega) = 1
         power, taylor = mpc(0, -1), {}
         for i in range(4):
@@ -103,8 +103,8 @@ CHANGES = {
     "coefficients = 7.4": "another form",
     # a margin that is not there, or too small
     "margin = 5.61": "not proved to be above |A| by 5.61",
-    "margin = 5.59": "the margin is 5.59, not 5.6",
-    "margin = -5.6": "the margin is -5.6, not 5.6",
+    "margin = 5.59": "margin is 5.59, not 5.6",
+    "margin = -5.6": "margin is -5.6, not 5.6",
     "margin = nan": "not an exact number",
     # bands that miss the resonance
     theta(LOW - 1, LOW): "hold the resonance",
@@ -131,11 +131,11 @@ def test_altered_certificates_are_refused(line, reason):
 
 def test_a_map_with_another_term_is_refused(monkeypatch):
     """|B| below |A|, and a map that does not keep area, in the computed form itself."""
-    form = birkhoff.resonant_coefficients
-    monkeypatch.setattr(instability, "resonant_coefficients", lambda *it: form(*it)[::-1])
+    form = twist.resonant_coefficients
+    monkeypatch.setattr(fixed_point, "resonant_coefficients", lambda *it: form(*it)[::-1])
     text = with_field(TEXT, "coefficients", "[7.35932691733, 1.74978423654]")
     assert "|B| is not proved to be above |A|" in refused(NAME, text)
-    complex_map = birkhoff.complex_map
+    complex_map = twist.complex_map
 
     def drifting(*given, **more):
         power, map_ = complex_map(*given, **more)
@@ -143,8 +143,8 @@ def test_a_map_with_another_term_is_refused(monkeypatch):
         map_.coefficients[place] += power * 0.01
         return power, map_
 
-    monkeypatch.setattr(instability, "resonant_coefficients", form)
-    monkeypatch.setattr(instability, "complex_map", drifting)
+    monkeypatch.setattr(fixed_point, "resonant_coefficients", form)
+    monkeypatch.setattr(fixed_point, "complex_map", drifting)
     assert "does not keep area" in refused(NAME)
 
 

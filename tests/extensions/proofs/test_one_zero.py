@@ -8,11 +8,11 @@ from certificates import numbers, refused, with_field, with_rows
 from flint import arb, ctx
 
 from extensions.proofs import THEOREMS, Surface
-from extensions.proofs.checks import one_zero, periodic
-from extensions.proofs.checks.birkhoff import normal_form
-from extensions.proofs.checks.certificate import NotProvedError
-from extensions.proofs.enclosure.fixed_point import energy_at
-from extensions.proofs.search import approximate_orbits
+from extensions.proofs.checkers import one_zero, periodic
+from extensions.proofs.checkers.certificate import NotProvedError
+from extensions.proofs.checkers.fixed_point import energy_at
+from extensions.proofs.checkers.twist import normal_form
+from extensions.proofs.search.periodic import approximate_points
 from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import ball_of
 
@@ -33,7 +33,7 @@ def test_the_twist_is_that_of_birkhoffs_normal_form(theta):
         cosine, twist = at(theta)
         energy = energy_at(*map(ball_of, BALL), arb(theta))
         surface = Surface(*BALL, Fraction(float(energy)))
-        point = approximate_orbits.points(surface, 1, "elliptic")
+        point = approximate_points(surface, 1, "elliptic")
         centres = [[Fraction(a) for a in z] for z in point]
         orbit = periodic.prove(surface, centres, Fraction(1, 10**8))
         form = normal_form(surface, orbit)
@@ -90,9 +90,7 @@ def test_a_function_falls_through_zero_once_only():
     plus, minus, falls = (arb(1), arb(0, 9)), (arb(-1), arb(0, 9)), (arb(0, 1), arb(-1))
 
     def margin(rows):
-        return one_zero._margin_of_one_zero(
-            [one_zero._sign_stage(one_zero.Enclosed(*row), "zero") for row in rows], "zero"
-        )
+        return one_zero.margin_of_one_zero([one_zero.Enclosed(*row) for row in rows], "zero")
 
     assert margin([plus, falls, falls, minus, minus]) == 1
     for rows in (

@@ -1,12 +1,14 @@
 """./reproduce prove checks what changed; --search replaces all certificates, or none."""
 
+from types import SimpleNamespace
+
 import pytest
 from project import fresh_tree, of_scenes
 
 from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
-from pipeline.cli.session import UsageError
+from pipeline.cli.session import CommandLineError, UsageError
 from study.enclosure.flight import NotProvedError
 
 NAMES = ("fixed-point", "fixed-point-low")
@@ -105,7 +107,7 @@ def test_a_theorem_is_checked_again_if_its_certificate_or_the_code_changed(tmp_p
     assert (wrong.returncode, steps(wrong.stdout)) == (1, set())
     edit(certificates / "unstable.toml", "margin = 5.7", "margin = 5.6")
 
-    tree.append("extensions/proofs/checks/periodic.py")
+    tree.append("extensions/proofs/checkers/periodic.py")
     assert steps(tree.succeed("prove", "one-fixed-point", "unstable")) == names - {"fixed-point"}
     assert steps(tree.succeed("prove", "unstable", "--again")) == {"unstable"}
     (certificates / "unstable.toml").unlink()
@@ -114,6 +116,12 @@ def test_a_theorem_is_checked_again_if_its_certificate_or_the_code_changed(tmp_p
     assert f"{CERTIFICATES}/unstable.toml was missing" in result.stdout
 
 
-def test_options_that_do_not_go_together_are_refused(tree):
-    for words in ("--again --impacts", "-n --again", "-n --search", "--search --impacts"):
-        assert tree.run("prove", *words.split()).returncode == 2
+@pytest.mark.parametrize(
+    "options", ["again impacts", "makes_nothing again", "makes_nothing search", "search impacts"]
+)
+def test_options_that_do_not_go_together_are_refused(options):
+    """Of `./reproduce prove`; -n is called makes_nothing."""
+    flags = ("search", "impacts", "pictures", "again", "makes_nothing")
+    given = {flag: flag in options.split() for flag in flags}
+    with pytest.raises(CommandLineError, match=r"^prove: "):
+        prove.run(SimpleNamespace(theorem=[], **given))

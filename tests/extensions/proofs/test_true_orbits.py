@@ -16,7 +16,6 @@ from extensions.proofs import Surface, true_orbit
 from extensions.proofs.true_orbits import enclosed_run
 from extensions.proofs.true_orbits import orbit as orbit_module
 from extensions.proofs.true_orbits.orbit import true_scene_orbits
-from extensions.proofs.true_orbits.start import Start
 from pseudorigid.dynamics.orbits import scene_orbits
 
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}
@@ -73,7 +72,7 @@ def test_a_run_with_more_or_too_few_bits_gives_the_same_orbit(bits, monkeypatch)
 
 
 def test_the_bound_holds_the_true_orbit():
-    run = enclosed_run.Run(Start(Surface(**PAPER), {"x": "2/5", "y": 0}), 150, 200)
+    run = enclosed_run.Run(enclosed_run.Start(Surface(**PAPER), {"x": "2/5", "y": 0}), 150, 200)
     for x, xdot, udot, _ in independent(150, 80):
         run.step()
         box = run._box(400)

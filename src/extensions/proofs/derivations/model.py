@@ -59,9 +59,10 @@ def uncoupled() -> Formula:
     """Check that a force along an axis strains that axis alone only if Poisson's ratio is 0."""
     young, nu = sp.symbols("Y nu", positive=True)
     moduli, _ = _stiffness(young, nu)
-    alone = moduli.subs(nu, 0) == young * sp.eye(3) and not zero(moduli[0, 1])
-    alike = sorted(moduli.eigenvals().values()) == [1, 2]  # the two deviatoric modes
-    return Formula(bool(alone and alike))
+    axes_are_uncoupled = moduli.subs(nu, 0) == young * sp.eye(3) and not zero(moduli[0, 1])
+    # the two deviatoric modes have one stiffness
+    two_modes_are_equal = sorted(moduli.eigenvals().values()) == [1, 2]
+    return Formula(bool(axes_are_uncoupled and two_modes_are_equal))
 
 
 def modes() -> Formula:
@@ -78,8 +79,8 @@ def modes() -> Formula:
         columns.append(stiffness * columns[-1])
     excited = sp.Matrix.hstack(*columns)
     rank = excited.rank(simplify=True)
-    alike = sorted(normal.eigenvals().values()) == [1, 2]  # the two deviatoric modes
-    holds = zero(*excited[3:, :]) and alike
+    two_modes_are_equal = sorted(normal.eigenvals().values()) == [1, 2]
+    holds = zero(*excited[3:, :]) and two_modes_are_equal
     return Formula(rank == 3 and holds, rank == 2 and holds, float(rank))
 
 
@@ -162,6 +163,6 @@ def scaling() -> Formula:
     scaled = dx**2 / 2 + k * du**2 / 2 + g * position - k * strain**2 / 2
     scaled = scaled.subs(g, GRAVITY / (rate**2 * R))
     scaled_up = {a: unit * a for a in (x, v, w, g)}
-    whole = energy(x, v, w)
-    free = whole.subs(scaled_up, simultaneous=True) - unit**2 * whole
-    return Formula(zero((kinetic - potential) / (M * rate**2 * R**2) - scaled, free))
+    total_energy = energy(x, v, w)
+    scaling_residual = total_energy.subs(scaled_up, simultaneous=True) - unit**2 * total_energy
+    return Formula(zero((kinetic - potential) / (M * rate**2 * R**2) - scaled, scaling_residual))

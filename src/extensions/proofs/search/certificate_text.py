@@ -8,7 +8,7 @@ from flint import arb
 
 from study.enclosure.surface import Surface
 
-from ..checks.certificate import Finding
+from ..checkers.certificate import Finding
 
 
 class Theorem(Protocol):

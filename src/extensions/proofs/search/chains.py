@@ -15,7 +15,7 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart
 from study.enclosure.surface import Surface
 
-from . import approximate_orbits
+from .periodic import nearest_ball
 
 _EDGE = np.linspace(-1.0, 1.0, 9)
 _ONE = np.ones(_EDGE.size)
@@ -58,7 +58,7 @@ class DoubleMap:
     """The impact map on a surface in doubles, in the chart (x, y)."""
 
     def __init__(self, surface: Surface) -> None:
-        self.ball: Ball = approximate_orbits.ball(surface)
+        self.ball: Ball = nearest_ball(surface)
         self.energy = float(surface.energy)
 
     def step(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:

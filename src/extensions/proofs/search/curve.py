@@ -1,8 +1,8 @@
 """Search for invariant curves around elliptic orbits: Newton's method on Fourier coefficients.
 
 It starts from an orbit in doubles on the curve with the wanted rotation number. Everything here is
-midpoints: `checks.curve` proves the result. A curve is a pair of polynomials in the form of
-`checks.circle`, of which x is even and y is odd.
+midpoints: `checkers.curve` proves the result. A curve is a pair of polynomials in the form of
+`checkers.circle`, of which x is even and y is odd.
 """
 
 import math
@@ -20,13 +20,12 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, fraction_of
 
-from ..checks.certificate import Finding
-from ..checks.circle import derivative, noble, real_values, rotated, transform
-from ..checks.curve import Curve
-from . import approximate_orbits
+from ..checkers.certificate import Finding
+from ..checkers.circle import derivative, noble, real_values, rotated, transform
+from ..checkers.curve import Curve, normal_vector
 from .certificate_text import Theorem, fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
-from .periodic import centre_rows, polished
+from .periodic import centre_rows, nearest_ball, points_of, polished
 from .rotation_numbers import quotients_near
 
 BITS = 320
@@ -65,7 +64,7 @@ class _Start(NamedTuple):
 def propose(theorem: Theorem, quotients: Sequence[int], strips: Sequence, error: str) -> str:
     """Return a certificate for a curve around a point (x, 0) of a symmetric orbit.
 
-    The rotation number is that of `checks.circle.noble`, and `strips` are the `Sizes`. Of the
+    The rotation number is that of `checkers.circle.noble`, and `strips` are the `Sizes`. Of the
     orbit's points on y = 0 the one with the greatest x is taken.
     """
     share = str(float(theorem.bounds["share"]))
@@ -108,7 +107,7 @@ def _sizes(decay: float, part: float, cells: float, room: float, spare: float) -
 
 def _start(theorem: Theorem, quotients: Sequence[int]) -> _Start:
     """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
-    surface, points = theorem.bounds["surface"], approximate_orbits.points_of(theorem, "elliptic")
+    surface, points = theorem.bounds["surface"], points_of(theorem, "elliptic")
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
     if not symmetric:
         raise ValueError("the orbit has no point on y = 0")
@@ -169,7 +168,7 @@ def _weights(size: int) -> np.ndarray:
 
 def _orbit(surface: Surface, x: float, period: int, impacts: int) -> np.ndarray:
     """Return every period-th point (x, y) after the one at (x, 0) of its orbit."""
-    ball = approximate_orbits.ball(surface)
+    ball = nearest_ball(surface)
     with ctx.workprec(64):
         v, w = (float(a) for a in surface.velocities(arb(x), arb(0)))
     data = orbit(ball, (x, v, w), impacts * period)
@@ -257,8 +256,8 @@ def _newton_step(
         image, matrix = _power(surface, here[i], len(centres))
         error = [a - b for a, b in zip(image, there[i], strict=True)]
         size = max(size, *(abs(float(a)) for a in error))
-        normals.append(_normal(here[i], tangent[i], centres[0]))
-        after = _normal(there[i], tangent_there[i], centres[0])
+        normals.append(normal_vector(here[i], tangent[i], centres[0])[0])
+        after = normal_vector(there[i], tangent_there[i], centres[0])[0]
         along.append(_det(error, after))
         across.append(_det(tangent_there[i], error))
         twist.append(_det([a * normals[i][0] + b * normals[i][1] for a, b in matrix], after))
@@ -300,10 +299,3 @@ def _cohomology(values: list[arb], divisors: list[acb]) -> list[arb]:
 
 def _det(a: Sequence[arb], b: Sequence[arb]) -> arb:
     return a[0] * b[1] - a[1] * b[0]
-
-
-def _normal(point: Sequence[arb], tangent: Sequence[arb], centre: Sequence[arb]) -> tuple[arb, arb]:
-    """Return N = -(K - c)/det(K - c, L)."""
-    x, y = (a - b for a, b in zip(point, centre, strict=True))
-    size = _det((x, y), tangent)
-    return -x / size, -y / size

@@ -1,31 +1,17 @@
-"""Certificates of the energies at which orbits are born, double their period, or lose an impact."""
+"""Certificates of the energies at which orbits double their period or lose an impact."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
 
 from flint import arb, ctx
 
-from study.enclosure.surface import ball_of
-
-from ..checks.events import doubling, grazing
-from ..checks.periodic import BITS
-from ..enclosure.fixed_point import energy_at, trace_at
-from ..enclosure.newton import System, newton
+from ..checkers.events import doubling, grazing
+from ..checkers.newton import System, newton
+from ..checkers.periodic import BITS
 from .certificate_text import Theorem, ball_header, row
-from .ellipticity import bisected_theta
 from .periodic import DIGITS, with_largest_radius
 
 _STEPS = 9  # of Newton's method from doubles
-
-
-def propose_resonance(theorem: Theorem) -> str:
-    """Return a certificate of the fixed point's resonance at a rotation number."""
-    k, g, rotation = (theorem.bounds[name] for name in ("k", "g", "rotation"))
-    with ctx.workprec(BITS):
-        wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
-        theta, field = bisected_theta(lambda it: trace_at(ball_of(k), it) > wanted)
-        energy = row([energy_at(ball_of(k), ball_of(g), theta)], DIGITS)
-    return ball_header("resonance", k, g) + f"event = {energy}\n{field}"
 
 
 def propose_doubling(theorem: Theorem, near: Sequence[str]) -> str:

@@ -21,7 +21,7 @@ from pseudorigid.dynamics.variables import chart, states_of
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
-from ..checks import graph, hsets
+from ..checkers import graph, hsets
 from .certificate_text import Theorem, header, rows
 from .chains import DoubleMap, Parallelogram, chain
 
@@ -129,13 +129,20 @@ def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -
 
 
 def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
-    """Return the first and last points of the parts of lines that cross |p|, |q| < 1."""
+    """Return the first and last points of the parts of lines that cross |p|, |q| < 1.
+
+    Lines must have no jump in these parts.
+    """
     inside = np.abs(p[1]) < 1.0
     changes = np.flatnonzero(np.diff(inside))
     begins, ends = changes[~inside[changes]], changes[inside[changes]] + 1
     pairs = zip(begins, ends[int(inside[0]) :], strict=False)  # the last part may have no end
     wide = [_widened(p, low, high) for low, high in pairs if high - low > _FEWEST_POINTS]
-    return [run for run in wide if run and _is_smooth(p[:, slice(*run)], q[:, slice(*run)])]
+    return [
+        (low, high)
+        for low, high in filter(None, wide)
+        if np.abs(np.diff(p[:, low:high])).max() < _STEP and np.abs(q[:, low:high]).max() < _ROOM
+    ]
 
 
 def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
@@ -149,11 +156,6 @@ def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
             return low, high
         low, high = low - step * (not on_low), high + step * (not on_high)
     return None
-
-
-def _is_smooth(p: np.ndarray, q: np.ndarray) -> bool:
-    """Whether lines have no jump, and stay in |q| < 1."""
-    return bool(np.abs(np.diff(p)).max() < _STEP and np.abs(q).max() < _ROOM)
 
 
 def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:

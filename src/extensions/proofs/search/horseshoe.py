@@ -17,12 +17,11 @@ from flint import arb, ctx
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
-from ..checks.certificate import Finding
-from ..checks.periodic import enclose
-from . import approximate_orbits
+from ..checkers.certificate import Finding
+from ..checkers.periodic import enclose
 from .certificate_text import Theorem, header, row, rows
 from .chains import DoubleMap
-from .periodic import polished
+from .periodic import points_of, polished
 
 _BITS = 320  # for an orbit that starts _EXTRA_ROUNDS nearer to its saddle than a double can tell
 _EXTRA_ROUNDS = 100  # rounds about the saddles before the connection's start in doubles
@@ -93,7 +92,7 @@ def propose(
     sets proves it: with the reason at the smallest.
     """
     if points is None:
-        points = approximate_orbits.points_of(theorem, "hyperbolic")
+        points = points_of(theorem, "hyperbolic")
     with ctx.workprec(_BITS):
         sign, most = 1 if side == "outer" else -1, _MOST_STEPS if plan is None else plan[0]
         connection = _connect(theorem.bounds["surface"], points, sign, most)

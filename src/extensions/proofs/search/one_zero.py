@@ -7,8 +7,8 @@ from flint import ctx
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import ball_of
 
-from ..checks.one_zero import BITS, PLACES, over_band
-from ..enclosure.fixed_point import energy_at
+from ..checkers.fixed_point import energy_at
+from ..checkers.one_zero import BITS, ZEROS, over_band
 from .certificate_text import Theorem, ball_header, bisected, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]
@@ -28,10 +28,10 @@ def propose(theorem: Theorem) -> str:
         while not energy_at(ball_of(k), ball_of(g), ball_of(edges[-1])) > ball_of(energy):
             edges.append(edges[-1] + _widest(k, g, edges[-1]))
         zeros = {}
-        for name, place in PLACES.items():
+        for name in ZEROS:
 
-            def is_positive(theta: Fraction, place: int = place) -> bool:
-                return over_band(k, g, theta, theta)[:2][place][0] > 0
+            def is_positive(theta: Fraction, name: str = name) -> bool:
+                return getattr(over_band(k, g, theta, theta), name).value > 0
 
             zeros[name] = bisected(is_positive, edges[1], edges[-1], _DECIMALS)
     return (

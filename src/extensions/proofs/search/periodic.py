@@ -1,20 +1,41 @@
-"""Certificates of periodic orbits: centres from Newton's method, and the largest square box."""
+"""Certificates of periodic orbits, and the orbits in doubles from which all searches begin.
+
+Centres are from Newton's method, and the square box around each is the largest one.
+"""
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from math import ceil, sqrt
 
 from flint import arb, ctx
 
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.periodic import symmetric_orbits
+from pseudorigid.dynamics.variables import chart, of_type, states_of
 from study.enclosure.surface import Surface
 
-from ..checks.periodic import newton_image
-from . import approximate_orbits
-from .certificate_text import Theorem, ball_header, header, row, rows
+from ..checkers.periodic import newton_image
+from .certificate_text import Theorem, header, row, rows
 
 BITS = 160
 DIGITS = 36  # the checker compares thirty of them with the orbit
 _LARGEST, _SMALLEST = 2, 12  # minus the decimal exponents of the radii that are tried
+
+
+def nearest_ball(surface: Surface) -> Ball:
+    """Return the Ball whose k and g are the doubles nearest to a surface's."""
+    return Ball(k=float(surface.k), g=float(surface.g))
+
+
+def points_of(theorem: Theorem, kind: str) -> list[list[float]]:
+    """Return the points (x, y) near which a theorem states an orbit of this type."""
+    return approximate_points(theorem.bounds["surface"], theorem.bounds["period"], kind)
+
+
+def approximate_points(surface: Surface, period: int, kind: str) -> list[list[float]]:
+    """Return the points (x, y) of the first symmetric orbit of this period and type."""
+    ball = nearest_ball(surface)
+    orbits = symmetric_orbits(ball, float(surface.energy), period)
+    return chart(ball.k, *states_of(of_type(orbits, kind))).T.tolist()
 
 
 def polished(surface: Surface, points: Sequence, steps: int = 8) -> list[list[arb]]:
@@ -34,7 +55,7 @@ def propose(theorem: Theorem, points: Sequence | None = None) -> str:
     """
     surface = theorem.bounds["surface"]
     if points is None:
-        points = approximate_orbits.points_of(theorem, theorem.bounds["type"])
+        points = points_of(theorem, theorem.bounds["type"])
     with ctx.workprec(BITS):
         centres = centre_rows(polished(surface, points))
     return with_largest_radius(theorem, header("periodic orbit", surface), centres)
@@ -55,11 +76,3 @@ def with_largest_radius(theorem: Theorem, before: str, after: str = "") -> str:
     texts = [f"{before}radius = {size}\n{after}" for size in sizes]
     holds = theorem.holds_for_any_radius
     return texts[bisect_left(texts, True, hi=len(texts) - 1, key=holds)]
-
-
-def propose_only_fixed_point(theorem: Theorem) -> str:
-    """Return the certificate that there is one fixed point at each energy up to the theorem's."""
-    k, g, energy = (theorem.bounds[name] for name in ("k", "g", "energy"))
-    theta = ceil(100 * sqrt((2 * k * energy / g**2 + 1) / (1 + k))) / 100
-    fields = f'energy_up_to = "{energy}"\ntheta_below = {theta}\n'
-    return ball_header("only fixed point", k, g) + fields

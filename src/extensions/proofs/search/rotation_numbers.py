@@ -8,7 +8,7 @@ _TRIALS = 20  # numbers on each side of a refused one, 1e-4 apart
 
 
 def quotients_near(value: float) -> list[int]:
-    """Return partial quotients for which the number of `checks.circle.noble` is close to a value.
+    """Return partial quotients for which the number of `checkers.circle.noble` is close to a value.
 
     They are the first ones of the value's continued fraction. Raises ValueError for a value so
     close to a fraction of small integers that this gives no number close to it.

@@ -10,11 +10,17 @@ from flint import arb, ctx
 
 from study.enclosure.surface import Surface
 
-from ..checks.birkhoff import complex_map
-from ..checks.periodic import enclose
-from . import approximate_orbits
+from ..checkers.periodic import enclose
+from ..checkers.twist import complex_map
 from .certificate_text import Theorem, bisected, decimal, header
-from .periodic import BITS, centre_rows, polished, with_largest_radius
+from .periodic import (
+    BITS,
+    approximate_points,
+    centre_rows,
+    points_of,
+    polished,
+    with_largest_radius,
+)
 
 _TWIST_DIGITS = 13  # the checker compares nine of them with the twist
 _ENERGY_DECIMALS = 13
@@ -24,7 +30,7 @@ def propose(theorem: Theorem) -> str:
     """Return a certificate of the twist of an elliptic orbit, with the largest radius."""
     surface = theorem.bounds["surface"]
     with ctx.workprec(BITS):
-        points = polished(surface, approximate_orbits.points_of(theorem, "elliptic"))
+        points = polished(surface, points_of(theorem, "elliptic"))
         value = decimal(_approximate_twist(surface, points), _TWIST_DIGITS)
         before = header("twist", surface) + f"twist = {value}\n" + centre_rows(points)
     return with_largest_radius(theorem, before)
@@ -33,7 +39,7 @@ def propose(theorem: Theorem) -> str:
 def propose_zero(theorem: Theorem, energies: tuple[Fraction, Fraction]) -> str:
     """Return a certificate of a zero of the fixed point's twist between two energies."""
     k, g = theorem.bounds["k"], theorem.bounds["g"]
-    start = approximate_orbits.points(Surface(k, g, energies[0]), 1, "elliptic")
+    start = approximate_points(Surface(k, g, energies[0]), 1, "elliptic")
     with ctx.workprec(BITS):
         band, point = bisect_zero(k, g, *energies, start)
         width = f"width = {float(band.width):.0e}\n"
@@ -61,7 +67,7 @@ def bisect_zero(
 
 
 def _approximate_twist(surface: Surface, points: Sequence) -> arb:
-    """Estimate tau_1 of `checks.birkhoff` at the first point (x, y) of a nearly exact orbit."""
+    """Estimate tau_1 of `checkers.twist` at the first point (x, y) of a nearly exact orbit."""
     z, map_ = complex_map(surface, enclose(surface, points), 3)
     w = z.conjugate()
     g20, g11, g02, g21 = 2 * map_[2, 0], map_[1, 1], 2 * map_[0, 2], 2 * map_[2, 1]

@@ -1,9 +1,13 @@
-"""Proofs of a user's symmetric orbits, of horseshoes on them, and of invariant curves."""
+"""Proofs of a user's symmetric orbits, of horseshoes on them, and of invariant curves.
+
+The search for a certificate of each theorem is here too.
+"""
 
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from importlib import import_module
 
 import numpy as np
 import xarray as xr
@@ -14,13 +18,12 @@ from pseudorigid.dynamics.variables import chart, states_of
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Exact, Surface, exact
 
-from ..checks import curve, horseshoe, periodic
-from ..checks.certificate import Finding
-from ..search import approximate_orbits
+from ..checkers import curve, horseshoe, periodic
+from ..checkers.certificate import Finding
 from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search
-from .statements import Theorem
+from .statements import THEOREMS, Theorem
 
 
 def prove_orbit(
@@ -39,7 +42,7 @@ def prove_orbit(
 
     Returns
     -------
-    checks.periodic.Orbit
+    checkers.periodic.Orbit
         Enclosures `points` (x, y), `impacts` and `trace`; `type`; and `radius`, the largest number
         of one digit for which the orbit is proved to be the only one in boxes of that size.
 
@@ -60,7 +63,7 @@ def prove_orbit(
     name = f"the {kind} orbit of period {len(points)} at {surface}"
     bounds = {"surface": surface, "period": len(points), "type": kind, "radius": Fraction(0)}
     theorem = Theorem(name, name, periodic.check, bounds)
-    with _reported(name):
+    with _errors_naming(name):
         return theorem.prove(orbit_search.propose(theorem, points)).parts["orbit"]
 
 
@@ -81,7 +84,7 @@ def prove_horseshoe(
 
     Returns
     -------
-    str, checks.certificate.Finding
+    str, checkers.certificate.Finding
         The certificate, and the result of its checker: digits, margins, parts.
 
     Raises
@@ -104,7 +107,7 @@ def prove_horseshoe(
     bounds = {"surface": surface, "period": len(points), "radius": radius, "entropy": Fraction(0)}
     name = f"the horseshoe at {surface}"
     theorem = Theorem(name, name, horseshoe.check, bounds)
-    with _reported(name):
+    with _errors_naming(name):
         text = horseshoe_search.propose(theorem, side, points=points)
         return text, theorem.prove(text)
 
@@ -127,7 +130,7 @@ def prove_curve(
 
     Returns
     -------
-    str, checks.certificate.Finding
+    str, checkers.certificate.Finding
         The certificate, and the result of its checker. `digits` has enclosures of the curve's
         "rotation number", of the "area" inside it and of its "share" of the section. `parts` has
         "polygons", the vertices (x, y) of a polygon between the fixed point and the curve; no orbit
@@ -162,12 +165,38 @@ def prove_curve(
     name = f"the invariant curve with the rotation number {rotation:.6g} at {surface}"
     bounds = {"radius": Fraction("1e-6"), "share": Fraction(0), "error": Fraction(1)}
     theorem = Theorem(name, name, curve.check, bounds | {"surface": surface, "period": 1})
-    with _reported(name):
+    with _errors_naming(name):
         return curve_search.search(theorem, rotation)
 
 
+def search_certificate(name: str) -> str:
+    """Search a new certificate of a theorem, which its checker has yet to prove.
+
+    The search of checkers.X.check_Y is search.X.propose_Y.
+
+    Parameters
+    ----------
+    name : str
+        A key of THEOREMS.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> text = search_certificate("one-fixed-point")
+    >>> THEOREMS["one-fixed-point"].check(text).verdict
+    'proved'
+    """
+    theorem = THEOREMS[name]
+    module = import_module(theorem.checker.__module__.replace(".checkers.", ".search."))
+    propose = getattr(module, theorem.checker.__name__.replace("check", "propose"))
+    return propose(theorem, **theorem.hints)
+
+
 @contextmanager
-def _reported(name: str) -> Iterator[None]:
+def _errors_naming(name: str) -> Iterator[None]:
     """Turn the errors of a proof that fails into a ValueError that says what was to be proved."""
     try:
         yield
@@ -190,8 +219,8 @@ def _request(
         if energy is None:
             energy = Fraction(float(orbit.attrs["energy"]))
         surface = Surface(Fraction(ball.k), Fraction(ball.g), exact("energy", energy))
-    near, states = approximate_orbits.ball(surface), states_of(orbit)
-    actual, expected = float(np.ravel(near.energy(*states))[0]), float(surface.energy)
-    if not abs(actual - expected) <= 1e-6 * (abs(expected) + near.g**2 / near.k):
+    rounded, states = orbit_search.nearest_ball(surface), states_of(orbit)
+    actual, expected = float(np.ravel(rounded.energy(*states))[0]), float(surface.energy)
+    if not abs(actual - expected) <= 1e-6 * (abs(expected) + rounded.g**2 / rounded.k):
         raise ValueError(f"the orbit's energy is {actual:.6g}, not that of {surface}")
-    return surface, chart(near.k, *states).T.tolist(), str(orbit["type"].item())
+    return surface, chart(rounded.k, *states).T.tolist(), str(orbit["type"].item())

@@ -14,13 +14,12 @@ from pseudorigid.dynamics.variables import AREA, ENERGY, LENGTH, SPEED, describe
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface, ball_of
 
-from ..checks import curve, graph, horseshoe, no_circle
-from ..checks.birkhoff import normal_form
-from ..checks.certificate import Finding
-from ..checks.hsets import HSet
-from ..checks.periodic import BITS, Point, prove
-from ..checks.twist import falling_twist
-from ..search import approximate_orbits
+from ..checkers import curve, graph, horseshoe, jump
+from ..checkers.certificate import Finding
+from ..checkers.hsets import HSet
+from ..checkers.periodic import BITS, Point, prove
+from ..checkers.twist import falling_twist, normal_form
+from ..search.periodic import approximate_points
 from ..search.twist import bisect_zero
 from .requests import prove_curve, prove_horseshoe
 from .statements import THEOREMS, Theorem
@@ -105,7 +104,7 @@ def scene_twist(ball: Ball, energy: float, energies: list[float]) -> xr.Dataset:
     twists, points = [], []
     for surface in surfaces:
         try:
-            points.append(approximate_orbits.points(surface, 1, "elliptic"))
+            points.append(approximate_points(surface, 1, "elliptic"))
             centre = [tuple(map(Fraction, z)) for z in points[-1]]
             with ctx.workprec(BITS):
                 orbit = prove(surface, centre, _RADIUS)
@@ -166,7 +165,7 @@ def scene_curves(ball: Ball, energy: float, rotation_numbers: list[float]) -> xr
     x, y, place = np.array(corners).T
     saddles = [
         (float(x), float(y))
-        for theorem in theorems_at(surface, no_circle.check)
+        for theorem in theorems_at(surface, jump.check_no_circle)
         for x, y in theorem.prove().parts["orbit"].points
     ]
     saddle_x, saddle_y = np.reshape(np.array(saddles), (-1, 2)).T

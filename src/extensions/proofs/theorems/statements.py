@@ -17,20 +17,18 @@ from pseudorigid.dynamics import paper
 from study.enclosure.flight import NotProvedError
 from study.enclosure.surface import Surface
 
-from ..checks import (
+from ..checkers import (
     curve,
-    ellipticity,
     events,
+    fixed_point,
     graph,
     horseshoe,
-    instability,
     jump,
-    no_circle,
     one_zero,
     periodic,
     twist,
 )
-from ..checks.certificate import Finding, Range, Window
+from ..checkers.certificate import Finding, Range, Window
 
 BALL = {name: Fraction(str(paper.BALL[name])) for name in "kg"}
 
@@ -133,28 +131,19 @@ class Theorem:
 
 
 class _Limits(NamedTuple):
-    """Limits as text; the format `x` of limits is "low < x < high"."""
+    """Limits whose format `x` is "low < x < high"."""
 
-    low: str
-    high: str
+    low: Fraction
+    high: Fraction
 
     def __format__(self, name: str) -> str:
-        return f"{self.low} < {name} < {self.high}"
-
-
-def _limits(limits: Range) -> _Limits:
-    return _Limits(*map(_decimal, limits))
+        return f"{_decimal(self.low)} < {name} < {_decimal(self.high)}"
 
 
 def _decimal(value: Fraction) -> str:
     """Format an exact number without rounding: as a short decimal, or else as a fraction."""
     short = f"{float(value):g}", repr(float(value)), str(value)
     return next(text for text in short if Fraction(text) == value)
-
-
-def _region(window: Window) -> str:
-    """Format a window as inequalities of x and xdot."""
-    return f"{_limits(window[0]):x} and {_limits(window[1]):xdot}"
 
 
 def _words(bounds: dict[str, Any]) -> dict[str, Any]:
@@ -164,9 +153,10 @@ def _words(bounds: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, Fraction):
             words[name] = _decimal(value)
         elif name == "window" and value:
-            words[name] = _region(value)
+            x, xdot = (_Limits(*limits) for limits in value)
+            words[name] = f"{x:x} and {xdot:xdot}"
         elif isinstance(value, tuple) and isinstance(value[0], Fraction):
-            words[name] = _limits(value)
+            words[name] = _Limits(*value)
     if "energy" in bounds:
         words["up_to"] = _highest_energy(bounds["k"], bounds["g"], bounds["energy"])
     if "type" in bounds:
@@ -310,7 +300,7 @@ _EVENTS = (
         "at exactly one E, {energies:E}, the fixed point's rotation number is {rotation}; the "
         "twist is positive there, and near the point, at energies just above and at none just "
         "below, there are two symmetric orbits of period {period}, of which one meets y = 0",
-        events.check_resonance,
+        fixed_point.check_resonance,
         BALL | dict(
             rotation=Fraction("1/6"), period=6, energies=_between("0.007378", "0.007379")
         ),
@@ -341,7 +331,7 @@ _THEOREMS = (
         "one-fixed-point",
         "at each energy above the least, -g^2/(2k), up to {up_to}, the map has exactly one fixed "
         "point",
-        periodic.check_only_fixed_point,
+        fixed_point.check_unique,
         BALL | {"energy": LIMIT},
     ),
     Theorem(
@@ -349,7 +339,7 @@ _THEOREMS = (
         "at each energy above the least, -g^2/(2k), and up to {up_to}, the fixed point is "
         "elliptic; as E rises its trace falls strictly, to a value above {trace}, and its rotation "
         "number rises strictly from its limit zero",
-        ellipticity.check,
+        fixed_point.check_elliptic,
         BALL | {"energy": LIMIT, "trace": Fraction("-0.46")},
     ),
     *_EVENTS,
@@ -368,7 +358,7 @@ _THEOREMS = (
         "at E = {surface.energy} the unstable manifold of the hyperbolic orbit of period {period} "
         "with a point in {window} meets the set on which P jumps; so no invariant circle on which "
         "P is continuous has a point of this orbit inside",
-        no_circle.check,
+        jump.check_no_circle,
         _SADDLES,
     ),
     *(
@@ -414,7 +404,7 @@ _THEOREMS = (
         "at exactly one E, {energies:E}, the fixed point's multiplier lambda has lambda^4 equal to "
         "unity; there |B| > |A| + {margin} in the normal form, and the fixed point is unstable: "
         "from each of its neighbourhoods orbits leave one and the same neighbourhood",
-        instability.check,
+        fixed_point.check_unstable,
         BALL | {
             "energies": _between("0.0373951713626", "0.0373951713627"), "margin": Fraction("5.6"),
         },

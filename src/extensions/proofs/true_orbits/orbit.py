@@ -18,8 +18,7 @@ from pseudorigid.kernel.arithmetic import log
 from study.enclosure.flight import UndecidedError
 from study.enclosure.surface import Exact, Surface
 
-from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError
-from .start import Start
+from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError, Start
 
 _BYTES_PER_IMPACT = 200  # doubles in the run and the Dataset, and room
 

@@ -39,7 +39,8 @@ def unique_root(surface: Surface, x: acb, y: acb, known: acb) -> acb:
 
     guess = newton(known).union(known)
     for _ in range(_ATTEMPTS):
-        inside = _wider(guess)
+        sides = guess.real, guess.imag
+        inside = acb(*(arb(a.mid(), ((a.rad() + _LEAST_RADIUS) * _WIDER).upper()) for a in sides))
         image = newton(inside)
         if inside.contains_interior(image) and inside.contains(known):
             for _ in range(_REFINEMENTS):
@@ -59,9 +60,3 @@ def point_root(flight: Flight[acb], value: acb) -> acb:
             return narrow
         value = narrow
     return value
-
-
-def _wider(value: acb) -> acb:
-    """Return a set around another one."""
-    parts = value.real, value.imag
-    return acb(*(arb(a.mid(), ((a.rad() + _LEAST_RADIUS) * _WIDER).upper()) for a in parts))

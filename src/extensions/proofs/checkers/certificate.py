@@ -1,7 +1,8 @@
 """Certificates: TOML files whose numbers are taken as the exact decimals written there."""
 
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
@@ -16,6 +17,15 @@ Ball = tuple[Fraction, Fraction]  # k and g
 Range = tuple[Fraction, Fraction]  # lower and upper limit
 Window = tuple[Range, Range]  # of x and of xdot
 MOST_DIGITS = 100  # of the numerator and the denominator of a certificate's number
+
+
+@contextmanager
+def naming(what: str) -> Iterator[None]:
+    """Begin the reason of a refusal with what could not be enclosed."""
+    try:
+        yield
+    except NotProvedError as reason:
+        raise NotProvedError(f"{what}: {reason}") from None
 
 
 @dataclass
@@ -89,12 +99,21 @@ class Certificate:
             raise NotProvedError(f"the certificate's {name} has no rows")
         return [self._row(name, row, width) for row in rows]
 
-    def radius(self, least: Fraction) -> Fraction:
-        """Return the radius, which must be at least the statement's."""
-        size = self.number("radius")
-        if not size >= least:
-            raise NotProvedError(f"the radius is {float(size):g}, not {float(least):g} as stated")
-        return size
+    def at_least(self, name: str, least: Fraction) -> Fraction:
+        """Return a number, which must be at least the statement's."""
+        value = self.number(name)
+        if not value >= least:
+            found, stated = float(value), float(least)
+            raise NotProvedError(f"the certificate's {name} is {found:g}, not {stated:g} as stated")
+        return value
+
+    def at_most(self, name: str, most: Fraction) -> Fraction:
+        """Return a positive number, which must be at most the statement's."""
+        value = self.number(name)
+        if not 0 < value <= most:
+            found, stated = float(value), float(most)
+            raise NotProvedError(f"the certificate's {name} is {found:g}, not at most {stated:g}")
+        return value
 
     def whole(self, name: str) -> int:
         """Return a whole number."""
@@ -140,6 +159,13 @@ def check_stated(
     for value, near in zip(values, stated, strict=True):
         if not abs(value - ball_of(near)) < ball_of(error):
             raise NotProvedError(f"the {name} is not the stated one, near {float(near):.10g}")
+
+
+def check_within(name: str, value: arb, limits: Range) -> None:
+    """Check that an enclosed quantity lies between exact limits."""
+    low, high = limits
+    if not ball_of(low) < value < ball_of(high):
+        raise NotProvedError(f"the {name} is not proved to lie where the statement says")
 
 
 def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: arb) -> bool:

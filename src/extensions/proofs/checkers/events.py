@@ -1,4 +1,4 @@
-"""Energies at which periodic orbits are born, double their period, or lose an impact.
+"""Energies at which periodic orbits double their period or lose an impact.
 
 Each event is a regular zero of equations in the energy and perhaps a position, enclosed by interval
 Newton; README.md ("Births and ends") has the equations and what follows from a zero.
@@ -12,65 +12,25 @@ from flint import arb, ctx
 
 from study.enclosure.flight import Flight, NotProvedError, UndecidedError, launch
 from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import Surface, ball_of
+from study.enclosure.surface import Surface
 
-from ..enclosure.fixed_point import energy_at, slope_at, trace_at
-from ..enclosure.newton import System, enclose_zero, solve
-from .birkhoff import normal_form
 from .certificate import (
     Certificate,
     Finding,
     Range,
     box,
     check_stated,
+    check_within,
     holds_throughout,
     lower_bound,
+    naming,
 )
-from .ellipticity import theta_ends
-from .periodic import BITS, CLOSE, check_distinct, prove_fixed_point_over
+from .newton import System, enclose_zero, solve
+from .periodic import BITS, CLOSE, check_distinct
 
 _MOST_CUTS = 60  # halvings of a time until the flight is proved to have left the floor
 
 Half = tuple[int, str]  # flights of a half orbit, and where it ends: "impact" or "apex"
-
-
-def check_resonance(
-    text: str, k: Fraction, g: Fraction, *, rotation: Fraction, period: int, energies: Range
-) -> Finding:
-    """Prove that the fixed point passes a resonance with positive twist, at one energy.
-
-    There its rotation number is `rotation`, below 1/2, and rises with the energy, which lies in
-    `energies`, a range of those with theta <= pi/2, where the trace falls. Two orbits of this
-    period, even and at least 6, branch off to higher energies.
-    """
-    # of even period one of the two orbits meets y = 0; lambda and its conjugate have one trace
-    if not (rotation.denominator == period >= 5 and period % 2 == 0 and 0 < rotation < 1 / 2):
-        raise NotProvedError(f"no two orbits of period {period} branch off at {rotation}")
-    with ctx.workprec(BITS):
-        certificate = Certificate(text, "resonance", ball=(k, g))
-        inertia, gravity, _ = Surface(k, g, Fraction(0)).constants()
-        ends = theta_ends(certificate)
-        wanted = 2 * (2 * arb.pi() * ball_of(rotation)).cos()
-        above, below = (trace_at(inertia, end) - wanted for end in ends)
-        theta = ends[0].union(ends[1])
-        slope = slope_at(inertia, theta)
-        if not (above > 0 and below < 0 and slope < 0):
-            raise NotProvedError("the trace is not proved to fall through the resonance's")
-        energy = energy_at(inertia, gravity, theta)
-        if not ball_of(energies[1]) < energy_at(inertia, gravity, (arb.pi() / 2).lower()):
-            raise NotProvedError("the energies go beyond theta = pi/2, up to where the trace falls")
-        check_stated("event", [energy], certificate.row("event", 1), CLOSE)
-        _check_within("energy", energy, energies)
-        band, orbit = prove_fixed_point_over(k, g, energy, theta)
-        form = normal_form(band, orbit)
-        (twist,) = form.twists
-        if not twist > 0:
-            raise NotProvedError("the twist is not proved to be positive")
-        margins = {"slope": -slope, "twist": twist, "nonresonance": form.nonresonance}
-        return Finding(
-            {"energy": energy, "x": orbit.points[0][0], "twist": twist},
-            {name: lower_bound(margin) for name, margin in margins.items()},
-        )
 
 
 def check_doubling(
@@ -95,8 +55,8 @@ def check_doubling(
     with ctx.workprec(BITS):
         certificate = Certificate(text, "period doubling", ball=(k, g))
         energy, x = _prove_event(certificate, partial(doubling, k, g, period=period), 2, radius)
-        _check_within("energy", energy, energies)
-        _check_within("position", x, positions)
+        check_within("energy", energy, energies)
+        check_within("position", x, positions)
         ends = (_after_impacts(k, g, (energy, x), n, order=1) for n in range(1, period // 2 + 1))
         check_distinct([(x, arb(0)), *((a.coefficients[0], b.coefficients[0]) for a, b in ends)])
         slope = _trace_slope(k, g, (energy, x), period)
@@ -131,8 +91,11 @@ def check_grazing(
         certificate = Certificate(text, "grazing orbit", ball=(k, g))
         system = partial(grazing, k, g, halves=halves)
         values = _prove_event(certificate, system, len(halves), radius)
-        _check_within("energy", values[0], energies)
-        slopes = [_energy_slope(*system(values, by=by)) for by in ("speed", "gap")]
+        check_within("energy", values[0], energies)
+        slopes = []  # of the energy, by the contact speed or by the gap, along the zeros
+        for by in ("speed", "gap"):
+            _, rows = system(values, by=by)
+            slopes.append(-solve(rows, [row[len(values)] for row in rows])[0])
         for slope, sign, name in zip(slopes, sides, ("longer", "shorter"), strict=True):
             if not sign * slope > 0:
                 where = "above" if sign > 0 else "below"
@@ -150,21 +113,11 @@ def _prove_event(
 ) -> list[arb]:
     """Prove that a system has one zero in the certificate's box, and enclose it narrowly."""
     centre = certificate.row("event", unknowns)
-    values = enclose_zero(system, box(centre, certificate.radius(radius) + CLOSE))
+    boxes = box(centre, certificate.at_least("radius", radius) + CLOSE)
+    with naming("the box around the event"):
+        values = enclose_zero(system, boxes)
     check_stated("event", values, centre, CLOSE)
     return values
-
-
-def _energy_slope(values: list[arb], slopes: list[list[arb]]) -> arb:
-    """Return the energy's derivative by the last variable, along the zeros of a system."""
-    return -solve(slopes, [row[len(values)] for row in slopes])[0]
-
-
-def _check_within(name: str, value: arb, limits: Range) -> None:
-    """Check that an enclosed quantity lies between exact limits."""
-    low, high = limits
-    if not ball_of(low) < value < ball_of(high):
-        raise NotProvedError(f"the {name} is not proved to lie where the statement says")
 
 
 def _land(flight: Flight, gap: Jet | int = 0) -> tuple[Jet, Jet, Jet]:

@@ -17,7 +17,7 @@ from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
-from .certificate import Certificate, lower_bound
+from .certificate import Certificate, lower_bound, naming
 
 UNIT = arb(0, 1)  # the interval from -1 to 1
 MOST_CELLS = 600  # of a set, before its covering is given up
@@ -188,10 +188,8 @@ def prove_hyperbolic(
 
     Raises NotProvedError.
     """
-    try:
+    with naming(source.name):
         local = local_map(surface, source, target)
-    except UndecidedError as error:
-        raise NotProvedError(f"{source.name}: {error}") from None
     return covering_margins(local, source, target), cone_margin(local, source, target), local
 
 

@@ -8,7 +8,7 @@ T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import reduce
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import NamedTuple, TypeVar
 
 from flint import acb, arb, ctx
@@ -17,9 +17,8 @@ from study.enclosure.flight import NotProvedError, UndecidedError
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Surface, ball_of
 
-from ..enclosure import complex_flight
-from . import periodic
-from .certificate import Certificate, Finding, Range, Window, lower_bound
+from . import complex_flight, periodic
+from .certificate import Certificate, Finding, Range, Window, lower_bound, naming
 from .circle import Cells, derivative, evaluate, noble, real_values, rotated, transform, values
 from .periodic import Point
 
@@ -27,9 +26,7 @@ BITS = 512  # of the error; its Fourier coefficients are weighted by up to 1e70
 CELL_BITS = 80
 NEAR, NEAR_SLOPE = arb(1e-10), arb(1e-8)  # r and beta: of the curves that the constants hold for
 MOST_CELLS, MOST_MODES = 4096, 4096
-_EDGE_CELLS_PER_COLUMN = (
-    4  # cells of the strip's edge, and points for the twist's mean, for each column
-)
+_EDGE_CELLS_PER_COLUMN = 4  # cells of the strip's edge and points for the twist's mean
 _POLYGON_INSET = Fraction(1, 1000)  # relative distance of the polygon from the curve
 _MOST_HALVINGS = 14  # of the subdivision of the disc inside
 _DISC_LAYERS = 8  # of the first pieces of the disc, from the centre outwards
@@ -38,6 +35,7 @@ _COLUMNS_OF_PIECE = 8  # of the first pieces of the disc, around the curve
 Curve = tuple[list[acb], list[acb]]  # Fourier coefficients of x and of y
 Centred = tuple[Curve, Point]  # a curve and the centre that it goes around
 ComplexPoint = tuple[acb, acb]
+Cell = tuple[ComplexPoint, acb]  # all curves near K over a part of the strip, and flight times
 Number = TypeVar("Number", arb, acb)
 
 
@@ -48,8 +46,8 @@ class Bounds(NamedTuple):
     normal: arb  # of |N|
     twist: arb  # of |T|
     torsion: arb  # a lower bound of |<T>|
-    first: arb  # of |DP|
-    second: arb  # of |D^2 P|
+    derivative: arb  # of |DP|
+    second_derivative: arb  # of |D^2 P|
     image: arb  # of |P(K)| and |K| on the wide strip
 
 
@@ -59,42 +57,28 @@ class EdgeBounds(NamedTuple):
     tangent: arb
     normal: arb
     twist: arb
-    first: arb
-    second: arb
-    length: arb  # of |K - c|
+    derivative: arb
+    second_derivative: arb
+    distance: arb  # of |K - c|
     area: arb  # a lower bound of |det(K - c, L)|
 
 
-class Plan(NamedTuple):
-    """Numbers of a certificate: the strips, the cells and rows, and what each step loses."""
-
-    strip: arb
-    wide: arb
-    loss: arb
-    height: arb  # of a cell
-    columns: int
-    rows: int
-    all_rows: int
-
-
 class Claim(NamedTuple):
-    """What a certificate says of its curve."""
+    """What a certificate says of its curve, and how the strip around it is divided."""
 
     centres: list[Point]
     omega: arb
     divisors: arb  # the sum of `circle.noble`
     error: arb
     share: arb
-    plan: Plan
     curve: Curve
-
-
-class Cell(NamedTuple):
-    """Enclosures over one cell of the strip, for all curves near K."""
-
-    point: ComplexPoint
-    slope: ComplexPoint
-    root: acb  # the flight time
+    strip: arb  # half width of the strip, and of a wider one
+    wide: arb
+    loss: arb  # of the strip, by each step of the proof
+    height: arb  # of a cell
+    columns: int
+    rows: int  # of cells from the real axis to the strip's edge, and to the wide one's
+    all_rows: int
 
 
 def check(
@@ -123,21 +107,18 @@ def check(
         )
     with ctx.workprec(BITS):
         claim = _read(certificate, share, error, rotation)
-        curves, bounds = _prove_error(surface, claim, period)
-        margins, distance, slope = _theorem(
-            claim.error, bounds, claim.divisors, period, claim.plan.loss
-        )
-        area = _inflated(_area(claim.curve), distance * (2 * bounds.tangent + slope))
-        part = area / surface.area()
-        if not part > claim.share:
+        curves, boxes, bounds = _prove_error(surface, claim, period)
+        margins, distance, slope_error = _theorem(claim, bounds, period)
+        area = _inflated(_area(claim.curve), distance * (2 * bounds.tangent + slope_error))
+        enclosed = area / surface.area()
+        if not enclosed > claim.share:
             raise NotProvedError(
                 f"the curve is not proved to enclose {float(claim.share):g} of the section"
             )
     with ctx.workprec(CELL_BITS):
-        polygons = _prove_discs(surface, curves, claim.centres, claim.plan.columns)
-    digits = {
-        "rotation number": claim.omega, "area": area, "share": part, "distance": distance.upper(),
-    }  # fmt: skip
+        polygons = _prove_discs(surface, curves, boxes, claim.centres)
+    digits = {"rotation number": claim.omega, "area": area, "share": enclosed}
+    digits |= {"distance": distance.upper()}
     return Finding(digits, margins, {"orbit": orbit, "polygons": polygons, "curve": claim.curve})
 
 
@@ -149,54 +130,8 @@ def _read(
     omega, divisors = noble(*map(certificate.whole_numbers, ("quotients", "repeating")))
     if rotation and not ball_of(rotation[0]) < omega < ball_of(rotation[1]):
         raise NotProvedError("the rotation number is not in the statement's interval")
-    stated_error, stated_share = certificate.number("error"), certificate.number("share")
-    if not 0 < stated_error <= error:
-        raise NotProvedError(f"the error is not stated to be below {float(error):g}")
-    if not stated_share >= share:
-        raise NotProvedError(
-            f"the share is stated as {float(stated_share):g}, less than {float(share):g}"
-        )
-    sizes = ball_of(stated_error), ball_of(stated_share)
-    return Claim(centres, omega, divisors, *sizes, _plan(certificate), _first_curve(certificate))
-
-
-def _prove_error(surface: Surface, claim: Claim, period: int) -> tuple[list[Curve], Bounds]:
-    """Prove that the curve's error is the stated one, and return all curves and the bounds."""
-    plan, modes = claim.plan, len(claim.curve[0])
-    with ctx.workprec(64):  # beyond `most` coefficients are far below the error in the strip
-        digits = 10 - float(claim.error.log())
-        most = max(modes, int(digits / float(2 * arb.pi() * (plan.wide - plan.strip))))
-    count = 1 << (2 * most + 2).bit_length()
-    curves, errors = _curves(surface, claim.curve, period, claim.omega, count)
-    with ctx.workprec(CELL_BITS):
-        bounds = _bounds(surface, curves, claim)
-    size = _size_of_error(errors, most, count, bounds.image, plan)
-    if not size < claim.error:
-        raise NotProvedError(
-            f"the curve's error is not proved to be below {float(claim.error):g}: "
-            f"its bound is {float(size.upper()):.3g}"
-        )
-    return curves, bounds
-
-
-def _prove_discs(
-    surface: Surface, curves: list[Curve], centres: list[Point], columns: int
-) -> list[list[list[float]]]:
-    """Prove that P is analytic on the disc inside each curve, and return polygons inside them.
-
-    The discs must be disjoint, and each curve turn once around its centre.
-    """
-    polygons, all_boxes = [], [_real_cells(curve, columns) for curve in curves]
-    for curve, boxes, centre in zip(curves, all_boxes, centres, strict=True):
-        _check_winding(curve, boxes, centre)
-        polygons.append(_polygon(curve, centre, columns))
-        _check_disc(surface, boxes, centre)
-    _check_disjoint(all_boxes)
-    return polygons
-
-
-def _plan(certificate: Certificate) -> Plan:
-    """Return the certificate's strips and cells."""
+    stated_error = certificate.at_most("error", error)
+    stated_share = certificate.at_least("share", share)
     strip, loss = certificate.number("strip"), certificate.number("loss")
     columns, rows, more = (certificate.whole(name) for name in ("columns", "rows", "more_rows"))
     if not (0 < strip < 1 and loss > 0 and 8 <= columns <= MOST_CELLS):
@@ -205,8 +140,56 @@ def _plan(certificate: Certificate) -> Plan:
         raise NotProvedError("the certificate's rows or more_rows are out of range")
     if not 6 * loss < strip:
         raise NotProvedError("the strip is too narrow: its half width is at most 6 times the loss")
-    height, every = ball_of(strip) / rows, rows + more
-    return Plan(ball_of(strip), height * every, ball_of(loss), height, columns, rows, every)
+    height = ball_of(strip) / rows
+    return Claim(
+        centres, omega, divisors, ball_of(stated_error), ball_of(stated_share),
+        _first_curve(certificate), ball_of(strip), height * (rows + more), ball_of(loss), height,
+        columns, rows, rows + more,
+    )  # fmt: skip
+
+
+def _prove_error(
+    surface: Surface, claim: Claim, period: int
+) -> tuple[list[Curve], list[list[Point]], Bounds]:
+    """Prove the curve's stated error, and that the discs inside all curves are disjoint.
+
+    Returns the curves, boxes (x, y) around each, and the bounds.
+    """
+    modes = len(claim.curve[0])
+    with ctx.workprec(64):  # beyond `highest` coefficients are far below the error in the strip
+        digits = 10 - float(claim.error.log())
+        highest = max(modes, int(digits / float(2 * arb.pi() * (claim.wide - claim.strip))))
+    count = 1 << (2 * highest + 2).bit_length()
+    curves, errors = _curves(surface, claim.curve, period, claim.omega, count)
+    with ctx.workprec(CELL_BITS):
+        boxes = [_real_cells(curve, claim.columns) for curve in curves]
+        hulls = [[reduce(arb.union, row) for row in zip(*around, strict=True)] for around in boxes]
+        for one, other in combinations(hulls, 2):
+            if all(a.overlaps(b) for a, b in zip(one, other, strict=True)):
+                raise NotProvedError("the discs inside two of the curves may overlap")
+        bounds = _bounds(surface, curves, boxes, claim)
+    error = _bound_of_error(errors, highest, count, bounds.image, claim)
+    if not error < claim.error:
+        raise NotProvedError(
+            f"the curve's error is not proved to be below {float(claim.error):g}: "
+            f"its bound is {float(error.upper()):.3g}"
+        )
+    return curves, boxes, bounds
+
+
+def _prove_discs(
+    surface: Surface, curves: list[Curve], all_boxes: list[list[Point]], centres: list[Point]
+) -> list[list[list[float]]]:
+    """Prove that P is analytic on the disc inside each curve, and return polygons inside them.
+
+    Each curve must turn once around its centre.
+    """
+    polygons = []
+    for curve, boxes, centre in zip(curves, all_boxes, centres, strict=True):
+        _check_winding(curve, boxes, centre)
+        polygons.append(_polygon(curve, centre, len(boxes)))
+        _check_disc(surface, boxes, centre)
+    return polygons
 
 
 def _first_curve(certificate: Certificate) -> Curve:
@@ -253,43 +236,41 @@ def _curves(
     return curves, errors
 
 
-def _size_of_error(errors: list[list[acb]], most: int, count: int, image: arb, plan: Plan) -> arb:
-    """Bound |e| on the strip, from its discrete Fourier coefficients up to frequency `most`.
+def _bound_of_error(
+    errors: list[list[acb]], highest: int, count: int, image: arb, claim: Claim
+) -> arb:
+    """Bound |e| on the strip, from its discrete Fourier coefficients up to frequency `highest`.
 
     Coefficient q of `count` points is the sum of all e_(q + m count), and |e_q| is at most
     2 image exp(-2 pi wide |q|).
     """
-    turn = 2 * arb.pi()
-    crude = 2 * image
-    aliasing = crude / (1 - (-turn * plan.wide * count).exp())
-    beyond = (-turn * (plan.wide - plan.strip) * (most + 1)).exp()
-    tail = 2 * crude * beyond / (1 - (-turn * (plan.wide - plan.strip)).exp())
-    sizes = []
+    two_pi = 2 * arb.pi()
+    largest = 2 * image
+    aliasing = largest / (1 - (-two_pi * claim.wide * count).exp())
+    decay = (-two_pi * (claim.wide - claim.strip) * (highest + 1)).exp()
+    tail = 2 * largest * decay / (1 - (-two_pi * (claim.wide - claim.strip)).exp())
+    totals = []
     for waves in errors:
         total = tail
-        for q in range(most + 1):
-            alias = (-turn * plan.wide * (count - q)).exp()
-            alias += (-turn * plan.wide * (count + q)).exp()
-            bound = (abs(waves[q]) + aliasing * alias) * (turn * plan.strip * q).exp()
+        for q in range(highest + 1):
+            aliases = (-two_pi * claim.wide * (count - q)).exp()
+            aliases += (-two_pi * claim.wide * (count + q)).exp()
+            bound = (abs(waves[q]) + aliasing * aliases) * (two_pi * claim.strip * q).exp()
             total += bound if q == 0 else 2 * bound
-        sizes.append(total.upper())
-    return _largest(sizes)
+        totals.append(total.upper())
+    return _largest(totals)
 
 
-def _theorem(
-    error: arb, b: Bounds, divisors: arb, period: int, d: arb
-) -> tuple[dict[str, float], arb, arb]:
-    """Check the theorem's inequalities; returns margins, the curve's distance and its slope's.
-
-    `divisors` is the sum of `circle.noble`.
-    """
-    kappa = period * (arb(3) / 32 + divisors * d**2).sqrt() + 2 * (period - 1) * d
-    torsion = 1 / b.torsion
-    a2 = 2 * kappa * b.tangent + 2 * torsion * (b.normal * d + b.twist * b.tangent * kappa)
-    a1 = kappa * (2 * b.normal * d + b.twist * a2)
-    a = b.tangent * a1 + b.normal * a2 * d
-    c = 2 * b.tangent * b.normal * a1 * d + b.second * a**2 / 2
-    c += b.normal * (d**3 + 2 * b.tangent * a1 * d + 2 * b.first * b.normal * a2 * d**2)
+def _theorem(claim: Claim, bounds: Bounds, period: int) -> tuple[dict[str, float], arb, arb]:
+    """Check the theorem's inequalities; returns margins, the curve's distance and its slope's."""
+    tangent, normal, twist, torsion, derivative, second, _ = bounds
+    error, d = claim.error, claim.loss
+    kappa = period * (arb(3) / 32 + claim.divisors * d**2).sqrt() + 2 * (period - 1) * d
+    a2 = 2 * kappa * tangent + 2 * (1 / torsion) * (normal * d + twist * tangent * kappa)
+    a1 = kappa * (2 * normal * d + twist * a2)
+    a = tangent * a1 + normal * a2 * d
+    c = 2 * tangent * normal * a1 * d + second * a**2 / 2
+    c += normal * (d**3 + 2 * tangent * a1 * d + 2 * derivative * normal * a2 * d**2)
     contraction = 2**4 * c * error / d**4
     distance, slope = 2 * a * error / d**2, 2 * a * error / d**3
     for name, value, most in (
@@ -300,88 +281,105 @@ def _theorem(
         if not value < most:
             raise NotProvedError(f"{name}: {float(value.upper()):.3g} is not below {float(most):g}")
     margins = {"contraction": 1 / (2 * contraction), "distance": NEAR / distance}
-    margins |= {"torsion": b.torsion}
+    margins |= {"torsion": torsion}
     return {name: lower_bound(value) for name, value in margins.items()}, distance, slope
 
 
-def _bounds(surface: Surface, curves: list[Curve], claim: Claim) -> Bounds:
+def _bounds(
+    surface: Surface, curves: list[Curve], boxes: list[list[Point]], claim: Claim
+) -> Bounds:
     """Compute the constants of the theorem.
 
     P is analytic, and det(K - c, K') not zero, over the cells of the strip. So by the maximum
     principle the bounds over its edge, in finer cells, hold in all of it.
     """
-    centres, plan = claim.centres, claim.plan
-    circle = [*zip(curves, centres, strict=True), (_turned(curves[0], claim.omega), centres[0])]
-    wide: list[acb] = []  # x and y over the upper edge of the wide strip, and their images
+    centres = claim.centres
+    cycle = [*zip(curves, centres, strict=True), (_turned(curves[0], claim.omega), centres[0])]
+    on_wide_edge: list[acb] = []  # x and y over the upper edge of the wide strip, and their images
     edge: list[EdgeBounds] = []
-    for here, there in pairwise(circle):
-        for box in _real_cells(here[0], plan.columns):
-            surface.impact(*box)  # raises an error where a flight has no first root
-        below, top = _over_strip(surface, here, plan)
-        edge += _over_edge(surface, here, there, plan, below)
-        for cell in top:
-            wide += [*cell.point, *surface.impact(*cell.point, cell.root)[:2]]
+    for (here, there), around in zip(pairwise(cycle), boxes, strict=True):
+        with naming("the strip around the curve"):
+            for box in around:
+                surface.impact(*box)  # raises an error where a flight has no first root
+            below, top = _over_strip(surface, here, claim)
+            edge += _over_edge(surface, here, there, claim, below)
+            for point, root in top:
+                on_wide_edge += [*point, *surface.impact(*point, root)[:2]]
     *sizes, areas = zip(*edge, strict=True)
-    tangent, normal, twist, first, second, length = map(_largest, sizes)
-    count = _EDGE_CELLS_PER_COLUMN * plan.columns
-    ratio = (-2 * arb.pi() * plan.strip * count).exp()
+    tangent, normal, twist, derivative_bound, second, distance = map(_largest, sizes)
+    count = _EDGE_CELLS_PER_COLUMN * claim.columns
+    ratio = (-2 * arb.pi() * claim.strip * count).exp()
     aliasing = 2 * twist * ratio / (1 - ratio)  # of the mean over `count` points
-    change = _change_of_twist(tangent, normal, first, second, length, reduce(arb.min, areas))
-    torsion = (abs(_torsion(surface, circle, count)) - aliasing - change).lower()
+    change = _change_of_twist(
+        tangent, normal, derivative_bound, second, distance, reduce(arb.min, areas)
+    )
+    torsion = (abs(_torsion(surface, cycle, count)) - aliasing - change).lower()
     if not torsion > 0:
         raise NotProvedError("the twist's mean along the curve may be zero")
-    image = _largest(a.abs_upper() for a in wide)
-    return Bounds(tangent, normal, twist, torsion, first, second, image)
+    image = _largest(a.abs_upper() for a in on_wide_edge)
+    return Bounds(tangent, normal, twist, torsion, derivative_bound, second, image)
 
 
-def _over_strip(surface: Surface, here: Centred, plan: Plan) -> tuple[list[Cell], list[Cell]]:
+def _over_strip(surface: Surface, here: Centred, claim: Claim) -> tuple[list[Cell], list[Cell]]:
     """Return the cells below the strip's edge and those below the wide strip's.
 
-    Flight times are continued from the real axis, row by row.
+    Flight times are continued from the real axis, row by row: `starts` has the x and y of a point
+    on the lower edge of each cell of a row, and its flight time. This point and the one on the
+    upper edge must be points of the cell.
     """
     curve, centre = here
-    known = []
-    for x, y in _points(curve, plan.columns, arb(0.5)):
-        known.append((acb(x), acb(y), acb(surface.impact(x, y).tau)))
-    for row in range(plan.all_rows):
-        cells = _row_of_cells(surface, curve, plan, row, known)
-        if row < plan.rows:
+    half_height, starts = claim.height / 2, []
+    for x, y in _points(curve, claim.columns, arb(0.5)):
+        starts.append((acb(x), acb(y), acb(surface.impact(x, y).tau)))
+    for row in range(claim.all_rows):
+        middle, top = claim.height * row + half_height, claim.height * (row + 1)
+        points, slopes = _inflated_cells(curve, claim.columns, middle, half_height)
+        x_above, y_above = (values(waves, claim.columns, arb(0.5), top) for waves in curve)
+        cells: list[Cell] = []
+        for j, upper in enumerate(zip(x_above, y_above, strict=True)):
+            *lower, time = starts[j]
+            _check_inside(lower, points[j])
+            _check_inside(upper, points[j])
+            root = complex_flight.unique_root(surface, *points[j], time)
+            starts[j] = *upper, complex_flight.point_root(surface.flight(*upper), root)
+            cells.append((points[j], root))
+            if row < claim.rows:
+                normal_vector(points[j], slopes[j], centre)  # refuses a pole
+        if row < claim.rows:
             below = cells
-            for cell in cells:
-                _normal(cell.point, cell.slope, centre)  # raises an error where it may have a pole
     return below, cells
 
 
 def _over_edge(
-    surface: Surface, here: Centred, there: Centred, plan: Plan, below: list[Cell]
+    surface: Surface, here: Centred, there: Centred, claim: Claim, below: list[Cell]
 ) -> list[EdgeBounds]:
     """Return bounds over each cell of the strip's edge, for all curves near K.
 
     `here` is a curve and `there` the one that its image is close to; `below` are the cells below
     the edge.
     """
-    count, bounds = _EDGE_CELLS_PER_COLUMN * plan.columns, []
-    points, slopes = _inflated_cells(here[0], count, plan.strip)
-    images, image_slopes = _inflated_cells(there[0], count, plan.strip)
-    x_middles, y_middles = (values(row, count, arb(0.5), plan.strip) for row in here[0])
+    count, bounds = _EDGE_CELLS_PER_COLUMN * claim.columns, []
+    points, slopes = _inflated_cells(here[0], count, claim.strip)
+    images, image_slopes = _inflated_cells(there[0], count, claim.strip)
+    x_middles, y_middles = (values(row, count, arb(0.5), claim.strip) for row in here[0])
     for j, middle in enumerate(zip(x_middles, y_middles, strict=True)):
-        cell = below[j // _EDGE_CELLS_PER_COLUMN]
-        _check_inside(middle, points[j], cell.point)
-        known = complex_flight.point_root(surface.flight(*middle), cell.root)
-        root = complex_flight.unique_root(surface, *points[j], known)
+        point_below, root_below = below[j // _EDGE_CELLS_PER_COLUMN]
+        _check_inside(middle, points[j], point_below)
+        middle_time = complex_flight.point_root(surface.flight(*middle), root_below)
+        root = complex_flight.unique_root(surface, *points[j], middle_time)
         x, y = Jet.plane(2, *points[j])
         right, up, *_ = surface.impact(x, y, root)
         sizes = [[c.abs_upper() for c in jet.coefficients] for jet in (right, up)]
-        normal, length, area = _normal(points[j], slopes[j], here[1])
-        after, *_ = _normal(images[j], image_slopes[j], there[1])
+        normal, distance, area = normal_vector(points[j], slopes[j], here[1])
+        after, *_ = normal_vector(images[j], image_slopes[j], there[1])
         along, across = (jet[1, 0] * normal[0] + jet[0, 1] * normal[1] for jet in (right, up))
         bounds.append(EdgeBounds(
             tangent=_largest(a.abs_upper() for a in slopes[j]),
             normal=_largest(a.abs_upper() for a in normal),
             twist=(along * after[1] - across * after[0]).abs_upper(),
-            first=_largest(a + b for _, a, b, *_ in sizes),
-            second=_largest(2 * (a + b + c) for *_, a, b, c in sizes),
-            length=length,
+            derivative=_largest(a + b for _, a, b, *_ in sizes),
+            second_derivative=_largest(2 * (a + b + c) for *_, a, b, c in sizes),
+            distance=distance,
             area=area,
         ))  # fmt: skip
     return bounds
@@ -399,7 +397,7 @@ def _inflated_cells(
     return over_cells(curve, NEAR), over_cells(_slope_of(curve), NEAR_SLOPE)
 
 
-def _normal(
+def normal_vector(
     point: tuple[Number, Number], slope: tuple[Number, Number], centre: Point
 ) -> tuple[tuple[Number, Number], arb, arb]:
     """Return N = -(K - c)/det(K - c, K'), and bounds of |K - c| above and of the det. below."""
@@ -411,41 +409,18 @@ def _normal(
 
 
 def _change_of_twist(
-    tangent: arb, normal: arb, first: arb, second: arb, length: arb, area: arb
+    tangent: arb, normal: arb, derivative: arb, second: arb, distance: arb, area: arb
 ) -> arb:
     """Bound the difference of T between K and the curves near it, by the bounds over the edge."""
-    of_area = 2 * (NEAR * tangent + length * NEAR_SLOPE)
-    of_normal = (NEAR + normal * of_area) / area
-    return 2 * normal * (second * NEAR * normal + 2 * first * of_normal)
+    change_of_area = 2 * (NEAR * tangent + distance * NEAR_SLOPE)
+    change_of_normal = (NEAR + normal * change_of_area) / area
+    return 2 * normal * (second * NEAR * normal + 2 * derivative * change_of_normal)
 
 
 def _real_cells(curve: Curve, columns: int) -> list[Point]:
     """Return boxes (x, y) around all curves near K, over the cells of the real circle."""
     x, y = (Cells(row, columns) for row in curve)
     return [(_inflated(x[j].real, NEAR), _inflated(y[j].real, NEAR)) for j in range(columns)]
-
-
-def _row_of_cells(
-    surface: Surface, curve: Curve, plan: Plan, row: int, known: list[tuple[acb, acb, acb]]
-) -> list[Cell]:
-    """Return the cells of a row of the strip.
-
-    `known` has the x and y of a point on the lower edge of each cell and its flight time, and is
-    replaced by those of a point on the upper edge. Both must be points of the cell.
-    """
-    half = plan.height / 2
-    middle, top = plan.height * row + half, plan.height * (row + 1)
-    points, slopes = _inflated_cells(curve, plan.columns, middle, half)
-    x_above, y_above = (values(waves, plan.columns, arb(0.5), top) for waves in curve)
-    cells = []
-    for j, above in enumerate(zip(x_above, y_above, strict=True)):
-        *below, time = known[j]
-        _check_inside(below, points[j])
-        _check_inside(above, points[j])
-        root = complex_flight.unique_root(surface, *points[j], time)
-        known[j] = *above, complex_flight.point_root(surface.flight(*above), root)
-        cells.append(Cell(points[j], slopes[j], root))
-    return cells
 
 
 def _check_inside(point: Sequence[acb], *boxes: Sequence[acb]) -> None:
@@ -466,23 +441,22 @@ def _slope_of(curve: Curve) -> Curve:
     return x, y
 
 
-def _torsion(surface: Surface, circle: list[Centred], count: int) -> arb:
+def _torsion(surface: Surface, cycle: list[Centred], count: int) -> arb:
     """Return the mean of T = det(DP N, N_+) of K itself over equidistant real points.
 
-    The circle has the curves with their centres, and the first one turned.
+    The cycle has the curves with their centres, and the first one turned.
     """
-    normals, total = [_normals(*centred, count) for centred in circle], arb(0)
-    for (curve, _), here, there in zip(circle, normals, normals[1:], strict=False):
-        for point, n, m in zip(_points(curve, count), here, there, strict=True):
+    along_curves, total = [], arb(0)  # of each curve, real points with N there
+    for curve, centre in cycle:
+        pairs = zip(_points(curve, count), _points(_slope_of(curve), count), strict=True)
+        along_curves.append(
+            [(point, normal_vector(point, slope, centre)[0]) for point, slope in pairs]
+        )
+    for here, there in pairwise(along_curves):
+        for (point, n), (_, m) in zip(here, there, strict=True):
             (a, b), (c, d) = surface.jacobian(*point)[0]
             total += (a * n[0] + b * n[1]) * m[1] - (c * n[0] + d * n[1]) * m[0]
-    return total / (count * (len(circle) - 1))
-
-
-def _normals(curve: Curve, centre: Point, count: int) -> list[Point]:
-    """Enclose N at equidistant real points."""
-    pairs = zip(_points(curve, count), _points(_slope_of(curve), count), strict=True)
-    return [_normal(point, slope, centre)[0] for point, slope in pairs]
+    return total / (count * (len(cycle) - 1))
 
 
 def _check_winding(curve: Curve, cells: list[Point], centre: Point) -> None:
@@ -498,7 +472,7 @@ def _check_winding(curve: Curve, cells: list[Point], centre: Point) -> None:
     total = arb(0)
     for j, here in enumerate(middles):
         after = (j + 1) % len(cells)
-        if not all((boxes[k] / here).real > 0 for k in (j, after)):
+        if not all((boxes[cell] / here).real > 0 for cell in (j, after)):
             raise NotProvedError("the cells are too wide to count the curve's turns")
         total += (middles[after] / here).arg()
     turns = total / (2 * arb.pi())
@@ -530,18 +504,18 @@ def _polygon(curve: Curve, centre: Point, columns: int) -> list[list[float]]:
     ]
     exact = [(arb(x), arb(y)) for x, y in corners]
     for j, a in enumerate(exact):
-        k = (j + 1) % columns
-        b = exact[k]
-        turns = [_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[k]))]
+        after = (j + 1) % columns
+        b = exact[after]
+        turns = [_turn(centre, *pair) for pair in ((left[j], a), (a, b), (b, right[after]))]
         if not (
-            _is_beyond(x_cells, y_cells, j, a, b)
+            _lies_beyond(x_cells, y_cells, j, a, b)
             and all(turn < 0 < towards for turn, towards in turns)
         ):
             raise NotProvedError("the polygon is not proved to lie inside the curve")
     return corners
 
 
-def _is_beyond(x_cells: Cells, y_cells: Cells, j: int, a: Point, b: Point) -> bool:
+def _lies_beyond(x_cells: Cells, y_cells: Cells, j: int, a: Point, b: Point) -> bool:
     """Whether the curves near K lie, over cell j, to the left of the line from a to b."""
     dx, dy = _minus(b, a)
     coefficients = zip(x_cells.taylor(j), y_cells.taylor(j), strict=True)
@@ -562,18 +536,10 @@ def _minus(a: Point, b: Point) -> Point:
     return a[0] - b[0], a[1] - b[1]
 
 
-def _check_disjoint(all_boxes: list[list[Point]]) -> None:
-    """Check that the discs inside curves, each in boxes (x, y), are disjoint."""
-    hulls = [[reduce(arb.union, row) for row in zip(*boxes, strict=True)] for boxes in all_boxes]
-    for i, a in enumerate(hulls):
-        if any(a[0].overlaps(b[0]) and a[1].overlaps(b[1]) for b in hulls[:i]):
-            raise NotProvedError("the discs inside two of the curves may overlap")
-
-
 def _check_disc(surface: Surface, boxes: list[Point], centre: Point) -> None:
     """Check that P is analytic on the closed disc in a curve: each flight's first root is simple.
 
-    The disc consists of pieces c + l (K - c), K in some of the boxes and l in an interval of
+    The disc consists of pieces c + l (K - c), K in columns of the boxes and l in an interval of
     [0, 1], which are halved where a flight is not decided.
     """
     pieces = [
@@ -582,19 +548,19 @@ def _check_disc(surface: Surface, boxes: list[Point], centre: Point) -> None:
         for layer in range(_DISC_LAYERS)
     ]
     while pieces:
-        part, low, depth = pieces.pop()
+        columns, low, depth = pieces.pop()
         half = Fraction(1, 2 * _DISC_LAYERS << depth)
         length = ball_of(low).union(ball_of(low + 2 * half))
-        hull = (reduce(arb.union, row) for row in zip(*part, strict=True))
+        hull = (reduce(arb.union, row) for row in zip(*columns, strict=True))
         x, y = (c + (a - c) * length for a, c in zip(hull, centre, strict=True))
         try:
             surface.impact(x, y)
         except UndecidedError as reason:
             if depth == _MOST_HALVINGS:
                 raise NotProvedError(f"the disc inside the curve: {reason}") from None
-            middle = len(part) // 2
-            halves = [part[:middle], part[middle:]] if middle else [part]
-            pieces += [(some, at, depth + 1) for some in halves for at in (low, low + half)]
+            middle = len(columns) // 2
+            halves = [columns[:middle], columns[middle:]] if middle else [columns]
+            pieces += [(part, at, depth + 1) for part in halves for at in (low, low + half)]
 
 
 def _area(curve: Curve) -> arb:

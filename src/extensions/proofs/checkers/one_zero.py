@@ -23,8 +23,8 @@ from study.enclosure.flight import NotProvedError
 from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import ball_of
 
-from ..enclosure.fixed_point import energy_at
-from .certificate import Certificate, Finding, Range, lower_bound
+from .certificate import Certificate, Finding, Range, lower_bound, naming
+from .fixed_point import energy_at
 
 BITS = 128
 MOST_BANDS = 1000
@@ -33,7 +33,7 @@ _PARAMETER_ORDER = 5  # of the remainder of its Taylor polynomials in theta
 _SERIES_TERMS = 60  # of a power series, at arguments below 5
 _EXTRA_ORDERS = 8  # orders of its Taylor polynomial over a ball, beyond those of a jet
 
-PLACES = {"zero": 1, "resonance": 0}  # of the functions among the fields of BandEnclosure
+ZEROS = "zero", "resonance"  # fields of BandEnclosure that vanish at one energy each
 Field = dict[tuple[int, int], Jet]  # powers of xi and eta -> coefficient, a series in theta
 
 
@@ -47,13 +47,9 @@ class Enclosed(NamedTuple):
 class BandEnclosure(NamedTuple):
     """Enclosures over a band; third is theta^2 (3 cot^2(omega/2) - 1)."""
 
-    cosine: Enclosed  # cos(omega)
-    twist: Enclosed  # theta tau_1
+    resonance: Enclosed  # cos(omega), zero where lambda^4 = 1
+    zero: Enclosed  # theta tau_1
     third: arb
-
-    def function(self, name: str) -> Enclosed:
-        """Return the function that vanishes at the "zero" or at the "resonance"."""
-        return self.twist if name == "zero" else self.cosine
 
 
 def check(
@@ -77,10 +73,8 @@ def check(
             digits[name] = _energy_of(certificate.row(name, 2), k, g, bounds, name)
         bands = [over_band(k, g, *ends) for ends in pairwise(edges)]
         margins = {"third resonance": min(lower_bound(band.third) for band in bands)}
-        for name in PLACES:
-            margins[name] = _margin_of_one_zero(
-                [_sign_stage(band.function(name), name) for band in bands], name
-            )
+        for name in ZEROS:
+            margins[name] = margin_of_one_zero([getattr(band, name) for band in bands], name)
         return Finding(digits, margins)
 
 
@@ -95,12 +89,10 @@ def over_band(k: Fraction, g: Fraction, low: Fraction, high: Fraction) -> BandEn
         raise NotProvedError(f"theta from {float(low):g} to {float(high):g} is no band")
     band = ball_of(low).union(ball_of(high))
     middle = band.mid()
-    try:
+    with naming(f"theta from {float(low):g} to {float(high):g}"):
         fields = _fields(ball_of(k), ball_of(g), band)
         cosine, twist, third = _cosine_and_twist(fields[0], band)
         cosine_at, twist_at, _ = _cosine_and_twist(fields[1], middle)
-    except NotProvedError as reason:
-        raise NotProvedError(f"theta from {float(low):g} to {float(high):g}: {reason}") from None
 
     def narrowed(over: Jet, at: Jet) -> Enclosed:
         value, slope = over.coefficients
@@ -122,26 +114,26 @@ def _check_edges(k: Fraction, g: Fraction, edges: list[Fraction], energy: Fracti
         raise NotProvedError("the bands are not proved to reach the statement's energy")
 
 
-def _sign_stage(function: Enclosed, name: str) -> tuple[int, float]:
-    """Return 0, 1 or 2 for a function that is positive, falls or is negative, and the margin."""
-    if function.value > 0:
-        return 0, lower_bound(function.value)
-    if function.value < 0:
-        return 2, lower_bound(-function.value)
-    if function.slope < 0:
-        return 1, lower_bound(-function.slope)
-    raise NotProvedError(f"the {name} is not proved to be the only one: a band is too wide")
+def margin_of_one_zero(functions: Sequence[Enclosed], name: str) -> float:
+    """Check that a function is positive, then falls, then is negative, over neighbouring bands.
 
-
-def _margin_of_one_zero(stages: Sequence[tuple[int, float]], name: str) -> float:
-    """Check that a function is positive, then falls, then is negative; returns the margin.
-
-    So it has one zero over all bands together, which are neighbours.
+    So it has one zero over all bands together. Returns the margin.
     """
-    order = [stage for stage, _ in stages]
-    if order != sorted(order) or order[0] != 0 or order[-1] != 2:
+    stages, margins = [], []
+    for value, slope in functions:
+        if value > 0:
+            stage, bound = 0, value
+        elif value < 0:
+            stage, bound = 2, -value
+        elif slope < 0:
+            stage, bound = 1, -slope
+        else:
+            raise NotProvedError(f"the {name} is not proved to be the only one: a band is too wide")
+        stages.append(stage)
+        margins.append(lower_bound(bound))
+    if stages != sorted(stages) or stages[0] != 0 or stages[-1] != 2:
         raise NotProvedError(f"the {name} is not proved to be the only one: the signs differ")
-    return min(margin for _, margin in stages)
+    return min(margins)
 
 
 def _energy_of(row: list[Fraction], k: Fraction, g: Fraction, bounds: Range, name: str) -> arb:
@@ -149,7 +141,7 @@ def _energy_of(row: list[Fraction], k: Fraction, g: Fraction, bounds: Range, nam
     low, high = row
     if not 0 < low < high < Fraction("2.5"):  # and so below pi
         raise NotProvedError(f"the certificate's {name} is no interval of theta")
-    signs = [over_band(k, g, theta, theta).function(name).value for theta in row]
+    signs = [getattr(over_band(k, g, theta, theta), name).value for theta in row]
     if not signs[0] > 0 > signs[1]:
         raise NotProvedError(f"the {name} is not proved to lie between the certificate's theta")
     ends = (energy_at(ball_of(k), ball_of(g), ball_of(theta)) for theta in row)
@@ -237,7 +229,11 @@ def _series(k: arb, g: arb, theta: arb, order: int) -> tuple[Jet, Jet]:
     """
     series = algebra(2, _ORDER, order)
     xi, eta, t = Jet.series(series, arb(0), arb(0), theta)
-    divided = t * _one_minus_theta_cot(t)  # (1 - theta cot(theta))/theta
+    sine, versine = (
+        t.compose(_even_function(kind, theta, series.order)) for kind in ("sine", "versine")
+    )
+    # (1 - theta cot(theta))/theta, which is analytic at theta = 0
+    divided = t * ((sine + versine) / (1 + t * t * sine))
     z = xi - divided * (g / k)
     x = g / k + t * z
     speed = g + g / k
@@ -259,14 +255,6 @@ def _series(k: arb, g: arb, theta: arb, order: int) -> tuple[Jet, Jet]:
     right = -(x * tau * tau * versine) - c * tau * (1 + time * time * sine)
     up = tau * (-k * z) - k * t * tau * tau * (x * tau * sine - c * versine)
     return right, up
-
-
-def _one_minus_theta_cot(t: Jet) -> Jet:
-    """Return 1 - t cot(t) divided by t^2, which is analytic at t = 0."""
-    sine, versine = (
-        t.compose(_even_function(kind, t.constant, t.algebra.order)) for kind in ("sine", "versine")
-    )
-    return (sine + versine) / (1 + t * t * sine)
 
 
 def _even_function(kind: str, value: arb, order: int) -> list[arb]:

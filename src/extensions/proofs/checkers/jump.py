@@ -2,7 +2,7 @@
 
 A flight may touch the floor, f = f' = 0, without landing. The state there is a point r of the rim,
 s = 0, with x < -g. Backwards from r the ball comes from the point R P(r); these points form S+.
-README.md ("Jumps") has the arguments.
+README.md ("Jumps", "No invariant circle outside the saddles") has the arguments.
 """
 
 from fractions import Fraction
@@ -14,11 +14,13 @@ from study.enclosure.flight import NotProvedError, UndecidedError, flight_from_r
 from study.enclosure.jets import Jet
 from study.enclosure.surface import Impact, Surface, ball_of
 
-from .certificate import Certificate, Finding, check_stated, holds_throughout, lower_bound
+from . import hsets, periodic
+from .certificate import Certificate, Finding, Window, check_stated, holds_throughout, lower_bound
 from .hsets import HSet
 from .periodic import Point
 
 BITS = 192  # twice what points to 1e-28 need
+_CHAIN_BITS = 64  # the smallest sets of a chain to the jump set are 1e-5 wide
 _SHORT_FLIGHTS = 0.95  # of the largest xdot: beyond it flights from the rim are short
 _CROSSING_PARTS = 64  # of the part of S+ that crosses an h-set
 
@@ -34,9 +36,7 @@ def check(
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "jump set", surface)
-        size = certificate.number("radius")
-        if not 0 < size <= radius:
-            raise NotProvedError(f"the radius is {float(size):g}, not at most {float(radius):g}")
+        size = certificate.at_most("radius", radius)
         speed = ball_of(certificate.number("speed"))
         points = stated_points(surface, speed)
         transversality = _transversality(surface, speed)
@@ -54,6 +54,39 @@ def check(
             raise NotProvedError(f"the one-sided images may be within {float(jump):g}")
         margins = {"jump": apart, "transversality": transversality, "length": lower_bound(excess)}
         return Finding(digits, margins)
+
+
+def check_no_circle(
+    text: str, surface: Surface, *, period: int, radius: Fraction, window: Window
+) -> Finding:
+    """Prove that the unstable manifold of a certificate's hyperbolic orbit meets the jump set.
+
+    The orbit must have this prime period, be the only one within the radius of the centres of the
+    S, and have a point in the window; the jump set must be one curve. The margins are the least
+    over all relations. The parts are the chain, a list of HSet with N last, and the orbit.
+    """
+    certificate = Certificate(text, "jump crossing", surface)
+    orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
+    with ctx.workprec(_CHAIN_BITS):
+        saddles = hsets.read_sets(certificate, "saddles", "S")
+        chain = hsets.read_sets(certificate, "chain", "M", first=1)
+        hsets.check_contained(saddles, orbit.points)
+        leaves = certificate.whole("leaves")
+        if leaves not in range(len(saddles)):
+            raise NotProvedError("the certificate's chain does not begin at its saddles")
+        loop = [hsets.prove_hyperbolic(surface, *it) for it in pairwise([*saddles, saddles[0]])]
+        margins = [hsets.prove_covering(surface, *it) for it in pairwise([saddles[leaves], *chain])]
+    with ctx.workprec(BITS):
+        check_landings(surface)
+        low, high = map(ball_of, certificate.row("touches", 2))
+        across = prove_crossing(surface, chain[-1], low, high)
+    beyond, room = map(min, zip(*margins, *(pair for pair, _, _ in loop), strict=True))
+    cone = min(least for _, least, _ in loop)
+    return Finding(
+        {"jump set at x": chain[-1].box(hsets.UNIT, hsets.UNIT)[0]},
+        {"beyond": beyond, "room": room, "cones": cone, "crossing": across},
+        {"chain": chain, "orbit": orbit},
+    )
 
 
 def check_smooth(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:

@@ -10,14 +10,13 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Impact, Surface, ball_of, fraction_of
+from study.enclosure.surface import Impact, Surface, ball_of
 
-from ..enclosure.newton import enclose_zero, newton
-from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound
+from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound, naming
+from .newton import enclose_zero, newton
 
 BITS = 256  # twice what points to CLOSE need, and room for the periods
 CLOSE = Fraction(1, 10**30)  # largest distance of a certificate's point from the orbit's
-_RADIUS = Fraction(1, 10**8)  # of the box in which a fixed point is proved over a band of energies
 
 Point = tuple[arb, arb]  # x and y = xdot - k udot
 
@@ -54,25 +53,6 @@ def check(text: str, surface: Surface, **bounds: Any) -> Finding:
         return Finding(digits, margins, {"orbit": orbit})
 
 
-def check_only_fixed_point(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
-    """Prove that the map has one fixed point at each energy from -g^2/(2k) up to a given one.
-
-    This verifies the two inequalities of the argument in README.md.
-    """
-    with ctx.workprec(BITS):
-        certificate = Certificate(text, "only fixed point", ball=(k, g))
-        certificate.check("energy_up_to", energy)
-        theta = certificate.number("theta_below")
-        square = (2 * k * energy / (g * g) + 1) / (1 + k)  # theta^2 is at most this
-        if not (theta - Fraction(1, 100)) ** 2 < square <= theta**2:
-            raise NotProvedError("theta is not proved to be below the stated one")
-        room = 3 * arb.pi() / 2 - ball_of(theta)
-        if not (room > 0 and theta * k < 2):
-            raise NotProvedError("a second fixed point is not excluded")
-        margins = {"theta": lower_bound(room), "earlier": lower_bound(ball_of(2 - theta * k))}
-        return Finding({"energies up to": ball_of(energy)}, margins)
-
-
 def prove_stated(
     certificate: Certificate,
     surface: Surface,
@@ -88,8 +68,10 @@ def prove_stated(
     than the certificate's by CLOSE, so that they contain the stated boxes around the orbit's own
     points. Raises NotProvedError.
     """
-    centres, size = certificate.numbers("points", 2), certificate.radius(radius)
-    orbit = _prove_with_properties(surface, centres, size + CLOSE, period, type, window)
+    centres, size = certificate.numbers("points", 2), certificate.at_least("radius", radius)
+    _check_count(centres, period, "points")
+    orbit = prove(surface, centres, size + CLOSE)
+    _check_properties(surface, orbit, type, window)
     for point, centre in zip(orbit.points, centres, strict=True):
         check_stated("orbit's point", point, centre, CLOSE)
     return replace(orbit, radius=size)
@@ -101,35 +83,28 @@ def prove_saddles(
     """Prove that a hyperbolic orbit is alone near the centres of a certificate's saddles' sets."""
     with ctx.workprec(BITS):
         centres = [row[:2] for row in certificate.numbers("saddles", 6)]
-        return _prove_with_properties(surface, centres, radius, period, "hyperbolic", window)
+        _check_count(centres, period, "saddles")
+        orbit = prove(surface, centres, radius)
+        _check_properties(surface, orbit, "hyperbolic", window)
+        return orbit
 
 
-def _prove_with_properties(
-    surface: Surface,
-    centres: Sequence[Sequence[Fraction]],
-    radius: Fraction,
-    period: int,
-    type: str,
-    window: Window | None,
-) -> Orbit:
-    """Prove an orbit near the centres, with a prime period, a type and a point in the window."""
+def _check_count(centres: Sequence, period: int, name: str) -> None:
     if len(centres) != period:
-        raise NotProvedError(f"the certificate has {len(centres)} points, not {period}")
-    orbit = prove(surface, centres, radius)
+        raise NotProvedError(f"the certificate has {len(centres)} {name}, not {period}")
+
+
+def _check_properties(surface: Surface, orbit: Orbit, type: str, window: Window | None) -> None:
+    """Check that an orbit has a type, and one of its points in the window, if one is given."""
     if orbit.type != type:
         raise NotProvedError(f"the orbit is {orbit.type}, not {type}")
-    check_window(surface, orbit, window)
-    return orbit
-
-
-def prove_fixed_point_over(
-    k: Fraction, g: Fraction, energy: arb, theta: arb
-) -> tuple[Surface, Orbit]:
-    """Prove the fixed point over a band around an energy's ball; theta is half its flight time."""
-    bottom = fraction_of(energy.lower()) - CLOSE
-    band = Surface(k, g, bottom, fraction_of(energy.upper()) + CLOSE - bottom)
-    x = ball_of(g / k) * theta * theta.cot()
-    return band, prove(band, [[fraction_of(x), Fraction(0)]], _RADIUS)
+    if window is None:
+        return
+    for x, y in orbit.points:
+        sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
+        if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
+            return
+    raise NotProvedError("no point of the orbit is proved to lie in the statement's window")
 
 
 def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fraction) -> Orbit:
@@ -138,7 +113,8 @@ def prove(surface: Surface, centres: Sequence[Sequence[Fraction]], radius: Fract
     Raises NotProvedError where no orbit, more than one, or a shorter one cannot be excluded.
     """
     boxes = [a for centre in centres for a in box(centre, radius)]
-    values = enclose_zero(partial(_shooting, surface), boxes)
+    with naming("the boxes around the orbit"):
+        values = enclose_zero(partial(_shooting, surface), boxes)
     orbit = enclose(surface, _pairs(values), radius)
     check_distinct(orbit.points)
     return orbit
@@ -193,14 +169,3 @@ def enclose(
     else:
         raise NotProvedError("the trace may be 2 or -2: the orbit's type is not proved")
     return Orbit(tuple((x, y) for x, y in points), tuple(impacts), matrix, kind, radius)
-
-
-def check_window(surface: Surface, orbit: Orbit, window: Window | None) -> None:
-    """Check that one of the orbit's points is proved to lie in the window, if one is given."""
-    if window is None:
-        return
-    for x, y in orbit.points:
-        sides = zip((x, surface.velocities(x, y)[0]), window, strict=True)
-        if all(ball_of(low) < value < ball_of(high) for value, (low, high) in sides):
-            return
-    raise NotProvedError("no point of the orbit is proved to lie in the statement's window")

@@ -8,7 +8,6 @@ theorems, and what follows for the orbits of P.
 from fractions import Fraction
 from itertools import pairwise
 from math import gcd
-from typing import NamedTuple
 
 from flint import arb, ctx
 
@@ -22,23 +21,6 @@ from .hsets import HSet
 BITS = 128  # the smallest sets are 1e-10 wide: 1e-38 is far finer than their margins
 
 Edge = tuple[HSet, HSet]  # the first set covers the second one
-
-
-class Sets(NamedTuple):
-    """A certificate's sets, and the saddles that the chain leaves from and enters."""
-
-    saddles: list[HSet]
-    chain: list[HSet]
-    leaves: int
-    enters: int
-
-
-class Relations(NamedTuple):
-    """What is proved of all edges: margins of each covering, least cone margin, crossing angle."""
-
-    margins: list[tuple[float, float]]
-    cone: float
-    angle: arb
 
 
 def check(
@@ -68,9 +50,12 @@ def check(
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
         ]
-        stated = _stated_margins(certificate, len(edges))
-        margins, cone, angle = _relations(surface, edges, chain)
-        _check_margins(edges, margins, stated)
+        stated = certificate.numbers("margins", 2)
+        if len(stated) != len(edges):
+            raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
+        if (least := min(map(min, stated))) < 0:
+            raise NotProvedError(f"a margin of the certificate is {float(least):g}, below 0")
+        margins, cone, angle = _relations(surface, edges, chain, stated)
         middle = chain[len(chain) // 2]
         for hset in (*saddles, *chain):
             if hset is not middle and not middle.is_disjoint(hset):
@@ -92,8 +77,11 @@ def check(
         )
 
 
-def _sets(certificate: Certificate) -> Sets:
-    """Return the certificate's sets; the second half of the chain mirrors the first."""
+def _sets(certificate: Certificate) -> tuple[list[HSet], list[HSet], int, int]:
+    """Return the saddles' sets, the chain's, and the saddles that the chain leaves and enters.
+
+    The second half of the chain mirrors the first.
+    """
     rows = certificate.numbers("saddles", 6)
     leaves, enters = certificate.whole("leaves"), certificate.whole("enters")
     if not {leaves, enters} <= set(range(len(rows))):
@@ -107,24 +95,31 @@ def _sets(certificate: Certificate) -> Sets:
     middle = hsets.hset("M_0", [x, Fraction(0), ux, uy, ux, -uy])
     back = [hset.mirrored(f"M_{steps - i}") for i, hset in enumerate(chain)]
     saddles = hsets.read_sets(certificate, "saddles", "S")
-    return Sets(saddles, [*chain, middle, *reversed(back)], leaves, enters)
+    return saddles, [*chain, middle, *reversed(back)], leaves, enters
 
 
-def _relations(surface: Surface, edges: list[Edge], chain: list[HSet]) -> Relations:
-    """Prove every covering with its cone condition."""
+def _relations(
+    surface: Surface, edges: list[Edge], chain: list[HSet], stated: list[list[Fraction]]
+) -> tuple[list[tuple[float, float]], float, arb]:
+    """Prove every covering with its cone condition, and with at least the stated margins.
+
+    Returns the margins of each covering, the least cone margin, and the crossing angle.
+    """
     margins, cone = [], float("inf")
     slope, middle = hsets.UNIT, chain[len(chain) // 2]
-    for source, target in edges:
-        margin, least, local = hsets.prove_hyperbolic(surface, source, target)
+    for (source, target), least in zip(edges, stated, strict=True):
+        margin, cone_margin, local = hsets.prove_hyperbolic(surface, source, target)
+        if not all(arb(p) >= ball_of(m) for p, m in zip(margin, least, strict=True)):
+            raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
         margins.append(margin)
-        cone = min(cone, least)
+        cone = min(cone, cone_margin)
         if source is chain[0]:
             slope = hsets.UNIT
         (a, b), (c, d) = local.hull()
         slope = (c + d * slope) / (a + b * slope)  # dq/dp of the unstable manifold
         if target is middle:
             angle = _crossing_angle(middle, slope)
-    return Relations(margins, cone, angle)
+    return margins, cone, angle
 
 
 def _crossing_angle(middle: HSet, slope: arb) -> arb:
@@ -132,25 +127,6 @@ def _crossing_angle(middle: HSet, slope: arb) -> arb:
     x, y = (u + slope * s for u, s in zip(middle.u, middle.s, strict=True))
     half = arb.atan2(abs(y), abs(x))
     return (2 * half).min(arb.pi() - 2 * half)  # the acute one, even if half may be pi/4
-
-
-def _stated_margins(certificate: Certificate, count: int) -> list[list[Fraction]]:
-    """Return the certificate's two margins of each covering, which must not be negative."""
-    stated = certificate.numbers("margins", 2)
-    if len(stated) != count:
-        raise NotProvedError(f"there are {len(stated)} margins for {count} coverings")
-    if (least := min(map(min, stated))) < 0:
-        raise NotProvedError(f"a margin of the certificate is {float(least):g}, below 0")
-    return stated
-
-
-def _check_margins(
-    edges: list[Edge], margins: list[tuple[float, float]], stated: list[list[Fraction]]
-) -> None:
-    """Check that every covering has at least the stated margins."""
-    for (source, target), pair, least in zip(edges, margins, stated, strict=True):
-        if not all(arb(p) >= ball_of(m) for p, m in zip(pair, least, strict=True)):
-            raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
 
 
 def _entropy(period: int, loop: int) -> arb:

@@ -1,1 +1,0 @@
-"""Enclosures that only proofs use, beside those in `study.enclosure`."""
