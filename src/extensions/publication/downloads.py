@@ -8,14 +8,9 @@ from pathlib import Path
 
 from packaging.markers import Marker
 
-from pipeline.cli.packages.wheels import (
-    HASH,
-    logical_lines,
-    pip_environment,
-    pip_settings,
-    sha256_of,
-)
+from pipeline.cli.packages import HASH, logical_lines, pip_environment, pip_settings
 from pipeline.cli.session import UsageError
+from pipeline.records.files import file_hash
 
 REQUIREMENTS = ("uv", "build", "lock")  # what an installation needs
 
@@ -47,7 +42,7 @@ def download(folder: Path, python: str) -> list[Path]:
         message = (errors or result.stderr.splitlines() or ["pip failed"])[-1]
         raise UsageError(f"cannot download the packages: {message.removeprefix('ERROR: ')}")
     wanted = set(HASH.findall("\n".join(lines)))
-    files = [file for file in sorted(folder.iterdir()) if sha256_of(file) in wanted]
+    files = [file for file in sorted(folder.iterdir()) if file_hash(file) in wanted]
     if len(files) != len(lines):
         raise UsageError(f"{folder} has {len(files)} packages of {len(lines)}: delete it and retry")
     return files

@@ -47,6 +47,10 @@ def _run(words: list[str]) -> int:
     try:
         if not _is_utf8(ROOT):
             raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
+        if command.packages and not (command.runs_snakemake and args.makes_nothing):
+            from .packages import add_packages
+
+            add_packages(command.packages)
         module = importlib.import_module(module_of(command, args.word, vars(args)))
         return int(module.run(args))
     except ConfigError as error:
