@@ -89,22 +89,28 @@ def test_jobs_start_as_usual_without_a_server(monkeypatch):
         assert variables == {}
 
 
-def test_a_result_that_is_current_when_its_job_begins_is_not_made(tmp_path, monkeypatch):
-    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: True)
-    command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "results/paper/x.nc"]
-    with server.job_server(Freshness(ROOT, {}), []) as variables:
-        assert subprocess.call(command, env=variables) == 0
-    # A job whose server has ended fails.
-    assert subprocess.call(command, env={server.ADDRESS: str(tmp_path / "none")}) == 1
+@pytest.fixture
+def asked(monkeypatch):
+    """Return a function that asks the server of these results for x: the exit status of the job."""
+
+    def ask(specs, current, **environment):
+        monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: current)
+        command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "x"]
+        with server.job_server(Freshness(ROOT, specs), []) as variables:
+            return subprocess.call(command, env=variables | environment)
+
+    return ask
 
 
-def test_a_job_whose_forking_process_was_killed_is_no_traceback(tmp_path, monkeypatch, capfd):
+def test_a_result_that_is_current_when_its_job_begins_is_not_made(asked):
+    assert asked({}, current=True) == 0
+
+
+def test_a_job_whose_server_or_forking_process_has_ended_fails(asked, monkeypatch, capfd):
     def end(context, spec):
         raise EOFError("unexpected EOF")
 
     monkeypatch.setattr(server, "run", end)
-    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: False)
-    command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "x"]
-    with server.job_server(Freshness(ROOT, {"x": None}), []) as variables:
-        assert subprocess.call(command, env=variables) == 1
+    assert asked({"x": None}, current=False) == 1
+    assert asked({}, current=True, **{server.ADDRESS: "/nowhere"}) == 1
     assert capfd.readouterr().err == ""
