@@ -6,8 +6,8 @@ from io import StringIO
 from typing import NamedTuple
 
 from pipeline import config
-from pipeline.checks.accept import accept
 from pipeline.checks.verify import verify
+from pipeline.cli.commands.accept import accept
 
 
 class Found(NamedTuple):

@@ -62,11 +62,13 @@ COMMANDS = {
     "benchmark": Command(
         "measure speeds and print a table of their ratios",
         module="program",
+        packages="study",
         details=" Installs the packages of the study first (once).",
     ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
         module="program",
+        packages="test",
         details=" Installs the packages of the tests first (once).",
     ),
     "help": Command(

@@ -16,13 +16,13 @@ from snakemake_interface_logger_plugins.common import LogEvent
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.jobs.plan import plan
 from pipeline.jobs.server import ADDRESS
+from pipeline.records.build_spec import BuildSpec
 from pipeline.records.files import disk_is_full, inode
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
-from .parts import Parts, is_part
-
 WIDTH = 6  # characters of a scene's name
+PAUSE = 1.0  # least number of seconds between two lines about parts
 
 
 class LogHandler(LogHandlerBase):
@@ -98,7 +98,7 @@ class LogHandler(LogHandlerBase):
         spec = plan().freshness.build_specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        if spec and is_part(spec) and len(words) > 1:
+        if spec and _is_part(spec) and len(words) > 1:
             self.parts = self.parts or Parts(plan().freshness.build_specs, plan().outdated)
             line = self.parts.done(self.results[job])
         if line:
@@ -123,3 +123,48 @@ def _end_with_parent() -> None:
     if ADDRESS in os.environ:
         os.read(sys.stdin.fileno(), 1)  # nothing is ever written
         os.kill(os.getpid(), signal.SIGKILL)
+
+
+class Parts:
+    """Counts the finished parts of datasets, called blocks, and estimates the time left.
+
+    Each part is computed by a job of its own. `specs` maps results to build specifications, and
+    `outdated` has the results of the run.
+    """
+
+    def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
+        scenes = {path: spec.scene for path, spec in specs.items() if _is_part(spec)}
+        self.left = scenes.keys() & outdated
+        self.names = sorted({scenes[path] for path in self.left})
+        self.total = sum(scene in self.names for scene in scenes.values())
+        self.first: tuple[float, int] | None = None  # time, and parts that were left then
+        self.printed = -PAUSE
+
+    def done(self, path: str) -> str | None:
+        """Count a finished part, and return a line if it is time for one.
+
+        Speed is measured from the first part on: before it, jobs may compile the map.
+        """
+        self.left.discard(path)
+        now, left = time.monotonic(), len(self.left)
+        since, self.first = self.first, self.first or (now, left)
+        if left and now < self.printed + PAUSE:
+            return None
+        self.printed = now
+        text = f"{', '.join(self.names)}: {self.total - left:,} of {self.total:,} blocks"
+        if since is None or not left:
+            return text
+        seconds = left * (now - since[0]) / max(since[1] - left, 1)
+        return f"{text}, {_duration(round(seconds))} to go"
+
+
+def _is_part(spec: BuildSpec) -> bool:
+    """Return whether a result is a part of a dataset."""
+    return spec.step.startswith("block ")
+
+
+def _duration(seconds: int) -> str:
+    """Return a time in minutes and seconds, or in hours and minutes."""
+    minutes, rest = divmod(seconds, 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s"

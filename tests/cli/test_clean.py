@@ -6,11 +6,11 @@ from contextlib import nullcontext
 
 import pytest
 import yaml
-from project import fresh_tree, of_scenes
+from project import of_scenes
 from verdicts import commit
 
 from pipeline import config
-from pipeline.cli.arguments import Arguments
+from pipeline.cli import arguments
 from pipeline.cli.commands import clean
 from pipeline.cli.session import CommandLineError, UsageError
 from pipeline.records.record import record_path
@@ -75,29 +75,29 @@ def root(tmp_path, monkeypatch):
     return root
 
 
-def run(root, *folders, yes=True):
-    checked = config.load(root / "config.yaml")
-    return clean.run(Arguments(folder=list(folders), yes=yes, config=checked))
+def run(*words, root):
+    """Run `clean` with further words."""
+    args = arguments.read(["clean", *words])
+    args.config = config.load(root / "config.yaml")
+    return clean.run(args)
 
 
-def test_generated_files_are_deleted(tmp_path):
-    tree = fresh_tree(tmp_path / "a clone", DOCUMENT)
-    write_files(tree.path)
-    result = tree.run("clean", "--yes")
-    assert result.returncode == 0, result.stdout
-    assert left(tree.path) == KEPT
-    assert not list((tree.path / "results").rglob("*.json"))
-    assert not (tree.path / "results" / "gone").exists()  # empty folders are deleted
-    assert result.stdout.startswith("deleted 13 files, ")
-    assert tree.run("clean", "--yes").stdout == "nothing to delete\n"
+def test_generated_files_are_deleted(root, capsys):
+    assert run("--yes", root=root) == 0
+    assert left(root) == KEPT
+    assert not list((root / "results").rglob("*.json"))
+    assert not (root / "results" / "gone").exists()  # empty folders are deleted
+    assert capsys.readouterr().out.startswith("deleted 13 files, ")
+    assert run("--yes", root=root) == 0
+    assert capsys.readouterr().out == "nothing to delete\n"
 
 
 def test_only_named_folders_are_cleaned(root):
-    assert run(root, "near") == 0
+    assert run("near", "--yes", root=root) == 0
     generated = {"results/near/logs/fig4.png.json", "results/near/why/fig4.png.txt"}
     assert left(root) == set(FILES) - generated
     with pytest.raises(CommandLineError, match="no folder results/pape: did you mean paper"):
-        run(root, "pape")
+        run("pape", root=root)
 
 
 @pytest.mark.parametrize("answer", ["", "n\n", "y\n"])
@@ -105,18 +105,18 @@ def test_nothing_is_deleted_without_a_yes(root, monkeypatch, capsys, answer):
     monkeypatch.setattr("sys.stdin", io.StringIO(answer))
     goes = set()
     if answer == "y\n":
-        assert run(root, "paper", yes=False) == 0
+        assert run("paper", root=root) == 0
         goes = {name for name in FILES if name.startswith("results/paper/")} - KEPT
     else:
         with pytest.raises(UsageError, match="nothing was deleted"):
-            run(root, "paper", yes=False)
+            run("paper", root=root)
     assert "delete 7 files, 0.0 MB, in results/paper? [y/N]" in capsys.readouterr().err
     assert left(root) == set(FILES) - goes
 
 
 def test_a_result_that_is_committed_stays(root):
     commit(root, "results/paper/motion_fig3.nc")
-    assert run(root) == 0
+    assert run("--yes", root=root) == 0
     assert left(root) == KEPT | {"results/paper/motion_fig3.nc"}
 
 
@@ -132,7 +132,7 @@ def test_no_path_in_a_record_is_followed(root):
         write_files(root)
         for name in ("victim.nc", "notes.txt"):
             write_record(root, f"results/paper/{name}", output)
-        assert run(root) == 0
+        assert run("--yes", root=root) == 0
         assert victim.read_text() == "mine", output
         assert left(root) == KEPT, output
 
@@ -144,6 +144,6 @@ def test_no_link_is_followed(root, tmp_path, name):
     link.symlink_to(outside)
     (outside / "empty").mkdir()
     before = sorted(outside.rglob("*"))
-    assert run(root) == 0
+    assert run("--yes", root=root) == 0
     assert sorted(outside.rglob("*")) == before
     assert link.is_symlink()

@@ -52,7 +52,7 @@ def started(folder, *words, **how):
     return result.returncode, result.stderr.splitlines()
 
 
-@pytest.mark.parametrize("words", [["list"], ["-n"], ["--version"]])
+@pytest.mark.parametrize("words", [["-n"], ["--version"]])
 def test_output_that_cannot_be_written_is_one_line(words):
     with open("/dev/full", "w") as full:
         lines = ["reproduce: cannot write to stdout: No space left on device"]

@@ -6,7 +6,7 @@ import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
-from pipeline.checks.compare import summaries
+from pipeline.checks.compare import datasets
 from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
@@ -89,7 +89,7 @@ def test_the_largest_exponent_is_the_largest_by_value():
     numbers = reports.exponents(block, found)
     ours = [float(text) for text in numbers["largest exponent"].split(", ")]
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
-    line = summaries.exponents(found, found, ("one", "other"))[1]
+    line = datasets.exponents(found, found, ("one", "other"))[1]
     assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
 
 

@@ -42,10 +42,10 @@ if __name__ == "__main__":
 """
 
 
-@pytest.fixture(scope="module")
-def tree(tmp_path_factory):
+@pytest.fixture
+def tree(tmp_path):
     """A copy of the project with PROGRAMS and MAIN."""
-    tree = fresh_tree(tmp_path_factory.mktemp("server") / "tree")
+    tree = fresh_tree(tmp_path / "tree")
     for name, text in PROGRAMS.items():
         file = tree.path / "src/pipeline/jobs" / f"{name}.py"
         file.write_text(f"def make(spec):\n    {text}\n")
@@ -54,30 +54,22 @@ def tree(tmp_path_factory):
     return tree
 
 
-def printed_words(tree, *arguments):
-    """Run MAIN, and return the words that it prints."""
-    result = tree.python("main.py", *arguments)
-    assert (result.returncode, result.stderr) == (0, "")
-    return result.stdout.split()
-
-
 def test_many_jobs_at_once_end_as_they_should(tree):
-    words = printed_words(tree, "3", "txt", "good", "bad", "bug", "killed", "modules")
-    assert words[:6] == ["True", "False"] * 3  # no dataset is made
-    assert words[6:] == ["0", "1", "1", "1", "0"] * 3
-    assert (tree.path / "count").read_text() == "x" * 3
+    programs = ("good", "bad", "bug", "killed", "modules")
+    result = tree.python("main.py", "2", "nc", *programs)
+    assert (result.returncode, result.stderr) == (0, "")
+    words = result.stdout.split()
+    assert words[:4] == ["True", "True"] * 2  # jobs of a run that computes data find numba loaded
+    assert words[4:] == ["0", "1", "1", "1", "0"] * 2
+    assert (tree.path / "count").read_text() == "x" * 2
     folder = tree.path / "results/paper"
-    logs = [folder / f"logs/{i}.txt.log" for i in range(4)]
+    logs = [folder / f"logs/{i}.nc.log" for i in range(4)]
     assert not logs[0].exists()
     last = [log.read_text().splitlines()[-1] for log in logs[1:]]
     assert last[0] == "pseudorigid: fig: bad input"
     assert last[1].startswith("pseudorigid: fig: ZeroDivisionError: division by zero (traceback in")
     assert last[2].startswith("pseudorigid: fig: the job was killed")
-    assert {file.name for file in folder.glob("*.txt")} == {f"{i}.txt" for i in range(0, 15, 5)}
-
-
-def test_jobs_of_a_run_that_computes_data_find_numba_loaded(tree):
-    assert printed_words(tree, "1", "nc", "modules")[:2] == ["True", "True"]
+    assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "5.nc"}
 
 
 def test_jobs_start_as_usual_without_a_server(monkeypatch):
@@ -89,22 +81,28 @@ def test_jobs_start_as_usual_without_a_server(monkeypatch):
         assert variables == {}
 
 
-def test_a_result_that_is_current_when_its_job_begins_is_not_made(tmp_path, monkeypatch):
-    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: True)
-    command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "results/paper/x.nc"]
-    with server.job_server(Freshness(ROOT, {}), []) as variables:
-        assert subprocess.call(command, env=variables) == 0
-    # A job whose server has ended fails.
-    assert subprocess.call(command, env={server.ADDRESS: str(tmp_path / "none")}) == 1
+@pytest.fixture
+def asked(monkeypatch):
+    """Return a function that asks the server of these results for x: the exit status of the job."""
+
+    def ask(specs, current, **environment):
+        monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: current)
+        command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "x"]
+        with server.job_server(Freshness(ROOT, specs), []) as variables:
+            return subprocess.call(command, env=variables | environment)
+
+    return ask
 
 
-def test_a_job_whose_forking_process_was_killed_is_no_traceback(tmp_path, monkeypatch, capfd):
+def test_a_result_that_is_current_when_its_job_begins_is_not_made(asked):
+    assert asked({}, current=True) == 0
+
+
+def test_a_job_whose_server_or_forking_process_has_ended_fails(asked, monkeypatch, capfd):
     def end(context, spec):
         raise EOFError("unexpected EOF")
 
     monkeypatch.setattr(server, "run", end)
-    monkeypatch.setattr(Freshness, "is_current_now", lambda self, path: False)
-    command = [sys.executable, "-S", ROOT / "workflow/scripts/make.py", "x"]
-    with server.job_server(Freshness(ROOT, {"x": None}), []) as variables:
-        assert subprocess.call(command, env=variables) == 1
+    assert asked({"x": None}, current=False) == 1
+    assert asked({}, current=True, **{server.ADDRESS: "/nowhere"}) == 1
     assert capfd.readouterr().err == ""

@@ -5,8 +5,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from pipeline.checks.report.links import Links
-from pipeline.checks.report.part import Part
+from pipeline.checks.report.part import Links, Part
 from pipeline.config import Config
 from pipeline.records.files import write_whole
 

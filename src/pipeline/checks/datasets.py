@@ -63,32 +63,33 @@ def _of_stages() -> dict[str, File]:
     """Return the file of each stage that is none of the study's, and of a part where it has any."""
     described = {}
     for name, small in SMALL.items():
-        stage = STAGES[name]
+        stage, path = STAGES[name], f"results/VARIANT/{name}_SCENE"
         block = {key: value for used in stage.inputs for key, value in SMALL[used].items()} | small
-        path, data = f"results/VARIANT/{name}_SCENE", _compute(name, block)
-        described[name] = File(f"{path}.nc", _saved(data, name, stage.function))
+        data = _saved(_compute(name, block), name, stage.function)
+        described[name] = File(f"{path}.nc", data)
         if stage.parts:
-            data = imported(stage.part)(**imported(stage.parts)(block)[0])
-            part = File(f"{path}.0000.nc", _saved(data, "block 0", stage.part))
-            described[f"{name}, a block"] = part
+            part = imported(stage.part)(**imported(stage.parts)(block)[0])
+            data = _saved(part, "block 0", stage.part)
+            described[f"{name}, a block"] = File(f"{path}.0000.nc", data)
     return described
 
 
 def _compute(name: str, block: Mapping[str, Any]) -> xr.Dataset:
     """Compute the dataset of a stage, and those of its inputs, from a block of a config."""
-    stage, inputs = STAGES[name], [_compute(used, block) for used in STAGES[name].inputs]
-    fields = [key for key in (*stage.names, *SMALL[name]) if key in block]
+    stage = STAGES[name]
     if stage.parts:
         inputs = [imported(stage.part)(**part) for part in imported(stage.parts)(block)]
-        fields = [key for key in stage.names if key in block]
-    of_ball = [BALL, ENERGY] if _takes_ball(stage.function) else []
-    values = {key: block[key] for key in fields}
-    dataset: xr.Dataset = imported(stage.function)(*of_ball, *inputs, **values)
+    else:
+        inputs = [_compute(used, block) for used in stage.inputs]
+    parameters = _parameters(stage.function)
+    of_ball = [BALL, ENERGY] if "ball" in parameters else []
+    fields = {key: value for key, value in block.items() if key in parameters}
+    dataset: xr.Dataset = imported(stage.function)(*of_ball, *inputs, **fields)
     return dataset
 
 
-def _takes_ball(function: str) -> bool:
-    return next(iter(inspect.signature(imported(function)).parameters)) == "ball"
+def _parameters(function: str) -> Mapping[str, inspect.Parameter]:
+    return inspect.signature(imported(function)).parameters
 
 
 def _of_study() -> dict[str, File]:
@@ -121,7 +122,7 @@ def _saved(data: xr.Dataset, step: str, function: str = "") -> xr.Dataset:
     attributes: dict[str, Any] = {"stage": step}
     if function:
         attributes |= {"title": artifacts.title_of(imported(function))} | data.attrs
-        if _takes_ball(function):
+        if "ball" in _parameters(function):
             attributes |= {"k": BALL.k, "g": BALL.g, "energy": ENERGY}
     with tempfile.TemporaryDirectory() as folder:
         artifacts.save(data, f"{folder}/data.nc", {}, **attributes)

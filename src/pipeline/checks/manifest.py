@@ -21,12 +21,12 @@ from . import published_sets
 from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
 
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
-_SHORT = 16  # hex digits of the hash of a block or an attribute
+_SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
 
 Manifest = dict[str, Any]  # with the fields of _Manifest
 
 
-class _Variable(pydantic.BaseModel):
+class _VariableEntry(pydantic.BaseModel):
     """A variable of a dataset; `blocks` has a short hash of each BLOCK of its values."""
 
     dims: list[str]
@@ -37,28 +37,28 @@ class _Variable(pydantic.BaseModel):
     blocks: str
 
 
-class _Data(pydantic.BaseModel):
+class _DatasetEntry(pydantic.BaseModel):
     """A dataset: hashes of its attributes, sizes of its dims, variables."""
 
     attributes: dict[str, str]
     sizes: dict[str, int]
-    variables: dict[str, _Variable]
+    variables: dict[str, _VariableEntry]
 
 
-class _Figure(pydantic.BaseModel):
+class _FileEntry(pydantic.BaseModel):
     """A published file: what `pictures.describe` returns, and its hash."""
 
     drawing: dict[str, int | str]
     sha256: str
 
 
-class _Scene(pydantic.BaseModel):
+class _SceneEntry(pydantic.BaseModel):
     """A scene: its config block, source paths, stage -> name in _Manifest.data, and its files."""
 
     config: dict[str, Any]
     sources: list[str]
     data: dict[str, str]
-    figures: dict[str, _Figure]
+    figures: dict[str, _FileEntry]
 
 
 class _Manifest(pydantic.BaseModel):
@@ -67,15 +67,15 @@ class _Manifest(pydantic.BaseModel):
     environment: dict[str, str | None]
     texts: dict[str, str | None]
     sources: dict[str, str | None]
-    data: dict[str, _Data]
-    scenes: dict[str, _Scene]
+    data: dict[str, _DatasetEntry]
+    scenes: dict[str, _SceneEntry]
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the entry for a dataset in a manifest: hashes of its attributes and variables."""
     variables = {}
     for name, variable in dataset.variables.items():
-        kind, values = canonical_values(variable)
+        dtype, values = canonical_values(variable)
         slices = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
         blocks = [
             json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
@@ -84,7 +84,7 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
-            "dtype": kind,
+            "dtype": dtype,
             "attributes": _attribute_hashes(variable),
             "sha256": hashlib.sha256(b"".join(blocks)).hexdigest(),
             "blocks": " ".join(_short_hash(block) for block in blocks),
@@ -95,20 +95,22 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:
     """Return the manifest of a set's files; ValueError or OSError if one cannot be read."""
-    artifacts = {path for stages in published_set.data.values() for path in stages.values()}
+    datasets = {path for stages in published_set.data.values() for path in stages.values()}
     sources = {scene: published_set.sources(scene) for scene in published_set.config}
-    files = sorted(set().union(*sources.values()))
+    source_files = sorted(set().union(*sources.values()))
     folder = root / published_set.folder
     return {
         "environment": versions(),
         "texts": {path: file_hash(root / path) for path in published_set.text_files},
-        "sources": {path: syntax_hash(root / path) for path in files},
-        "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(artifacts)},
+        "sources": {path: syntax_hash(root / path) for path in source_files},
+        "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(datasets)},
         "scenes": {
             scene: {
                 "config": block,
                 "sources": sources[scene],
-                "data": {s: Path(path).name for s, path in published_set.data[scene].items()},
+                "data": {
+                    stage: Path(path).name for stage, path in published_set.data[scene].items()
+                },
                 "figures": {
                     name: {"drawing": describe(folder / name), "sha256": file_hash(folder / name)}
                     for name in sorted(published_set.drawn)
@@ -177,4 +179,4 @@ def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
 
 
 def _short_hash(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:_SHORT]
+    return hashlib.sha256(data).hexdigest()[:_SHORT_DIGITS]

@@ -78,10 +78,11 @@ def _published(config: Config, group: str) -> PublishedSet:
     scenes = {name: block for name, block in drawn.items() if not paths.is_measured(block)}
     drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block.formats]
     specs = build_specs(config, [group])
-    data: dict[str, dict[str, str]] = {scene: {} for scene in scenes}
-    for (name, scene, stage), path in paths.artifact_paths(config.variants).items():
-        if name == group and scene in data:
-            data[scene][stage] = path
+    datasets = paths.artifact_paths(config.variants)
+    data = {
+        scene: {stage: datasets[group, scene, stage] for stage in paths.stages(block)}
+        for scene, block in scenes.items()
+    }
     return PublishedSet(
         group=group,
         folder=PUBLISHED[group],

@@ -136,18 +136,18 @@ def verify(root: Path, config: Config, committed: bool = False) -> list[Findings
 
     With `committed`, figures of the paper need not have been computed here.
     """
-    sets = published_sets.committed_sets(config)
-    found = [inspect(root, s) for s in sets if not s.on_request or manifest.is_present(root, s)]
-    for findings in found:
-        if not (committed or findings.published_set.on_request):
-            drawn, stale = findings.published_set.drawn, findings.stale
-            missing = [(name, _UNCOMPUTED) for name, p in drawn.items() if stale.get(p) == MISSING]
-            findings.uncomputed = _grouped(missing)
-    return found
+    return [
+        inspect(root, published_set, committed or published_set.on_request)
+        for published_set in published_sets.committed_sets(config)
+        if not published_set.on_request or manifest.is_present(root, published_set)
+    ]
 
 
-def inspect(root: Path, published_set: PublishedSet) -> Findings:
-    """Compare one published set of a tree with its committed state."""
+def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Findings:
+    """Compare one published set of a tree with its committed state.
+
+    Without `partial`, it is a finding that a drawing is missing in results.
+    """
     freshness = Freshness(root, published_set.build_specs)
     refused = {
         Path(name).stem: why
@@ -169,7 +169,10 @@ def inspect(root: Path, published_set: PublishedSet) -> Findings:
             findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
     except published_sets.ChecksumError as error:
         findings.problems.append(str(error))
-    findings.stale = freshness.outdated(published_set.build_specs)
+    findings.stale = stale = freshness.outdated(published_set.build_specs)
+    if not partial:
+        missing = [name for name, path in published_set.drawn.items() if stale.get(path) == MISSING]
+        findings.uncomputed = _grouped((name, _UNCOMPUTED) for name in missing)
     return findings
 
 

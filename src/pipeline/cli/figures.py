@@ -69,7 +69,8 @@ def make(
     if not {*results, *inputs} <= specs.keys():  # some are of other sets
         specs = build_specs(config)
     inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
-    notes = [*_hidden(_blocks(config, group, drawings.values()))]
+    blocks = _blocks(config, group, drawings.values())
+    notes = [f"{scene}: {line}" for scene, block in blocks.items() for line in block.hidden()]
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
         notes += [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
@@ -82,21 +83,30 @@ def make(
         status = int(group in PUBLISHED)
     elif outdated:
         status = status or 1
-        _print_not_made([path for path in outdated if path not in refused], len(results))
+        names = [PurePath(path).name for path in outdated if path not in refused]
+        more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+        count = f"{len(names)} of {len(results)} results not made, or not current"
+        print_error(f"{count}: {', '.join(names[:3])}{more}")
     made = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
     unpublished = _publish(made)
-    _delete([*(refused & {*drawings.values()}), *left_out])
-    states = {}
+    for drawing in [*(refused & {*drawings.values()}), *left_out]:  # the present config has none
+        for file in (ROOT / drawing, ROOT / record_path(drawing)):
+            if not why_not_a_file(file):
+                file.unlink(missing_ok=True)
+    rows = []
     for path, drawing in drawings.items():
-        replaced = inode(drawing) != inodes[drawing]
-        states[path] = _state(specs, drawing, outdated.get(drawing), replaced)
-    states |= {path: f"not published: {reason}" for path, reason in unpublished.items()}
-    rows = [(specs[drawings[path]].scene, path, state) for path, state in states.items()]
-    rows = [row for row in rows if not (brief and row[-1] == "current")]
+        state = _state(specs, drawing, outdated.get(drawing), inode(drawing) != inodes[drawing])
+        if path in unpublished:
+            state = f"not published: {unpublished[path]}"
+        if not (brief and state == "current"):
+            rows.append((specs[drawing].scene, path, state))
     rows += [(scene, path, reasons[scene]) for path, scene in left_out.items()]
     if rows:
         notes += _missed_impacts(config, group, _blocks(config, group, made.values()))
-        _print_table(PUBLISHED.get(group), rows, [*notes, *_unlisted(config, group)])
+        if group in PUBLISHED:
+            figures = [PurePath(path).name for path in paths.figures(config.variants, group)]
+            notes += unlisted_files(ROOT, PUBLISHED[group], figures)
+        _print_table(PUBLISHED.get(group), rows, notes)
     return status or int(bool(unpublished))
 
 
@@ -104,13 +114,6 @@ def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Pi
     """Map the name of each scene of some drawings to its block of the config."""
     scenes = {PurePath(path).stem for path in drawings}
     return {name: block for name, block in config.variants.get(group, {}).items() if name in scenes}
-
-
-def _print_not_made(results: list[str], total: int) -> None:
-    """Print how many of the results that were asked for are missing or outdated after a run."""
-    more = f" and {len(results) - 3} more" if len(results) > 3 else ""
-    names = ", ".join(PurePath(path).name for path in results[:3])
-    print_error(f"{len(results)} of {total} results not made, or not current: {names}{more}")
 
 
 def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, replaced: bool) -> str:
@@ -139,14 +142,6 @@ def _publish(drawings: Drawings) -> dict[str, str]:
     return problems
 
 
-def _delete(drawings: Iterable[str]) -> None:
-    """Delete old drawings, and their records, that the present config cannot have."""
-    for drawing in drawings:
-        for file in (ROOT / drawing, ROOT / record_path(drawing)):
-            if not why_not_a_file(file):
-                file.unlink(missing_ok=True)
-
-
 def _print_table(
     folder: str | None, states: Iterable[tuple[str, str, str]], notes: Iterable[str]
 ) -> None:
@@ -169,20 +164,6 @@ def _print_table(
     explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
     lines = [line for note in (*explained, *notes) for line in wrap(note)]
     print("", *columns([header, *rows]), *lines, sep="\n")
-
-
-def _unlisted(config: Config, group: str) -> list[str]:
-    """Return a line for each picture in the folder of a set that no scene makes."""
-    if group not in PUBLISHED:
-        return []
-    files = [PurePath(path).name for path in paths.figures(config.variants, group)]
-    return unlisted_files(ROOT, PUBLISHED[group], files)
-
-
-def _hidden(scenes: dict[str, Picture]) -> Iterator[str]:
-    """Yield a line for each field of these scenes whose values the axes do not all show."""
-    for scene, block in scenes.items():
-        yield from (f"{scene}: {line}" for line in block.hidden())
 
 
 def _missed_impacts(config: Config, variant: str, scenes: dict[str, Picture]) -> Iterator[str]:

@@ -38,15 +38,21 @@ def _run(words: list[str]) -> int:
 
     try:
         args.start = Path.cwd()
+        str(ROOT).encode()  # netCDF4 and snakemake need names that are text
     except FileNotFoundError:
         print_error("the current folder was deleted: go to another one")
+        return 1
+    except UnicodeEncodeError:
+        print_error(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
         return 1
     os.chdir(ROOT)
     set_environment()
     command = all_commands().get(args.word, DEFAULT_COMMAND)
     try:
-        if not _is_utf8(ROOT):
-            raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
+        if command.packages and not (command.runs_snakemake and args.makes_nothing):
+            from .packages import add_packages
+
+            add_packages(command.packages)
         module = importlib.import_module(module_of(command, args.word, vars(args)))
         return int(module.run(args))
     except ConfigError as error:
@@ -57,12 +63,3 @@ def _run(words: list[str]) -> int:
     except KeyboardInterrupt:
         return 130
     return 1
-
-
-def _is_utf8(path: Path) -> bool:
-    """Return whether the name of a file is text, as netCDF4 and snakemake need it."""
-    try:
-        os.fspath(path).encode()
-    except UnicodeEncodeError:
-        return False
-    return True

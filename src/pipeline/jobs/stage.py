@@ -35,10 +35,10 @@ def make(spec: BuildSpec) -> None:
     """
     block, function = spec.config, imported(spec.function)
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
-    taken = inspect.signature(function).parameters
-    if "progress" in taken:
+    parameters = inspect.signature(function).parameters
+    if "progress" in parameters:
         fields["progress"] = _progress(spec)
-    if "folder" in taken:  # the function keeps finished parts there, so that a killed run goes on
+    if "folder" in parameters:  # where it keeps finished parts, so that a killed run goes on
         fields["folder"] = f"{spec.result}.part"
     inputs = [artifacts.load(path) for path in spec.inputs]
     attributes: dict[str, Any] = {"stage": spec.step, "title": artifacts.title_of(function)}

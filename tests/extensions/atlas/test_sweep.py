@@ -9,6 +9,7 @@ import pytest
 from project import fresh_tree, of_scenes, wait_for
 from runs import rows
 
+import snakemake_logger_plugin_reproduce as parts
 from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
@@ -17,7 +18,6 @@ from pipeline.config import paths
 from pipeline.config.build_specs import build_specs
 from pipeline.records.artifacts import load
 from pipeline.records.build_spec import BuildSpec
-from snakemake_logger_plugin_reproduce import parts
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 BOTH = ["png", "svg"]

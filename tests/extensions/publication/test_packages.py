@@ -12,7 +12,7 @@ from project import ROOT, run
 from extensions.publication import archive
 from extensions.publication.commands.archive import download, requirements_for
 from pipeline import config
-from pipeline.cli.packages import wheels
+from pipeline.cli import packages
 from pipeline.cli.session import UsageError
 
 PYTHON = ".".join(platform.python_version_tuple()[:2])
@@ -29,7 +29,7 @@ def test_the_conditions_of_requirements_are_those_of_the_other_python(
     conditions = "a==1 ; python_version < '3.12'\nb==1 ; python_full_version < '3.12'\n"
     (tmp_path / "requirements").mkdir()
     (tmp_path / "requirements" / "lock.txt").write_text(conditions)
-    monkeypatch.setattr(wheels, "ROOT", tmp_path)
+    monkeypatch.setattr(packages, "ROOT", tmp_path)
     assert len(requirements_for("lock", python)) == (2 if python == "3.11" else 0)
 
 
@@ -39,10 +39,10 @@ def test_the_conditions_of_requirements_are_those_of_the_other_python(
 def test_a_damaged_package_is_named(tmp_path, name):
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "other-1.0-py3-none-any.whl").write_text("another package")
-    wheels.refuse_damaged(tmp_path)
+    packages.refuse_damaged(tmp_path)
     (tmp_path / name).write_bytes(b"damaged")
     with pytest.raises(UsageError, match=f"{name} is damaged"):
-        wheels.refuse_damaged(tmp_path)
+        packages.refuse_damaged(tmp_path)
 
 
 @pytest.mark.slow

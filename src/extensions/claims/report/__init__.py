@@ -7,8 +7,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from pipeline.checks.report.links import Links
-from pipeline.checks.report.part import Part
+from pipeline.checks.report.part import Links, Part
 from pipeline.config import PAPER, Config
 from pipeline.records.files import read_text
 

@@ -12,14 +12,9 @@ from pathlib import Path
 from packaging.markers import Marker
 
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.packages.wheels import (
-    HASH,
-    logical_lines,
-    pip_environment,
-    pip_settings,
-    sha256_of,
-)
+from pipeline.cli.packages import HASH, logical_lines, pip_environment, pip_settings
 from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
+from pipeline.records.files import file_hash
 from pipeline.records.sources import ROOT
 
 from .. import archive
@@ -75,7 +70,7 @@ def download(folder: Path, python: str) -> list[Path]:
         message = (errors or result.stderr.splitlines() or ["pip failed"])[-1]
         raise UsageError(f"cannot download the packages: {message.removeprefix('ERROR: ')}")
     wanted = set(HASH.findall("\n".join(lines)))
-    files = [file for file in sorted(folder.iterdir()) if sha256_of(file) in wanted]
+    files = [file for file in sorted(folder.iterdir()) if file_hash(file) in wanted]
     if len(files) != len(lines):
         raise UsageError(f"{folder} has {len(files)} packages of {len(lines)}: delete it and retry")
     return files

@@ -22,12 +22,12 @@ _HEAD = 75  # pixels
 _SIZE = 42  # pixels
 _MOST = 50  # times the width of an axis that the axis of both may have
 
-_Pixels = npt.NDArray[np.uint8]
+Pixels = npt.NDArray[np.uint8]
 
 
 def on_same_axes(
     blocks: Sequence[Picture], data: Sequence[Sequence[xr.Dataset]]
-) -> tuple[list[_Pixels], str]:
+) -> tuple[list[Pixels], str]:
     """Draw a scene of two variants on axes that hold both; return the pixels and words on the axes.
 
     Each keeps its own axes if the kind of picture has none in the config, or if one of the pictures
@@ -66,7 +66,7 @@ def _width(axis: YamlMapping) -> float:
     return float(high - low)
 
 
-def side_by_side(drawings: Mapping[str, _Pixels | None], path: Path) -> None:
+def side_by_side(drawings: Mapping[str, Pixels | None], path: Path) -> None:
     """Save two pictures side by side, each below its name. None stands for a missing picture."""
     images = [None if part is None else Image.fromarray(part) for part in drawings.values()]
     blank = Image.new("RGB", next(filter(None, images)).size, "white")

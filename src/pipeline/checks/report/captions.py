@@ -32,14 +32,8 @@ def caption_of(name: str, block: dict[str, Any]) -> Caption:
     templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""} | own
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
-    parts = (_filled(templates[part], block) for part in Caption._fields[1:])
-    return Caption(shown_name, *parts)
-
-
-def _filled(template: str, block: dict[str, Any]) -> str:
-    """Return a text with the values of a block, on one line."""
-    text = _ENVIRONMENT.from_string(template).render(s=block)
-    return " ".join(text.split())
+    texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
+    return Caption(shown_name, *(" ".join(text.render(s=block).split()) for text in texts))
 
 
 def _with_commas(value: object) -> object:

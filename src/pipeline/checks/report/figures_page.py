@@ -24,10 +24,8 @@ def page() -> str:
     for published_set in published_sets.committed_sets(config):
         scenes = manifest.read(ROOT, published_set.folder)["scenes"]
         blocks = {name: scene["config"] for name, scene in scenes.items()}
-        for file in published_set.measured:
-            blocks[Path(file).stem] = config.variants[published_set.group][
-                Path(file).stem
-            ].as_mapping()
+        for scene in (Path(file).stem for file in published_set.measured):
+            blocks[scene] = config.variants[published_set.group][scene].as_mapping()
         captions = [(name, caption_of(name, block)) for name, block in blocks.items()]
         sections.append((SETS[published_set.group].heading, published_set, captions))
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")

@@ -25,8 +25,7 @@ from ..published_sets import IDENTICAL, committed_sets, committed_state
 from ..quantities import measured, printed
 from ..verify import Findings, inspect
 from .captions import caption_of
-from .links import Links
-from .part import Part
+from .part import Links, Part
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -95,7 +94,7 @@ class _Page:
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def _described(
-        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str = ""
+        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str
     ) -> Picture:
         """Return the caption of a picture and the notes of extensions, without an image."""
         picture: Picture = caption_of(name, block.as_mapping())._asdict()
@@ -105,22 +104,22 @@ class _Page:
 
     def pictures_of(self, variant: str) -> list[Picture]:
         """Return the pictures of a variant; those that are not current have no image."""
-        pictures = []
-        for scene, block in self.variants[variant].items():
+        pictures, left_out = [], self.left_out.get(variant, {})
+        others = {scene: self.variants[PAPER][scene] for scene in left_out}
+        for scene, block in (self.variants[variant] | others).items():
             drawing = paths.drawn(scene, "png", variant)
             published = f"{PUBLISHED[PAPER]}/{scene}.png" if variant == PAPER else drawing
+            published = "" if scene in left_out else published
             picture = self._described(f"{variant}-{scene}", variant, scene, block, published)
-            if (state := self.freshness.state(drawing)) == CURRENT:
+            state = left_out.get(scene) or self.freshness.state(drawing)
+            if state == CURRENT:
                 data = [self.artifact_paths[variant, scene, name] for name in paths.stages(block)]
-                picture |= self._shown(drawing, data) | self._numbers(variant, scene)
                 compared = f": {committed_state(self.root, published)}" if variant == PAPER else ""
-                pictures.append(picture | {"file": f"{published}{compared}"})
+                picture |= self._shown(drawing, data) | self._numbers(variant, scene)
+                picture["file"] = f"{published}{compared}"
             else:
-                pictures.append(picture | {"missing": state})
-        for scene, reason in self.left_out.get(variant, {}).items():
-            block = self.variants[PAPER][scene]
-            picture = self._described(f"{variant}-{scene}", variant, scene, block)
-            pictures.append(picture | {"missing": reason})
+                picture["missing"] = state
+            pictures.append(picture)
         return pictures
 
     def sets_on_request(self) -> list[tuple[str, list[Picture]]]:

@@ -2,7 +2,6 @@
 
 import os
 from pathlib import PurePath
-from typing import NamedTuple
 
 from ...commands import DEFAULT_COMMAND, all_commands
 from ...config import PAPER, PUBLISHED, paths
@@ -10,34 +9,30 @@ from ...config.build_specs import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments, hint
-from ..packages import add_packages
 from ..session import CommandLineError, locked
-
-
-class Target(NamedTuple):
-    """What is made of a set of scenes or a variant."""
-
-    drawings: figures.Drawings
-    data: list[str]  # further results
 
 
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
-    command, status = all_commands().get(args.word or "", DEFAULT_COMMAND), 0
-    select = _scene_set if command.scenes else _variant if args.word else _named
-    targets = select(args)
+    config, command = args.config, all_commands().get(args.word or "", DEFAULT_COMMAND)
+    group, status, data = command.scenes, 0, list[str]()
+    if group:
+        targets = {group: figures.drawings_of(config, group)}
+        data = [path for each in paths.data_only(config.variants, group).values() for path in each]
+    else:
+        targets = _variant(args) if args.word else _named(args)
     with locked():
-        for group, target in targets.items():
-            status = figures.make(args.config, group, target.drawings, args, target.data) or status
+        for name, drawings in targets.items():
+            status = figures.make(config, name, drawings, args, data) or status
             if status == running.INTERRUPTED:
                 break
     return status
 
 
-def _named(args: Arguments) -> dict[str, Target]:
+def _named(args: Arguments) -> dict[str, figures.Drawings]:
     """Select every figure of the paper, or the named figures and files, by sets of scenes."""
     published = {group: figures.drawings_of(args.config, group) for group in PUBLISHED}
-    targets: dict[str, Target] = {}
+    targets: dict[str, figures.Drawings] = {}
     other_results: list[str] = []
     for name in args.figure or ["all"]:
         # A path is relative to the root or to the user's folder.
@@ -49,13 +44,12 @@ def _named(args: Arguments) -> dict[str, Target]:
             if name == PurePath(drawing).stem or path in files or (name, group) == ("all", PAPER)
         ]
         for group, path in found:
-            drawings = targets.setdefault(group, Target({}, [])).drawings
-            drawings[path] = published[group][path]
+            targets.setdefault(group, {})[path] = published[group][path]
         if not found:
             other_results += _results_among(files, name, args)
     if other_results:
-        target = targets.setdefault(next(iter(targets), PAPER), Target({}, []))
-        target.drawings.update({path: path for path in other_results})
+        group = next(iter(targets), PAPER)
+        targets[group] = targets.get(group, {}) | {path: path for path in other_results}
     return targets
 
 
@@ -74,21 +68,11 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     raise CommandLineError(f"no command or figure {name}{meant}")
 
 
-def _variant(args: Arguments) -> dict[str, Target]:
+def _variant(args: Arguments) -> dict[str, figures.Drawings]:
     """Select all figures of a variant, or the named ones."""
     variants = args.config.own_variants
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
     figures.require_known("variant", [args.variant], variants)
-    return {args.variant: Target(figures.drawings_of(args.config, args.variant, args.figure), [])}
-
-
-def _scene_set(args: Arguments) -> dict[str, Target]:
-    """Select all pictures of the command's set of scenes, and data without a picture."""
-    command = all_commands()[str(args.word)]
-    if command.packages and not args.makes_nothing:
-        add_packages(command.packages)
-    data = paths.data_only(args.config.variants, command.scenes).values()
-    drawings = figures.drawings_of(args.config, command.scenes)
-    return {command.scenes: Target(drawings, [path for each in data for path in each])}
+    return {args.variant: figures.drawings_of(args.config, args.variant, args.figure)}

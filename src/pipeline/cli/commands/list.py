@@ -5,7 +5,7 @@ from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
-from ...config import Config, paths
+from ...config import paths
 from ...config.build_specs import build_specs
 from ...config.schema.sets import SETS
 from ...records.differences import columns, differing_block
@@ -15,35 +15,28 @@ from ..arguments import Arguments
 
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
-    config = args.config
+    config, own = args.config, list[Sequence[str]]()
     freshness = Freshness(ROOT, build_specs(config))
     for published_set in committed_sets(config):
         _print(published_set.command, [*_published(freshness, published_set)])
     for group, scenes in SETS.items():
-        blocks = config.variants[group]
-        measured = [
-            paths.drawn(scene, "png", group)
-            for scene, block in blocks.items()
-            if paths.is_measured(block) and block.formats
-        ]
+        blocks = config.variants[group].items()
+        charts = [scene for scene, block in blocks if paths.is_measured(block) and block.formats]
+        measured = [paths.drawn(scene, "png", group) for scene in charts]
         data = [path for each in paths.data_only(config.variants, group).values() for path in each]
         for kind, results in (("measured", measured), ("data", data)):
             rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]
             _print(f"{scenes.command}, {kind}", rows)
-    states = [row for name in config.own_variants for row in _states_of(freshness, config, name)]
-    _print("./reproduce variant NAME", states)
+    for name in config.own_variants:
+        files: dict[str, list[str]] = {}  # state -> the variant's files that have it
+        for _, upstream in paths.figures(config.variants, name).values():
+            file = PurePath(upstream[-1]).name
+            files.setdefault(freshness.state(upstream[-1]), []).append(file)
+        for scene, reason in config.left_out[name].items():
+            files.setdefault(reason, []).append(f"{scene}.png")
+        own += [(name, state, " ".join(names)) for state, names in files.items()]
+    _print("./reproduce variant NAME", own)
     return 0
-
-
-def _states_of(freshness: Freshness, config: Config, variant: str) -> Iterator[tuple[str, ...]]:
-    """Yield variant, state and files for each state that files of a variant have."""
-    files: dict[str, list[str]] = {}
-    for _, upstream in paths.figures(config.variants, variant).values():
-        files.setdefault(freshness.state(upstream[-1]), []).append(PurePath(upstream[-1]).name)
-    for scene, reason in config.left_out[variant].items():
-        files.setdefault(reason, []).append(f"{scene}.png")
-    for state, names in files.items():
-        yield variant, state, " ".join(names)
 
 
 def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:

@@ -3,6 +3,7 @@
 `reproduce` calls `set_up` before any package is installed: only the standard library is used here.
 """
 
+import ast
 import importlib.util
 import os
 import re
@@ -15,17 +16,23 @@ from collections.abc import Sequence
 from contextlib import chdir, suppress
 from pathlib import Path
 
-from ...records.files import FileError, write_whole
-from ...records.sources import ROOT
-from ..session import UsageError, interruptible, locked, print_error
-from . import wheels
+from ..records.files import FileError, file_hash, write_whole
+from ..records.sources import ROOT
+from .session import UsageError, interruptible, locked, print_error
 
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
 _GAP = 4.5  # seconds between two lines of an installation
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
-# Settings of pip that choose where packages come from, and their names for uv.
+_FOLDER = "packages"  # of a tar with packages, unpacked; `reproduce` installs from it
+HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
+# The settings of pip that are kept. Others could install elsewhere, or other packages.
+_SETTINGS = (
+    *("index-url", "extra-index-url", "find-links", "trusted-host", "cert", "client-cert", "proxy"),
+    *("no-index", "timeout", "default-timeout", "retries", "keyring-provider"),
+)
+# Of these, those that choose where packages come from, and their names for uv.
 _SOURCES = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -115,19 +122,19 @@ def _install(*names: str, again: bool = False) -> None:
             pip = [sys.executable, "-I", "-m", "pip", f"--python={PYTHON}"]
         else:
             _check(_run([PYTHON, "-I", "-m", "ensurepip"]))
-    settings = wheels.pip_settings(pip)
+    settings = pip_settings(pip)
     options = ["--require-hashes", "--no-build-isolation"]
-    ours = ROOT / wheels.FOLDER  # of a tar with packages, which has only the locked ones
+    ours = ROOT / _FOLDER  # of a tar with packages, which has only the locked ones
     folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
     if folder:
-        wheels.refuse_damaged(Path(folder))
+        refuse_damaged(Path(folder))
         options += ["--no-index", f"--find-links={folder}"]
     elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
         options += ["--no-index"]
 
     def by_pip(name: str, *more: str) -> bool:
         command = [*pip, "install", "--no-compile", "--progress-bar=off", *options, *more]
-        environment = wheels.pip_environment(settings)
+        environment = pip_environment(settings)
         return _run([*command, "-r", f"requirements/{name}.txt"], environment)
 
     own_uv = str(VENV / "bin" / "uv")
@@ -153,7 +160,7 @@ def _uv_environment(settings: dict[str, str]) -> dict[str, str]:
     of_uv = {"UV_INDEX_STRATEGY": "unsafe-best-match"}
     if ssl.get_default_verify_paths().cafile:
         of_uv["UV_SYSTEM_CERTS"] = "1"
-    return wheels.neutral_environment() | of_uv | of_pip | own
+    return _neutral_environment() | of_uv | of_pip | own
 
 
 def _run(command: Sequence[str | Path], environment: dict[str, str] | None = None) -> bool:
@@ -164,7 +171,7 @@ def _run(command: Sequence[str | Path], environment: dict[str, str] | None = Non
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=log,
-            env=environment or wheels.neutral_environment(),
+            env=environment or _neutral_environment(),
             cwd=ROOT,
             close_fds=False,  # it inherits the lock
         )
@@ -184,3 +191,51 @@ def _check(succeeded: bool) -> None:
     if not succeeded:
         last = LOG.read_text(errors="replace").rstrip().rpartition("\n")[2][:200]
         raise UsageError(f"could not install the packages: {last} (log: .venv/install.log)")
+
+
+def pip_settings(pip: list[str]) -> dict[str, str]:
+    """Return the settings of pip that are kept; variables override its files."""
+    kept = ["PIP_CONFIG_FILE", *map(_variable, _SETTINGS)]
+    own = {name: os.environ[name] for name in os.environ if name in kept}
+    command, environment = [*pip, "config", "list"], _neutral_environment() | own
+    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    settings = re.findall(r"^(global|install|:env:)\.([\w-]+)=(.+)$", result.stdout, re.M)
+    settings.sort(key=lambda item: ("global", "install", ":env:").index(item[0]))
+    return {name: ast.literal_eval(value) for _, name, value in settings if name in _SETTINGS}
+
+
+def _variable(setting: str) -> str:
+    return f"PIP_{setting.upper().replace('-', '_')}"
+
+
+def _neutral_environment() -> dict[str, str]:
+    """Return the present environment without variables that change what is installed, or where."""
+    dropped = r"PIP_|UV_|VIRTUAL_ENV$|CONDA_PREFIX$|SETUPTOOLS_|DISTUTILS_"
+    kept = {name: value for name, value in os.environ.items() if not re.match(dropped, name)}
+    return kept | {"LC_ALL": "C.UTF-8"}  # setuptools reads files in the locale's encoding
+
+
+def pip_environment(settings: dict[str, str]) -> dict[str, str]:
+    """Return the environment for pip, in which it reads no file of settings."""
+    kept = {_variable(name): value for name, value in settings.items()}
+    kept |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
+    return _neutral_environment() | kept | {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+
+
+def refuse_damaged(folder: Path) -> None:
+    """Raise UsageError for a file that has the name of a locked package and other bytes."""
+    names = [file.stem for file in sorted((ROOT / "requirements").glob("*.txt"))]
+    for line in [line for name in names for line in logical_lines(name)]:
+        name, version = re.findall(r"^([\w.-]+)==([^\s;]+)", line)[0]
+        form = re.sub(r"[-_.]+", "[-_.]", name) + rf"-{re.escape(version)}[-.](.*\.)?(whl|gz|zip)"
+        for file in folder.iterdir():
+            named = re.fullmatch(form, file.name, re.IGNORECASE)
+            if named and file.is_file() and file_hash(file) not in HASH.findall(line):
+                raise UsageError(f"{file} is damaged: its hash is not in requirements/")
+
+
+def logical_lines(name: str) -> list[str]:
+    """Return the requirements of requirements/NAME.txt, each on one line."""
+    text = (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8")
+    lines = text.replace("\\\n", "").splitlines()
+    return [" ".join(line.split()) for line in lines if re.match(r"[\w.-]+==", line)]

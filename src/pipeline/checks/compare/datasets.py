@@ -1,17 +1,30 @@
-"""Differences between two datasets of one stage: all variables, orbits and Lyapunov exponents."""
+"""Differences between two datasets of one stage, in words."""
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
+from scipy.spatial.distance import directed_hausdorff
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.variables import final_exponents, states_of
+from pseudorigid.dynamics.variables import chart, final_exponents, states_of
 
 from ...records.artifacts import canonical_values
 from ...records.differences import columns
 
+REACH = 0.25  # section radii; two periodic orbits farther apart count as one lost and one gained
 VISIBLE = 1e-3  # section radii: a third of a dot of Figures 2 and 8
+
+
+def differences(
+    stage: str, first: xr.Dataset, second: xr.Dataset, names: Sequence[str]
+) -> list[str]:
+    """Return lines on how the datasets of a stage differ between two variants."""
+    if stage == "periodic":
+        return periodic_orbits(first, second, names)
+    lines = [norms(first, second)]
+    lines += orbits(first, second) if stage == "orbits" else []
+    return lines + (exponents(first, second, names) if stage == "lyapunov" else [])
 
 
 def norms(first: xr.Dataset, second: xr.Dataset) -> str:
@@ -78,11 +91,66 @@ def exponents(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> li
 def spread(values: np.ndarray) -> str:
     """Return `mean ± standard deviation (least to largest)`, or a single value alone."""
     if values.size == 1:
-        return _fixed(values[0])
-    ends = f"{_fixed(np.min(values))} to {_fixed(np.max(values))}"
-    return f"{_fixed(np.mean(values))} ± {_fixed(np.std(values, ddof=1))} ({ends})"
+        return f"{values[0]:z.4f}"
+    ends = f"{np.min(values):z.4f} to {np.max(values):z.4f}"
+    return f"{np.mean(values):z.4f} ± {np.std(values, ddof=1):z.4f} ({ends})"
 
 
-def _fixed(value: float) -> str:
-    text = f"{value:.4f}"
-    return text.removeprefix("-") if float(text) == 0.0 else text
+def periodic_orbits(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> list[str]:
+    """Say which orbits of the stage `periodic` are kept, changed in type, lost or gained."""
+    before, after = _described(first), _described(second)
+    periods = [data.attrs["period"] for data in (first, second)]
+    if periods[0] != periods[1]:
+        both = zip(names, periods, (before, after), strict=True)
+        return [f"{name}: period {period}: {', '.join(o) or 'none'}" for name, period, o in both]
+    lines = []
+    pairs, lost, gained = match(first, second)
+    for i, j, distance in pairs:
+        kept = first["type"].values[i] == second["type"].values[j]
+        change = "kept" if kept else "changed in type"
+        lines.append(f"{change}: {before[i]} | {after[j]}, moved {distance:.3g} section radii")
+    lines += [f"lost: {before[i]}" for i in lost]
+    lines += [f"gained: {after[j]}" for j in gained]
+    return [f"period {periods[0]}: {line}" for line in lines or ["none in either"]]
+
+
+def match(
+    first: xr.Dataset, second: xr.Dataset
+) -> tuple[list[tuple[int, int, float]], list[int], list[int]]:
+    """Match orbits of one period, the nearest first, in the section scaled to the unit disk.
+
+    Returns (i, j, distance in section radii) of each pair, and the indices of the unmatched orbits
+    of `first` and of `second`.
+    """
+    a, b = _in_disk(first), _in_disk(second)
+    distances = sorted(
+        (max(directed_hausdorff(p, q)[0], directed_hausdorff(q, p)[0]), i, j)
+        for i, p in enumerate(a)
+        for j, q in enumerate(b)
+    )
+    pairs, lost, gained = [], set(range(len(a))), set(range(len(b)))
+    for distance, i, j in distances:
+        if distance <= REACH and i in lost and j in gained:
+            pairs.append((i, j, distance))
+            lost.remove(i)
+            gained.remove(j)
+    return sorted(pairs), sorted(lost), sorted(gained)
+
+
+def _in_disk(data: xr.Dataset) -> np.ndarray:
+    """Return the points of all orbits in the unit disk, an array of shape (orbits, points, 2)."""
+    ball = Ball(data.attrs["k"], data.attrs["g"])
+    centre, radius = ball.section(data.attrs["energy"])
+    x, y = chart(ball.k, *states_of(data))
+    return np.stack([(x - centre) / radius, y / (radius * np.sqrt(ball.k * (1.0 + ball.k)))], -1)
+
+
+def _described(data: xr.Dataset) -> list[str]:
+    """Return the type of each orbit, with its rotation number or multiplier."""
+    rotation, multiplier = data["rotation_number"].values, data["multiplier"].values
+    return [
+        f"elliptic (rotation {rotation[i]:.4g})"
+        if kind == "elliptic"
+        else f"{kind} (multiplier {multiplier[i]:.4g})"
+        for i, kind in enumerate(data["type"].values)
+    ]
