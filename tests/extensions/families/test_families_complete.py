@@ -131,7 +131,7 @@ def with_fold(found):
     """A family with a fold, and an energy at which it holds two orbits."""
     for family in found.families:
         for event in family.events:
-            at = int(event.at)
+            at = int(event.curve_index)
             if event.kind == "fold" and family.line >= 0 and 3 < at < len(family.points) - 4:
                 a, b = family.points[at - 3].p, family.points[at + 3].p
                 p = 0.5 * (event.point.p + (min if a > event.point.p else max)(a, b))

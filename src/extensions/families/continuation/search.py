@@ -73,8 +73,8 @@ class Search:
             margin = _MARGIN + (high - low)
             if np.any((low - margin < point.q) & (point.q < high + margin)):
                 first, last = family.points[i : i + 2]
-                at = at_parameter(family.system, first, last, point.p)
-                if at is not None and family.system.same(at, point):
+                there = at_parameter(family.system, first, last, point.p)
+                if there is not None and family.system.same(there, point):
                     return True
         return False
 
