@@ -183,7 +183,8 @@ class AsymmetricOrbits(PeriodicOrbits):
         place = np.array(second.place[:2])
         points = first.data.points[:-1]
         return any(
-            np.any(np.max(np.abs(points - at), axis=1) < SAME) for at in (place, place * _MIRROR)
+            np.any(np.max(np.abs(points - start), axis=1) < SAME)
+            for start in (place, place * _MIRROR)
         )
 
     def innermost(self, point: Point) -> tuple[float, float]:

@@ -148,8 +148,8 @@ def solve_at(system: System, place: Place, radius: float) -> Point | None:
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
     """Return whether so little changes in a step that the new point is on the old one's curve."""
-    before, between, after = (tangent(system, point) for point in (old, predicted, new))
-    if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
+    before, expected, after = (tangent(system, point) for point in (old, predicted, new))
+    if not (dot(before, after) > _STRAIGHT and dot(expected, after) > _STRAIGHT):
         return False
     if not distance(system, new.place, predicted.place) <= _CORRECTION * step:
         return False
@@ -235,7 +235,7 @@ def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
     return 0.0 <= part <= 1.0 and beside <= 0.05 * length
 
 
-def _on_cubic(system: System, first: Point, last: Point, share: float) -> Place:
+def _hermite_place(system: System, first: Point, last: Point, share: float) -> Place:
     """Return the place at a share, 0 to 1, of the Hermite cubic between two points of a curve."""
     along, length = _chord(system, first, last)
     tangents = [tangent(system, point) for point in (first, last)]
@@ -272,7 +272,7 @@ def locate(
             share = 0.5 * (low + high)
         if share in (low, high):
             break
-        place = _on_cubic(system, first, last, share)
+        place = _hermite_place(system, first, last, share)
         point = correct(system, place, along, length) if length > 0.0 else first
         if point is None:
             return None
@@ -300,12 +300,12 @@ def at_parameter(system: System, first: Point, last: Point, p: float) -> Point |
     low, high = 0.0, 1.0
     for _ in range(_HALVINGS):
         share = 0.5 * (low + high)
-        if (_on_cubic(system, first, last, share)[-1] < p) == (first.p < p):
+        if (_hermite_place(system, first, last, share)[-1] < p) == (first.p < p):
             low = share
         else:
             high = share
     length = distance(system, first.place, last.place)
-    point = solve_at(system, (*_on_cubic(system, first, last, high)[:-1], p), length)
+    point = solve_at(system, (*_hermite_place(system, first, last, high)[:-1], p), length)
     if point is not None:
         a, b, x = (np.array(each.place[:-1]) for each in (first, last, point))
         margin = 0.25 * np.abs(a - b) + 1e-9

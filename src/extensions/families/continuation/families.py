@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -76,6 +77,12 @@ class Family:
     def symmetric(self) -> bool:
         """Whether the orbits meet the symmetry lines."""
         return self.line != NO_LINE
+
+    @cached_property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """The parameters (n,) of the points, and all their positions (n, ...)."""
+        positions = [self.system.positions(point) for point in self.points]
+        return np.array([point.p for point in self.points]), np.array(positions)
 
     @property
     def grazings(self) -> list[End]:
