@@ -19,7 +19,7 @@ BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
 SEA = (0.55, 0.68)
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
 CONTROL = {
-    "strengths": [0.03], "orbits": 300, "impacts": 4000, "period": 6, "starts": STARTS_2,
+    "strengths": [0.03], "orbits": 300, "impacts": 8000, "period": 6, "starts": STARTS_2,
     "shown": 0.03, "drawn": 300, "resamples": 40, "seed": 1,
 }  # fmt: skip
 STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]

@@ -243,25 +243,18 @@ def _region(branches: _Branches, lobe: _TracedLobe) -> np.ndarray:
     mirrored = as_array(ball.reflect(*arc[:, ::-1]))
     states = np.concatenate([arc, mirrored[:, 1:]], axis=1)
     longest = _MAX_SIDE * ball.section(energy)[1]
-    arcs = _images(ball, states, points)
     for _ in range(_HALVINGS):
+        arcs, images = [], states
+        for _ in range(points):
+            arcs.append(chart(ball.k, *images))
+            images = ball.after(images)[:3]
         long = np.max(np.abs(np.diff(arcs)), axis=(0, 1)) > longest
         if not long.any():
             return _closed(arcs)
         x, y = 0.5 * (arcs[0][:, :-1] + arcs[0][:, 1:])[:, long]
         inserted = as_array(ball.state_xy(x, y, energy))
         states = np.insert(states, np.flatnonzero(long) + 1, inserted, axis=1)
-        arcs = _images(ball, states, points)
     return np.full((2, _CORNERS), math.nan)
-
-
-def _images(ball: Ball, states: np.ndarray, count: int) -> list[np.ndarray]:
-    """Return the points (2, n) of states (3, n) and of their images, `count` arrays in all."""
-    points = []
-    for _ in range(count):
-        points.append(chart(ball.k, *states))
-        states = ball.after(states)[:3]
-    return points
 
 
 def _integral(line: np.ndarray, start: int, first: np.ndarray, end: int, last: np.ndarray) -> float:
