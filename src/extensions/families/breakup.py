@@ -22,8 +22,9 @@ _INNER, _OUTER = 1e-3, 0.999  # section radii: from the fixed point to a start, 
 
 
 def breakup(
-    at: Callable[[float], tuple[Ball, float]], turns: int, order: int, whole: float, broken: float
-) -> float:
+    ball_and_energy: Callable[[float], tuple[Ball, float]], turns: int, order: int,
+    whole: float, broken: float,
+) -> float:  # fmt: skip
     """Return the parameter at which the last invariant curve beyond a resonance breaks.
 
     The rotation numbers tried have the convergents (r + n p)/(s + n q), (r + (n + 1) p)/(s + (n +
@@ -33,7 +34,7 @@ def breakup(
 
     Parameters
     ----------
-    at : function
+    ball_and_energy : function
         Returns the ball and the energy at a value of the parameter.
     turns, order : int
         p and q of the resonance.
@@ -55,7 +56,7 @@ def breakup(
     """
 
     def is_whole(n: int, part: float) -> bool:
-        ball, energy = at(whole + part * (broken - whole))
+        ball, energy = ball_and_energy(whole + part * (broken - whole))
         return noble_residue(ball, energy, turns, order, n) < CRITICAL
 
     def broken_at(n: int, part: float) -> float:

@@ -13,13 +13,16 @@ _HALF = 0.5  # share of a change for which a chain must account
 
 
 class Change(NamedTuple):
-    """The chain that changes most from an extremum to a value, and its event nearest to there."""
+    """A change from an extremum to a value: the chain or curve behind it, and its event."""
 
     at: float  # the value
-    family: int
+    family: int  # -1 for a curve
     part: float  # of the change of the regular share
     event: str
     event_at: float
+
+
+_UNEXPLAINED = Change(math.nan, -1, 0.0, "unexplained", math.nan)
 
 
 def extrema(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[int, int, int]]:
@@ -64,7 +67,8 @@ def causes(
     neighbouring extremum. An event is the cause of an extremum only if its chain, the one that
     changes most, accounts for at least half of such a change and the event lies within one step of
     the extremum. A curve that breaks or forms is such an event, whose chain is the part of the main
-    island beyond the resonance.
+    island beyond the resonance. Of events that account for equal parts the first one is the cause,
+    and chains come before curves: an event of a chain has more digits.
     """
     share, low, high = regular
     found = extrema(share, low, high)
@@ -75,7 +79,7 @@ def causes(
         return (column[j] - column[i]) / (share[j] - share[i] or math.inf)
 
     def largest_change(i: int, j: int) -> Change:
-        """Return the chain that changes most from one value to another."""
+        """Return the chain that changes most from one value to another, and its nearest event."""
         changed = parts(i, j, chains)
         number = int(np.argmax(changed))
         events = _events_of(families, parameter, number)
@@ -87,40 +91,31 @@ def causes(
         ends = left, right, turning[n - 1], turning[n + 1]
         changes = [largest_change(i, j) for j in ends]
         of_curves = [
-            Change(values[j], -1, float(parts(i, j, beyond)), event, at)
+            Change(values[j], -1, float(parts(i, j, beyond)), event, place)
             for j in ends
-            for event, at, beyond in curves
+            for event, place, beyond in curves
         ]
-        near = [
-            c for c in changes + of_curves if abs(c.event_at - values[i]) <= step * (1.0 + 1e-9)
-        ]
-        cause = max(
-            (change for change in near if change.part >= _HALF),
-            key=lambda change: change.part,
-            default=Change(math.nan, -1, 0.0, "unexplained", math.nan),
+        large = (
+            change
+            for change in changes + of_curves
+            if change.part >= _HALF and abs(change.event_at - values[i]) <= step * (1.0 + 1e-9)
         )
-        rows.append(
-            {
-                "extremum_at": values[i],
-                "extremum_kind": "minimum" if share[left] > share[i] else "maximum",
-                "cause_family": cause.family,
-                "cause_event": cause.event,
-                "cause_at": cause.event_at,
-            }
-            | {
-                f"side_{name}": [getattr(change, name) for change in changes[:2]]
-                for name in Change._fields
-            }
-        )
+        cause = max(large, key=lambda change: change.part, default=_UNEXPLAINED)
+        row = {
+            "extremum_at": values[i],
+            "extremum_kind": "minimum" if share[left] > share[i] else "maximum",
+            "cause_family": cause.family,
+            "cause_event": cause.event,
+            "cause_at": cause.event_at,
+        }
+        sides = zip(Change._fields, zip(*changes[:2], strict=True), strict=True)
+        rows.append(row | {f"side_{name}": list(pair) for name, pair in sides})
     for i, j in pairwise(turning) if found else ():
         changed = parts(i, j, chains)
         most = np.argsort(-np.abs(changed), kind="stable")[:LARGEST]
-        change = {
-            "slope_from": values[i],
-            "slope_to": values[j],
-            "slope_change": share[j] - share[i],
-        }
-        slopes.append(change | {"slope_family": most, "slope_part": changed[most]})
+        line = {"slope_from": values[i], "slope_to": values[j]}
+        line["slope_change"] = share[j] - share[i]
+        slopes.append(line | {"slope_family": most, "slope_part": changed[most]})
     return rows, slopes
 
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,7 +14,7 @@ import xarray as xr
 from pipeline.records.files import write_whole
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.fixed_point import rotation
-from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, TIME, variables
+from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, TIME, Variables, described
 
 from .continuation.asymmetric import NO_LINE
 from .continuation.curve import Point
@@ -26,56 +27,52 @@ from .continuation.symmetric import CELLS, Parameter
 _LINES = {FIX_R: "Fix R", FIX_RP: "Fix RP", NO_LINE: "none"}
 _CHECKPOINT = 20  # levels between two checkpoints
 
-# Name -> meaning of variables on `family`, `point`, `event` and (family, side). Names in _OF_PLACES
-# are those on `point`, and on `event` with event_ before them.
-_OF_FAMILIES = {
-    "period": "number of impacts",
-    "line": "symmetry line of the points, none for orbits without symmetry",
-    "row_size": "points of each family",
+# Name -> type and meaning of variables, and their scale if they have one.
+_Table = dict[str, tuple[Any, ...]]
+_OF_FAMILIES: _Table = {
+    "period": (int, "number of impacts"),
+    "line": (object, "symmetry line of the points, none for orbits without symmetry"),
+    "row_size": (int, "points of each family"),
 }
-_OF_PLACES = {
-    "energy": ("energy", ENERGY),
-    "k": "Euler inertia, eq. (5)",
-    "x": ("position of the orbit's first impact", LENGTH),
-    "y": ("xdot - k udot just before it", SPEED),
+_OF_PLACES: _Table = {  # on `point`, and with event_ before them on `event`
+    "energy": (float, "energy", ENERGY),
+    "k": (float, "Euler inertia, eq. (5)"),
+    "x": (float, "position of the orbit's first impact", LENGTH),
+    "y": (float, "xdot - k udot just before it", SPEED),
 }
-_OF_POINTS = {
-    "total_time": ("total time", TIME),
-    "place": "position q on the symmetry line",
-    "trace": "trace of the Jacobian of P^n on the energy surface",
-    "rotation_number": "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
-    "type": "type of stability",
+_OF_POINTS: _Table = _OF_PLACES | {
+    "total_time": (float, "total time", TIME),
+    "place": (float, "position q on the symmetry line"),
+    "trace": (float, "trace of the Jacobian of P^n on the energy surface"),
+    "rotation_number": (
+        float,
+        "argument of the multiplier over 2 pi; NaN if the orbit is not elliptic",
+    ),
+    "type": (object, "type of stability"),
 }
-_OF_EVENTS = {
-    "event_time": ("total time", TIME),
-    "event_family": "family of the event",
-    "event_kind": "fold, doubling, pitchfork, or resonance of that order",
-    "event_turns": "p of a resonance p/q, else 1",
-    "event_order": "period of the branches over that of the family",
-    "event_point": "place on the family's curve, an index of its points",
+_OF_EVENTS: _Table = {f"event_{name}": text for name, text in _OF_PLACES.items()} | {
+    "event_time": (float, "total time", TIME),
+    "event_family": (int, "family of the event"),
+    "event_kind": (object, "fold, doubling, pitchfork, or resonance of that order"),
+    "event_turns": (int, "p of a resonance p/q, else 1"),
+    "event_order": (int, "period of the branches over that of the family"),
+    "event_point": (float, "place on the family's curve, an index of its points"),
 }
-_OF_ENDS = {
-    "end_kind": "range, fold, resonance, doubling, pitchfork, touch, rim or closed",
-    "end_energy": ("energy", ENERGY),
-    "end_k": "Euler inertia, eq. (5)",
-    "end_family": "the parent, or the family on the other side of a grazing; -1 if none",
-    "end_turns": "p of the parent's rotation number p/q there",
-    "end_order": "q of the parent's rotation number p/q there, 2 at a doubling",
-    "end_impact": "flight of the half orbit that touches the floor; -1 if none",
+_OF_ENDS: _Table = {
+    "end_kind": (object, "range, fold, resonance, doubling, pitchfork, touch, rim or closed"),
+    "end_energy": (float, "energy", ENERGY),
+    "end_k": (float, "Euler inertia, eq. (5)"),
+    "end_family": (int, "the parent, or the family on the other side of a grazing; -1 if none"),
+    "end_turns": (int, "p of the parent's rotation number p/q there"),
+    "end_order": (int, "q of the parent's rotation number p/q there, 2 at a doubling"),
+    "end_impact": (int, "flight of the half orbit that touches the floor; -1 if none"),
 }
 
 
 def families(
-    ball: Ball,
-    energy: float,
-    parameter: str,
-    span: list[float],
-    period: int,
-    levels: int,
-    *,
-    progress: Callable[[float, str], None] | None = None,
-    folder: str | os.PathLike | None = None,
-) -> xr.Dataset:
+    ball: Ball, energy: float, parameter: str, span: list[float], period: int, levels: int, *,
+    progress: Callable[[float, str], None] | None = None, folder: str | os.PathLike | None = None,
+) -> xr.Dataset:  # fmt: skip
     """Find all families of symmetric periodic orbits, and follow them against E or k.
 
     Brute force on the symmetry lines at `levels` values of the parameter finds orbits, and
@@ -165,74 +162,53 @@ def _resumed(search: Search, checkpoint: Path | None, key: list) -> int:
     return kept["done"]
 
 
-def _variables(ball: Ball, along: Parameter, families: list[Family]) -> dict:
+def _variables(ball: Ball, along: Parameter, families: list[Family]) -> Variables:
     """Return the variables of the dataset of some families, in the paper's units."""
-    points = [(family, point) for family in families for point in family.points]
-    events = [event for family in families for event in family.events]
-    marks = [(family, event.point) for family in families for event in family.events]
-    ends = [end for family in families for end in family.ends]
-    traces = np.array([family.system.trace(point) for family, point in points])
+    g = ball.g
 
-    def whole(values: list[int]) -> np.ndarray:
-        """Return whole numbers as an array, which has their type even if it is empty."""
-        return np.array(values, dtype=np.int64)
+    def energy_and_k(p: float) -> tuple[float, float]:
+        return along.energy(p) * (g * g), along.k_and_rho(p)[0]
 
-    of_families = (
-        [family.period for family in families],
-        [_LINES[family.line] for family in families],
-        [len(family.points) for family in families],
-    )
-    of_points = (
-        [point.data.time for _, point in points],
-        [point.q for _, point in points],
-        traces,
-        [rotation(trace) for trace in traces.tolist()],
-        _types(traces),
-    )
-    of_events = (
-        [event.point.data.time for event in events],
-        whole([family.number for family, _ in marks]),
-        np.array([event.kind for event in events], dtype=str),
-        whole([event.turns for event in events]),
-        whole([event.order for event in events]),
-        [event.at for event in events],
-    )
-    of_ends = (
-        [end.kind for end in ends],
-        [along.energy(end.p) * (ball.g * ball.g) for end in ends],
-        [along.k_and_rho(end.p)[0] for end in ends],
-        [end.family for end in ends],
-        [end.turns for end in ends],
-        [end.order for end in ends],
-        [end.impact for end in ends],
-    )
-    both_ends = [np.array(values).reshape(-1, 2) for values in of_ends]
-    of_places = {f"event_{name}": meaning for name, meaning in _OF_PLACES.items()}
+    def place(family: Family, point: Point) -> tuple[float, ...]:
+        x, y = family.system.first_impact(point)
+        # On Fix RP this is the impact before the flight.
+        sign = -1.0 if family.line == FIX_RP else 1.0
+        return *energy_and_k(point.p), x * g, sign * (y * g)
+
+    of_families, of_points, of_events, of_ends = [], [], [], []
+    for family in families:
+        of_families.append((family.period, _LINES[family.line], len(family.points)))
+        for point in family.points:
+            trace = family.system.trace(point)
+            stability = trace, rotation(trace), _type(trace)
+            of_points.append((*place(family, point), point.data.time, point.q, *stability))
+        for kind, turns, order, point, index in family.events:
+            what = point.data.time, family.number, kind, turns, order, index
+            of_events.append((*place(family, point), *what))
+        for end in family.ends:
+            other = end.family, end.turns, end.order, end.impact
+            of_ends.append((end.kind, *energy_and_k(end.p), *other))
     data = (
-        variables("family", of_families, _OF_FAMILIES)
-        | variables("point", _places(ball, along, points), _OF_PLACES)
-        | variables("point", of_points, _OF_POINTS)
-        | variables("event", _places(ball, along, marks), of_places)
-        | variables("event", of_events, _OF_EVENTS)
-        | variables(("family", "side"), both_ends, _OF_ENDS)
+        _described("family", of_families, _OF_FAMILIES)
+        | _described("point", of_points, _OF_POINTS)
+        | _described("event", of_events, _OF_EVENTS)
+        | _described(("family", "side"), of_ends, _OF_ENDS, (-1, 2))
     )
     data["row_size"][2]["sample_dimension"] = "point"
     return data
 
 
-def _places(ball: Ball, along: Parameter, points: list[tuple[Family, Point]]) -> tuple:
-    """Return energy and k of orbits, and x and y of their first impacts."""
-    g = ball.g
-    impacts = [family.system.first_impact(point) for family, point in points]
-    # On Fix RP this is the impact before the flight.
-    signs = np.array([-1.0 if family.line == FIX_RP else 1.0 for family, _ in points])
-    x, y = np.array(impacts).reshape(-1, 2).T * g
-    energies = [along.energy(point.p) * (g * g) for _, point in points]
-    return energies, [along.k_and_rho(point.p)[0] for _, point in points], x, signs * y
+def _described(
+    dims: Any, rows: list[tuple[Any, ...]], table: _Table, shape: tuple[int, ...] = (-1,)
+) -> Variables:
+    """Return the variables of a table from rows of their values, of which there may be none."""
+    values = np.array(rows, dtype=[(name, kind) for name, (kind, *_) in table.items()])
+    values = values.reshape(shape)
+    return described({name: (dims, values[name], *text) for name, (_, *text) in table.items()})
 
 
-def _types(traces: np.ndarray) -> list[str]:
-    """Return the types of stability of traces."""
-    words = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
-    words[np.abs(traces) < 2.0] = "elliptic"
-    return words.tolist()
+def _type(trace: float) -> str:
+    """Return the type of stability of a trace."""
+    if abs(trace) < 2.0:
+        return "elliptic"
+    return "hyperbolic" if trace > 0.0 else "inverse hyperbolic"

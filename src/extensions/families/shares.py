@@ -12,6 +12,7 @@ last invariant curve among them is searched, without counting orbits.
 import math
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -88,7 +89,7 @@ class Line(NamedTuple):
     parameter: str
     families: xr.Dataset
 
-    def at(self, value: float) -> tuple[Ball, float]:
+    def ball_and_energy(self, value: float) -> tuple[Ball, float]:
         """Return the ball and the energy at a value of the parameter."""
         if self.parameter == "energy":
             return self.ball, value
@@ -127,10 +128,14 @@ def elliptic_orbits(line: Line, value: float) -> list[tuple[int, np.ndarray]]:
     found = []
     for i in np.flatnonzero(crossed & (number[1:] == number[:-1])).tolist():
         part = (value - levels[i]) / (levels[i + 1] - levels[i])
-        at, after = (np.array([families[name].values[j] for name in "xy"]) for j in (i, i + 1))
-        x, y = (at * (1.0 - part) + after * part).tolist()
+        x, y = (
+            float(values[i] * (1.0 - part) + values[i + 1] * part)
+            for values in (families["x"].values, families["y"].values)
+        )
         family = int(number[i])
-        orbit = _elliptic_orbit(*line.at(value), x, y, int(families["period"].values[family]))
+        orbit = _elliptic_orbit(
+            *line.ball_and_energy(value), x, y, int(families["period"].values[family])
+        )
         if orbit is not None:
             found.append((family, orbit))
             if families["line"].values[family] == "none":  # the mirror image is another orbit
@@ -153,17 +158,10 @@ def _elliptic_orbit(
 
 
 def shares(
-    ball: Ball,
-    energy: float,
-    families: xr.Dataset,
-    parameter: str,
-    span: list[float],
-    step: float,
-    starts: int,
-    impacts: int,
-    *,
+    ball: Ball, energy: float, families: xr.Dataset, parameter: str, span: list[float],
+    step: float, starts: int, impacts: int, *,
     progress: Callable[[float, str], None] | None = None,
-) -> xr.Dataset:
+) -> xr.Dataset:  # fmt: skip
     """Compute the regular share along E or k, the chains in it, and causes of its extrema.
 
     A regular share has the bits of the sweep's cell with the same k, E/g^2, starts and impacts.
@@ -246,7 +244,7 @@ def _shares_at(
     line: Line, value: Fraction, resonances: list[tuple[int, int]], starts: int, impacts: int
 ) -> dict[str, Any]:
     """Return the variables at a value of the parameter, and the fixed point's rotation number."""
-    ball, energy = line.at(float(value))
+    ball, energy = line.ball_and_energy(float(value))
     level = value if line.parameter == "energy" else Fraction(str(line.energy))
     e = float(level / Fraction(str(ball.g)) ** 2)
     states = sunflower_points(ball.k, e, starts)
@@ -305,7 +303,7 @@ def _breakups(
     `above` has whether the fixed point's rotation number is above p/q at each value.
     """
     found = []
-    for m, step in ((m, step) for m in range(values.size) for step in (1, -1)):
+    for m, step in product(range(values.size), (1, -1)):
         # The chain is born at the fixed point, and no curve breaks, where the side changes.
         i = m + step
         if 0 <= i < values.size and beyond[m] > _SEEN >= beyond[i] and above[m] == above[i]:
@@ -313,9 +311,7 @@ def _breakups(
                 j if 0 <= j < values.size and above[j] == above[m] else near
                 for j, near in ((m - step, m), (i + step, i))
             )
-            place = breakup(line.at, p, q, float(values[first]), float(values[last]))
-            word = f"last curve beyond {p}/{q} breaks"
-            if step < 0:
-                word = f"first curve beyond {p}/{q} forms"
-            found.append((word, place, beyond))
+            place = breakup(line.ball_and_energy, p, q, float(values[first]), float(values[last]))
+            which, event = ("last", "breaks") if step > 0 else ("first", "forms")
+            found.append((f"{which} curve beyond {p}/{q} {event}", place, beyond))
     return found

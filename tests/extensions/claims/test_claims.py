@@ -12,8 +12,8 @@ from project import of_scenes
 
 from extensions.claims import command as claim_verdicts
 from extensions.claims import ledger as claims
-from extensions.claims.ledger import VERDICTS, chaos, schema
-from extensions.claims.ledger.schema import CORRECTED, FALSE, HOLDS, PROVED, UNCHECKED, UNDECIDED
+from extensions.claims.ledger import VERDICTS, chaos, outcomes, schema
+from extensions.claims.ledger.outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNCHECKED, UNDECIDED
 from extensions.proofs import THEOREMS
 from extensions.proofs.kinds import theorems
 from pipeline import config
@@ -351,7 +351,7 @@ def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wron
 
 
 def test_true_and_false_are_no_words_of_a_sentence():
-    found = schema.Outcome(HOLDS, {"seen": True})
+    found = outcomes.Outcome(HOLDS, {"seen": True})
     changes = {"function": lambda *_: found, "value": "seen: {seen}", "data": []}
     with pytest.raises(ConfigError, match="no number 'seen'"):
         claims.CLAIMS[3].model_copy(update=changes).judge({}, {})

@@ -9,7 +9,7 @@ from project import ROOT, Tree
 from report_pages import CHROMIUM, in_browser, numbers_without_commas, rendered, with_script
 
 from extensions.claims import ledger
-from extensions.claims.ledger.schema import CORRECTED, FALSE
+from extensions.claims.ledger.outcomes import CORRECTED, FALSE
 
 ROWS = ledger.read_json((ROOT / ledger.DATA).read_text(encoding="utf-8"))
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from sections import BALL
+from slowly import slowly
 
 from extensions.claims.analyses.jumps import jumps
 from pseudorigid import Ball
@@ -14,7 +15,7 @@ from pseudorigid import Ball
 ENERGY = 0.01
 
 
-@pytest.mark.parametrize("energy", [0.01, 0.0025])
+@pytest.mark.parametrize("energy", [0.01, *slowly(0.0025)])
 def test_the_length_is_that_of_gaussian_quadrature(energy):
     """The integrand is the curve's speed, from an independent map in 60 digits."""
     k, g = mpf("0.2"), mpf("0.04")

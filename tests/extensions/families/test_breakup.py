@@ -32,7 +32,8 @@ def test_neighbours_have_smaller_denominators_and_lie_next_to_the_fraction(fract
         assert abs(Fraction(r, s) - Fraction(p, q)) == Fraction(1, s * q)
 
 
-def test_the_last_curve_breaks_between_energies_with_and_without_one():
+def test_the_last_curve_breaks_between_energies_with_and_without_one(monkeypatch):
+    monkeypatch.setattr("extensions.families.breakup._HALVINGS", 6)  # to a quarter of STEP
     found = breakup(at, 1, 7, 0.0055, 0.0058)
     assert found == pytest.approx(SEVENTH, abs=STEP)
     assert math.isnan(breakup(at, 1, 7, 0.0057, 0.0059))  # broken at both ends

@@ -8,7 +8,6 @@ from mpmath import mp, mpf
 from slowly import slowly
 
 from extensions.families import chains
-from extensions.families.continuation import loci
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import rows
 
@@ -64,7 +63,7 @@ def exact_energy(k, energy, order, kind):
 
 def place_of(order, kind, k):
     """X and the energy of an event at a k, from where the chain's events are found."""
-    start = loci.chain_events(k, order)[kind]
+    start = chains.chain_events(k, order)[kind]
     q, rho, _ = start.place
     return (1.0 + rho * 2.0 * q / (1.0 + q * q)) / k
 
@@ -82,10 +81,10 @@ def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, 
 def test_curves_pass_through_the_events_of_families(curves):
     """At another k, where a search that follows E finds them."""
     for order, k in ((4, 0.23), (6, 0.17), (7, 0.29)):
-        for kind, start in loci.chain_events(k, order).items():
+        for kind, start in chains.chain_events(k, order).items():
             ks, energies = curve(curves, order, kind)
             there = np.interp(k, ks, energies)
-            assert there == pytest.approx(loci.energy_at(start.place), rel=2e-3), (order, kind)
+            assert there == pytest.approx(chains.energy_at(start.place), rel=2e-3), (order, kind)
 
 
 def test_every_chain_doubles_between_its_birth_and_the_loss_of_an_impact(curves):
@@ -97,10 +96,10 @@ def test_every_chain_doubles_between_its_birth_and_the_loss_of_an_impact(curves)
 
 
 def test_an_entry_that_does_not_vanish_is_not_followed():
-    limits = loci.Limits((0.1, 0.3), (0.1, 40.0))
-    start = loci.chain_events(0.2, 6)["doubling"]
-    assert len(loci.follow(6, start, limits)) > 20
-    assert loci.follow(6, start._replace(entry="b"), limits) == []
+    limits = chains.Limits((0.1, 0.3), (0.1, 40.0))
+    start = chains.chain_events(0.2, 6)["doubling"]
+    assert len(chains.follow(6, start, limits)) > 20
+    assert chains.follow(6, start._replace(entry="b"), limits) == []
 
 
 def test_births_are_the_closed_form_and_jumps_begin_where_the_proof_says(curves):

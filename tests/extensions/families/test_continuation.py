@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from extensions.families.continuation.curve import Point, locate, solve_at, trace
+from extensions.families.continuation.curve import Point, continue_curve, locate, solve_at
 
 
 class Plane:
@@ -52,9 +52,9 @@ def never(point):
 
 def test_a_circle_closes_and_its_folds_are_exact():
     system = Plane(lambda q, p: (q * q + p * p - 1.0, 2.0 * q, 2.0 * p))
-    followed = trace(system, solve_at(system, (0.9, 0.3), 1.0), 1.0, never)
-    assert followed.reason == "closed"
-    folds = turning_points(system, followed.points)
+    points, reason = continue_curve(system, solve_at(system, (0.9, 0.3), 1.0), 1.0, never)
+    assert reason == "closed"
+    folds = turning_points(system, points)
     assert sorted(p for _, p in folds) == pytest.approx([-1.0, 1.0], abs=1e-15)
 
 
@@ -63,21 +63,21 @@ def test_a_cubic_has_its_two_folds_and_runs_to_both_limits():
     start = solve_at(system, (0.0, 0.0), 0.1)
     ends = []
     for sign in (1.0, -1.0):
-        followed = trace(system, start, sign, never)
-        assert followed.reason == "range"
-        ((q, p),) = turning_points(system, followed.points)
+        points, reason = continue_curve(system, start, sign, never)
+        assert reason == "range"
+        ((q, p),) = turning_points(system, points)
         assert (abs(q), abs(p)) == pytest.approx((1.0, 2.0), abs=1e-8)
         assert abs(p) == pytest.approx(2.0, abs=1e-15)
-        ends.append(followed.points[-1].p)
+        ends.append(points[-1].p)
     assert sorted(ends) == [-5.0, 5.0]
 
 
 def test_a_curve_in_space_closes():
     system = Space()
     start = solve_at(system, (0.6, 0.8, 0.3), 0.1)
-    followed = trace(system, start, 1.0, never)
-    assert followed.reason == "closed"
-    for point in followed.points:
+    points, reason = continue_curve(system, start, 1.0, never)
+    assert reason == "closed"
+    for point in points:
         q, r, p = point.place
         assert abs(q * q + r * r - 1.0) < 1e-14
         assert abs(p - 0.5 * q) < 1e-15
@@ -96,6 +96,6 @@ def test_a_curve_does_not_jump_to_its_neighbour():
         )
 
     system = Plane(function)
-    followed = trace(system, solve_at(system, (0.0, 0.0), 1e-4), 1.0, never)
-    for point in followed.points:
+    points, _ = continue_curve(system, solve_at(system, (0.0, 0.0), 1e-4), 1.0, never)
+    for point in points:
         assert abs(point.q - 0.3 * point.p**2) < 1e-12

@@ -14,11 +14,6 @@ from extensions.families.continuation.half_orbit import FIX_R
 from pseudorigid import Ball, symmetric_orbits
 
 
-@pytest.fixture(scope="module")
-def six():
-    return up_to_period_six()
-
-
 def is_orbit_in_60_digits(ball, energy, family, point):
     """Whether an orbit of the family's period, symmetry and total time exists in 60 digits.
 
@@ -102,8 +97,8 @@ def spread(low, high, count):
     return [low + (high - low) * ((0.137 + 0.6180339887498949 * i) % 1.0) for i in range(count)]
 
 
-def test_families_hold_what_brute_force_finds_and_nothing_else(six):
-    assert_complete(six, PAPER, spread(-0.0039, 0.0598, 3))
+def test_families_hold_what_brute_force_finds_and_nothing_else():
+    assert_complete(up_to_period_six(), PAPER, spread(-0.0039, 0.0598, 3))
 
 
 def over_all_energies(k, g, most, levels=240):
@@ -131,7 +126,7 @@ def with_fold(found):
     """A family with a fold, and an energy at which it holds two orbits."""
     for family in found.families:
         for event in family.events:
-            at = int(event.at)
+            at = int(event.curve_index)
             if event.kind == "fold" and family.line >= 0 and 3 < at < len(family.points) - 4:
                 a, b = family.points[at - 3].p, family.points[at + 3].p
                 p = 0.5 * (event.point.p + (min if a > event.point.p else max)(a, b))
@@ -139,25 +134,25 @@ def with_fold(found):
     raise AssertionError("no fold")
 
 
-def test_a_skipped_fold_is_found(six):
-    number, at, energy = with_fold(six)
-    planted = copy.copy(six)
-    planted.families = [copy.copy(family) for family in six.families]
-    family = planted.families[number]
-    family.points = family.points[: at + 1]
+@pytest.fixture
+def planted():
+    """A copy of the search up to period six, whose families may be changed."""
+    search = copy.copy(up_to_period_six())
+    search.families = [copy.copy(family) for family in search.families]
+    return search
+
+
+def test_a_skipped_fold_is_found(planted):
+    number, place, energy = with_fold(planted)
+    planted.families[number].points = planted.families[number].points[: place + 1]
     missed, extra = unmatched(planted, PAPER, energy)
-    assert len(missed) == 1
-    assert extra == []
+    assert (len(missed), extra) == (1, [])
 
 
-def test_a_jump_to_the_neighbour_is_found(six):
+def test_a_jump_to_the_neighbour_is_found(planted):
     """The tail of one period-six family is replaced by that of another one."""
-    planted = copy.copy(six)
-    planted.families = [copy.copy(family) for family in six.families]
-    first, second = (
-        planted.families[six_born_at(six, 1, kind).number] for kind in ("resonance", "touch")
-    )
-    first.points = [point for point in second.points if 0.01 < energy_of(six, point.p) < 0.02]
+    first, second = (six_born_at(planted, 1, kind) for kind in ("resonance", "touch"))
+    first.points = [z for z in second.points if 0.01 < energy_of(planted, z.p) < 0.02]
     missed, extra = unmatched(planted, PAPER, 0.0123)
     assert len(missed) == 1
     assert [number for _, _, number in extra] in ([first.number], [second.number])

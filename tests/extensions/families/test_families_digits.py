@@ -13,11 +13,6 @@ from extensions.families.continuation.symmetric import Parameter, SymmetricOrbit
 K, G = mpf("0.2"), mpf("0.04")
 
 
-@pytest.fixture(scope="module")
-def six():
-    return up_to_period_six()
-
-
 def fixed_energy(trace):
     """Energy of the fixed point with a trace, from the closed form (design, g = 1)."""
 
@@ -49,7 +44,8 @@ def test_resonances_of_the_fixed_point_are_right_to_12_digits():
             assert abs(energies[order] / exact - 1) < mpf("1e-12"), order
 
 
-def test_the_births_of_the_three_period_six_orbits_are_right_to_12_digits(six):
+def test_the_births_of_the_three_period_six_orbits_are_right_to_12_digits():
+    six = up_to_period_six()
     with mp.workdps(60):
         exact = fixed_energy(mpf(1))
         for line in (0, 1):
@@ -75,7 +71,8 @@ def energy_and_place(found, event):
     return energy_of(found, p), (1.0 + p * 2.0 * q / (1.0 + q**2)) * unit
 
 
-def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits(six):
+def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits():
+    six = up_to_period_six()
     with mp.workdps(60):
         family = six_born_at(six, 0, "resonance")
         event = next(e for e in family.events if e.kind == "doubling")

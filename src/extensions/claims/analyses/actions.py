@@ -27,9 +27,9 @@ _NEWTON_STEPS = 30  # of the search for a crossing, at most; each doubles the di
 _SADDLE_STEPS = 9  # of Newton's method for a saddle, from doubles to 20,000 bits
 _SCAN_POINTS = 64  # parameters of an unstable segment at which a crossing is looked for
 _SCAN_END = 1e-6  # where that segment ends, as a distance from the saddle in the plane (x, y)
-# Most periods for which a branch is followed from _SCAN_END. If the multiplier is above 1.26, the
-# branch has then grown to order one.
-_MOST_IMAGES = 60
+# Periods for which a branch is followed from _SCAN_END. If the multiplier is above 1.26, the branch
+# has then grown to order one.
+_MAX_PERIODS = 60
 _CROSSING_BITS = 160  # of the parameter at which an orbit meets y = 0: 48 digits, 25 are shown
 _TANGENT = algebra(1, 1)  # jets of a value and its derivative along a tangent
 
@@ -143,58 +143,58 @@ class Heteroclinic:
 # A crossing of a branch with y = 0: its orbit's initial distance from the saddle, and the impacts
 # from there.
 Crossing = tuple[float, int]
-Primary = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring crossings
+PrimaryPair = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring crossings
 
 
-def lobe(saddle: Saddle, sign: int, nearer: int) -> tuple[arb, Primary]:
+def lobe(saddle: Saddle, sign: int, periods_earlier: int) -> tuple[arb, PrimaryPair]:
     """Return the area between neighbouring crossings of two branches, and the orbits there.
 
     The branches are an unstable one and its mirror image. The unstable branch on the side `sign` of
     a saddle of even period must lead to the mirror image of the saddle, so that it meets y = 0 on
-    the way, and so must its image half a period later. The two orbits start `nearer` periods
-    earlier than at _SCAN_END from the saddle, on the branch's tangent instead of the branch. This
-    changes the area by the cube of their distance from the saddle, an error that the enclosure does
-    not include. Raises ValueError or ArithmeticError as Heteroclinic does, and ValueError if no
-    crossing of the branch with y = 0 is found.
+    the way, and so must its image half a period later. The two orbits start `periods_earlier`
+    periods earlier than at _SCAN_END from the saddle, on the branch's tangent instead of the
+    branch. This changes the area by the cube of their distance from the saddle, an error that the
+    enclosure does not include. Raises ValueError or ArithmeticError as Heteroclinic does, and
+    ValueError if no crossing of the branch with y = 0 is found.
     """
     first = first_crossing(saddle, sign, 0)
     second = first_crossing(saddle, sign, saddle.period // 2)
     if first is None or second is None:
         raise ValueError("the branch does not meet y = 0")
     try:
-        return _lobe_between(saddle, sign, nearer, first, second)
+        return _lobe_between(saddle, sign, periods_earlier, first, second)
     except ValueError:  # the branch bends strongly: Newton's method needs a better start
         refined = [_refined(saddle, sign, *crossing) for crossing in (first, second)]
-        return _lobe_between(saddle, sign, nearer, *refined)
+        return _lobe_between(saddle, sign, periods_earlier, *refined)
 
 
 def _lobe_between(
-    saddle: Saddle, sign: int, nearer: int, near_crossing: Crossing, far_crossing: Crossing
-) -> tuple[arb, Primary]:
+    saddle: Saddle, sign: int, periods_earlier: int, first: Crossing, second: Crossing
+) -> tuple[arb, PrimaryPair]:
     """Return the area between the orbits of two crossings, and these orbits; see `lobe`."""
-    (near, near_impacts), (far, far_impacts) = near_crossing, far_crossing
+    (start, impacts), (other_start, other_impacts) = first, second
     ratio, period = float(saddle.multiplier), saddle.period
     # the second orbit starts in the fundamental segment that ends where the first one starts
-    while far >= near:
-        far, far_impacts = far / ratio, far_impacts + period
-    while far * ratio < near:
-        far, far_impacts = far * ratio, far_impacts - period
-    shrink = saddle.multiplier**nearer
-    first, second = (
-        Heteroclinic(saddle, sign, (arb(parameter) / shrink).mid(), impacts + nearer * period)
-        for parameter, impacts in ((near, near_impacts), (far, far_impacts))
+    while other_start >= start:
+        other_start, other_impacts = other_start / ratio, other_impacts + period
+    while other_start * ratio < start:
+        other_start, other_impacts = other_start * ratio, other_impacts - period
+    shrink = saddle.multiplier**periods_earlier
+    orbit, other = (
+        Heteroclinic(saddle, sign, (arb(begin) / shrink).mid(), n + periods_earlier * period)
+        for begin, n in ((start, impacts), (other_start, other_impacts))
     )
     # y dx around the lobe: along the unstable arc one way, along the stable one back
-    flights = 2 * min(first.impacts, second.impacts)
-    area = _area_under_line(first.points[0], second.points[0])
+    flights = 2 * min(orbit.impacts, other.impacts)
+    area = _line_integral(orbit.points[0], other.points[0])
     for index in range(flights):
-        area += second.action(index) - first.action(index)
+        area += other.action(index) - orbit.action(index)
     # both orbits are now near the other saddle, at mirror images of points near their starts
-    begin, end = (orbit.points[2 * orbit.impacts - flights] for orbit in (first, second))
-    return abs(area + _area_under_line(begin, end)), (first, second)
+    begin, end = (each.points[2 * each.impacts - flights] for each in (orbit, other))
+    return abs(area + _line_integral(begin, end)), (orbit, other)
 
 
-def _area_under_line(begin: Vector, end: Vector) -> arb:
+def _line_integral(begin: Vector, end: Vector) -> arb:
     """Return the integral of y dx along the straight line between two points."""
     return (begin[1] + end[1]) / 2 * (end[0] - begin[0])
 
@@ -203,11 +203,11 @@ def first_crossing(saddle: Saddle, sign: int, impacts: int) -> Crossing | None:
     """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
 
     The crossing's orbit starts in the branch's last fundamental segment within _SCAN_END of the
-    saddle. Returns None if no image of this segment up to m = _MOST_IMAGES - 1 meets y = 0.
+    saddle. Returns None if no image of this segment up to m = _MAX_PERIODS - 1 meets y = 0.
     """
     ball, parameters = saddle.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameters, impacts)
-    for _ in range(_MOST_IMAGES):
+    for _ in range(_MAX_PERIODS):
         crossings = _crossings(ball, states)
         if crossings.size:
             return float(parameters[crossings[0]]), impacts

@@ -17,7 +17,7 @@ shares are kept for four numbers of them.
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -59,6 +59,9 @@ _PROBES, _MIRRORS = 200, 36  # points and mirror lines for which reversors are t
 _MIRRORED = 0.02  # section radii from its start's mirror image, which a symmetric orbit enters
 _ORBITS_PER_MEMBER = 50  # a class with fewer than one in so many orbits has no mean
 CLASSES = ("regular", "spiral", "chaotic")
+# Growths of tangent vectors and of areas (length, orbit) as logarithms, and which orbits are
+# symmetric (orbit).
+Growths = tuple[np.ndarray, np.ndarray, np.ndarray]
 _CELLS = "map", "strength"
 _BY_CLASS = (*_CELLS, "length", "class")
 _INTERVAL = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
@@ -151,14 +154,6 @@ def _in_disk(ball: Ball, energy: float, x: np.ndarray, y: np.ndarray) -> np.ndar
     return np.stack([(x - ball.section(energy)[0]) / width, y / height])
 
 
-class Growths(NamedTuple):
-    """Growths of orbits (length, orbit) as logarithms, and which orbits are symmetric (orbit)."""
-
-    tangent: np.ndarray
-    area: np.ndarray
-    symmetric: np.ndarray
-
-
 def _growths(
     perturbed: PerturbedMap, points: np.ndarray, lengths: Sequence[int], out: np.ndarray = NO_POINTS
 ) -> Growths:
@@ -169,7 +164,7 @@ def _growths(
     propagate(rows, *perturbed, max(lengths), windows, sums, out)
     means = sums / windows[:, 1:]
     tangent, area = means[:, 1::2] - means[:, ::2]
-    return Growths(tangent, area, rows[NEAREST] < _MIRRORED * _MIRRORED)
+    return tangent, area, rows[NEAREST] < _MIRRORED * _MIRRORED
 
 
 def classes(grown: np.ndarray, area: np.ndarray) -> np.ndarray:
@@ -184,22 +179,23 @@ def _statistics(growths: Growths, impacts: int, resampled: np.ndarray) -> dict[s
     If a map keeps any smooth area, the growth of an area along an orbit is bounded, and so is its
     standard deviation, the wander. Means are over orbits of `impacts`, the longest.
     """
-    kinds = classes(growths.tangent, growths.area)
+    tangent, area, symmetric = growths
+    kinds = classes(tangent, area)
     counts = np.stack([np.sum(kinds == i, axis=1) for i in range(len(CLASSES))], axis=1)
     total = kinds.shape[1]
     intervals = np.array([[_wilson(int(n), total) for n in row] for row in counts])
     regular, spiral, chaotic = (kinds[-1] == i for i in range(len(CLASSES)))
     wander = np.full(len(kinds), math.nan)
     if np.sum(chaotic) >= max(total // _ORBITS_PER_MEMBER, 1):
-        wander = np.std(growths.area[:, chaotic], axis=1)
+        wander = np.std(area[:, chaotic], axis=1)
     statistics = {
         "class_share": counts / total,
         "class_low": intervals[..., 0],
         "class_high": intervals[..., 1],
-        "symmetric": np.mean(growths.symmetric & regular),
+        "symmetric": np.mean(symmetric & regular),
         "wander": wander,
     }
-    growth, contraction = (sums[-1] / (impacts - impacts // 2) for sums in growths[:2])
+    growth, contraction = (sums[-1] / (impacts - impacts // 2) for sums in (tangent, area))
     rates = (growth, chaotic), (contraction, chaotic), (contraction, spiral)
     for name, (rate, chosen) in zip(_MEANS, rates, strict=True):
         estimate = _mean_with_interval(rate, chosen, resampled)
@@ -373,9 +369,9 @@ def _portraits(
     for name, strength in ((next(iter(MAPS)), 0.0), *((name, shown) for name in MAPS)):
         perturbed = perturbed_map(ball, energy, name, strength)
         out = np.empty((2, starts.size, impacts))
-        growths = _growths(perturbed, points, [impacts], out)
+        tangent, area, _ = _growths(perturbed, points, [impacts], out)
         orbits.append(out[:, :, :drawn])
-        kinds.append(classes(growths.tangent[0], growths.area[0]))
+        kinds.append(classes(tangent[0], area[0]))
     dims = ("panel", "start", "impact")
     a, b = np.stack(orbits, axis=1)
     return {

@@ -20,14 +20,14 @@ from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 
-from .actions import Primary, first_crossing, lobe, saddles_of
+from .actions import PrimaryPair, first_crossing, lobe, saddles_of
 from .polygon import Polygon
 from .sea import as_array, half_axes, sea_states
 
 SIDES = ("inner", "outer")
-# The area of a lobe is computed twice, with these bits and so many images nearer to the saddle, to
+# The area of a lobe is computed twice, with these bits and from starts so many periods earlier, to
 # see which digits agree. At 900 bits the flights of Figure 5's orbit are not enclosed.
-_BITS, _NEARER = (1800, 1200), (20, 30)
+_BITS, _PERIODS_EARLIER = (1800, 1200), (20, 30)
 _PRECISION_FACTORS = (1, 2, 4)  # of the bits, tried in turn until flights are enclosed
 _CORNERS, _VERTICES = 1201, 801  # of the lines kept for pictures
 _MAX_BRANCH = 16.0  # length of a traced branch, section radii
@@ -88,15 +88,16 @@ def flux(
             rows.append(_row(branches, side, grid, path))
         except ValueError as error:
             missing[side] = str(error)
-            rows.append(_missing_row(side))
-    if len(missing) == len(sides):
+    if not rows:
         raise ValueError("; ".join(f"no {side} lobes: {why}" for side, why in missing.items()))
     attributes: dict[str, float | str] = {
         "section": math.pi * math.prod(half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
     }
     attributes |= {f"missing_{side}": why for side, why in missing.items()}
-    return xr.Dataset(of_rows(_VARIABLES, rows), attrs=attributes)
+    lobes = xr.Dataset(of_rows(_VARIABLES, rows), attrs=attributes)
+    fill = {"digits": "", "saddle": -1, "target": -1}  # the others are NaN
+    return lobes.reindex(side=np.array(sides, dtype=object), fill_value=fill)
 
 
 class _Branches(NamedTuple):
@@ -108,22 +109,13 @@ class _Branches(NamedTuple):
     distance: float
 
 
-def _missing_row(side: str) -> tuple[Any, ...]:
-    """Return the values of _VARIABLES for a side without lobes."""
-    sizes = {"crossing": 2, "corner": _CORNERS, "vertex": _VERTICES}
-    row: dict[str, Any] = {"side": side, "digits": "", "saddle": -1, "target": -1}
-    for name, (dims, *_) in _VARIABLES.items():
-        row.setdefault(name, math.nan if dims == "side" else np.full(sizes[dims[1]], math.nan))
-    return tuple(row[name] for name in _VARIABLES)
-
-
 def _row(branches: _Branches, side: str, grid: int, path: np.ndarray) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one side."""
     ball, energy, saddles, _ = branches
     saddle, sign = _primary_branch(branches, side)
     (rough, _), (area, primary) = (
-        _lobe(branches, saddle, sign, nearer, bits)
-        for bits, nearer in zip(_BITS, _NEARER, strict=True)
+        _lobe(branches, saddle, sign, periods_earlier, bits)
+        for bits, periods_earlier in zip(_BITS, _PERIODS_EARLIER, strict=True)
     )
     error = abs(area - rough).upper() + area.rad()
     digits = max(1, min(25, math.floor(float(-(error / area).log() / _DECIMAL))))
@@ -144,14 +136,14 @@ def _row(branches: _Branches, side: str, grid: int, path: np.ndarray) -> tuple[A
 
 
 def _lobe(
-    branches: _Branches, saddle: int, sign: int, nearer: int, bits: int
-) -> tuple[arb, Primary]:
+    branches: _Branches, saddle: int, sign: int, periods_earlier: int, bits: int
+) -> tuple[arb, PrimaryPair]:
     """Return `lobe` of the branch that leaves one of the saddles, with more bits if needed."""
     ball, energy, saddles, _ = branches
     for factor in _PRECISION_FACTORS:
         with ctx.workprec(factor * bits):
             try:
-                return lobe(saddles_of(ball, energy, saddles)[saddle], sign, nearer)
+                return lobe(saddles_of(ball, energy, saddles)[saddle], sign, periods_earlier)
             except ArithmeticError as error:
                 reason = str(error)
     raise ValueError(reason)
@@ -207,7 +199,7 @@ class _TracedLobe(NamedTuple):
         return self.line[:, min(self.at) : max(self.at) + 1]
 
 
-def _lobe_ends(primary: Primary) -> list[np.ndarray]:
+def _lobe_ends(primary: PrimaryPair) -> list[np.ndarray]:
     """Return the lobe's two ends, and the mirror image of its second end, as points (x, y)."""
     first, second = primary
     steps = 2 * second.impacts - first.impacts
@@ -218,7 +210,7 @@ def _lobe_ends(primary: Primary) -> list[np.ndarray]:
     return [start, stop, stop * np.array([1.0, -1.0])]
 
 
-def _traced_lobe(branches: _Branches, saddle: int, side: str, primary: Primary) -> _TracedLobe:
+def _traced_lobe(branches: _Branches, saddle: int, side: str, primary: PrimaryPair) -> _TracedLobe:
     """Trace the branch until it passes the ends of the lobe between the primary orbits."""
     ball, energy, saddles, distance = branches
     ends, length = _lobe_ends(primary), 0.25
@@ -251,25 +243,18 @@ def _region(branches: _Branches, lobe: _TracedLobe) -> np.ndarray:
     mirrored = as_array(ball.reflect(*arc[:, ::-1]))
     states = np.concatenate([arc, mirrored[:, 1:]], axis=1)
     longest = _MAX_SIDE * ball.section(energy)[1]
-    arcs = _images(ball, states, points)
     for _ in range(_HALVINGS):
+        arcs, images = [], states
+        for _ in range(points):
+            arcs.append(chart(ball.k, *images))
+            images = ball.after(images)[:3]
         long = np.max(np.abs(np.diff(arcs)), axis=(0, 1)) > longest
         if not long.any():
             return _closed(arcs)
         x, y = 0.5 * (arcs[0][:, :-1] + arcs[0][:, 1:])[:, long]
         inserted = as_array(ball.state_xy(x, y, energy))
         states = np.insert(states, np.flatnonzero(long) + 1, inserted, axis=1)
-        arcs = _images(ball, states, points)
     return np.full((2, _CORNERS), math.nan)
-
-
-def _images(ball: Ball, states: np.ndarray, count: int) -> list[np.ndarray]:
-    """Return the points (2, n) of states (3, n) and of their images, `count` arrays in all."""
-    points = []
-    for _ in range(count):
-        points.append(chart(ball.k, *states))
-        states = ball.after(states)[:3]
-    return points
 
 
 def _integral(line: np.ndarray, start: int, first: np.ndarray, end: int, last: np.ndarray) -> float:

@@ -25,8 +25,8 @@ _HALVINGS = 40  # of a side, after which a continuous image is as good as one po
 _MIN_SIDE_SHARE, _MIN_TOTAL_SHARE = 0.01, 1e-9
 _PLANE = "R, with 1/omega as unit of time"  # of lengths in the plane (x, y)
 _DISTANCES = tuple(10.0**-i for i in range(2, 9))  # from the curve to where derivatives are taken
-_LARGEST = "largest singular value of the Jacobian in (x, y) where the flight"
-_HALVED = "by how much it differs from what half as many sides give"
+_DERIVATIVE = "largest singular value of the Jacobian in (x, y) where the flight"
+_LENGTH_ERROR = "by how much it differs from what half as many sides give"
 
 
 def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> xr.Dataset:
@@ -48,11 +48,8 @@ def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> x
     if sides % 4:
         raise ValueError(f"sides = {sides} is not allowed: a multiple of four")
     levels = [float(energy), *map(float, energies)]
-    arcs = [_arc(ball, level, sides + 1) for level in levels]
-    curves, gaps = (
-        np.stack([curve for curve, _ in arcs], axis=1),
-        np.array([gap for _, gap in arcs]),
-    )
+    arcs, each_gaps = zip(*(_arc(ball, level, sides + 1) for level in levels), strict=True)
+    curves, gaps = np.stack(arcs, axis=1), np.array(each_gaps)
     fine, middle, coarse = (_lengths(curves[2:], gaps, step) for step in (1, 2, 4))
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _MARGIN * length
@@ -71,15 +68,15 @@ def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> x
         "energy": ("energy", levels, "energy", ENERGY),
         "radius": ("energy", radii, "the section's radius along y = 0", LENGTH),
         "length": ("energy", length, "length of the curve in (x, y)", _PLANE),
-        "length_error": ("energy", error, _HALVED, _PLANE),
+        "length_error": ("energy", error, _LENGTH_ERROR, _PLANE),
         "flight_x": (line, flight_x, "x on the symmetry line Fix RP", LENGTH),
         "flight_y": (line, flight_y, "y on that line", SPEED),
         "distance": ("distance", _DISTANCES, "distance from the curve in (x, y)", _PLANE),
-        "derivative_touched": ("distance", touched, f"{_LARGEST} meets the floor"),
-        "derivative_missed": ("distance", missed, f"{_LARGEST} just misses the floor"),
+        "derivative_touched": ("distance", touched, f"{_DERIVATIVE} meets the floor"),
+        "derivative_missed": ("distance", missed, f"{_DERIVATIVE} just misses the floor"),
     }
-    first = ball.g * ball.g * (1.0 + 0.5 * ball.k)
-    return xr.Dataset(described(data), attrs={"first_energy": first})
+    onset = ball.g * ball.g * (1.0 + 0.5 * ball.k)
+    return xr.Dataset(described(data), attrs={"first_energy": onset})
 
 
 def _lengths(curves: np.ndarray, gaps: np.ndarray, every: int) -> np.ndarray:
@@ -122,9 +119,9 @@ def _gaps(image: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray) -> 
         middle = 0.5 * (low + high)
         point = image(middle)
         # go on with the half whose image is longer
-        first = _distance(start, point) > _distance(point, end)
-        low, high = np.where(first, low, middle), np.where(first, middle, high)
-        start, end = np.where(first, start, point), np.where(first, point, end)
+        lower = _distance(start, point) > _distance(point, end)
+        low, high = np.where(lower, low, middle), np.where(lower, middle, high)
+        start, end = np.where(lower, start, point), np.where(lower, point, end)
     smallest_jump = np.maximum(_MIN_SIDE_SHARE * sides, _MIN_TOTAL_SHARE * extent)
     return _distance(start, end) > smallest_jump
 

@@ -91,7 +91,10 @@ def _entered_cells(
             states = out[:, -1, :3].T
             done += out.shape[1]
             x, y = chart(ball.k, *np.moveaxis(out[..., :3], -1, 0))
-            across, up = _cell((x - centre) / radius, cells), _cell(y / high, cells)
+            across, up = (
+                np.clip((0.5 * (coordinate + 1.0) * cells).astype(np.int64), 0, cells - 1)
+                for coordinate in ((x - centre) / radius, y / high)
+            )
             for orbit, numbers in enumerate(up * cells + across):
                 entered[orbit, numbers] = True
         least = entered.sum(axis=1).min()
@@ -103,11 +106,6 @@ def _entered_cells(
         "entered_all": ("visit", all_of, "cells entered by each chaotic orbit"),
         "entered_least": ("visit", least, "cells entered by the chaotic orbit that enters fewest"),
     }
-
-
-def _cell(coordinate: np.ndarray, cells: int) -> np.ndarray:
-    """Return the cell, 0 to cells - 1, of coordinates between -1 and 1."""
-    return np.clip((0.5 * (coordinate + 1.0) * cells).astype(np.int64), 0, cells - 1)
 
 
 def stretches(dataset: xr.Dataset, length: int) -> np.ndarray:

@@ -13,7 +13,8 @@ import xarray as xr
 from pydantic import TypeAdapter
 
 from . import chaos, model, periodic, schema
-from .schema import UNCHECKED, Verdict
+from .outcomes import UNCHECKED
+from .schema import Verdict
 
 FILE, DATA = "CLAIMS.md", "CLAIMS.json"  # the page is rendered from the data
 # MODULE.FUNCTION, as claims.toml names a check, -> the function.
@@ -59,35 +60,30 @@ def read_json(text: str) -> list[Verdict]:
     return _ROWS.validate_json(text, strict=True)
 
 
-def checkable(verdicts: Iterable[Verdict]) -> int:
+def checkable_count(verdicts: Iterable[Verdict]) -> int:
     """Return the number of statements that can be checked: all but the "not checkable" ones."""
-    return sum(row.verdict != UNCHECKED for row in verdicts)
+    return sum(verdict.verdict != UNCHECKED for verdict in verdicts)
 
 
 def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
     """Map each verdict word, in the order of CLAIMS.md, to its verdicts, sorted by number."""
-    rows = sorted(verdicts, key=lambda row: row.number)
-    return {word: [row for row in rows if row.verdict == word] for word in VERDICTS}
+    by_number = sorted(verdicts, key=lambda verdict: verdict.number)
+    return {word: [v for v in by_number if v.verdict == word] for word in VERDICTS}
 
 
 def render(verdicts: list[Verdict]) -> str:
     """Return the text of CLAIMS.md: a table of the verdict words, and one of each word's rows."""
-    tables = by_verdict(verdicts)
-    count = checkable(verdicts)
+    tables, count = by_verdict(verdicts), checkable_count(verdicts)
     rest = f"{count} checkable statements, and on {len(verdicts) - count} more"
     lines = [DOCUMENT.head, f"The verdicts on {rest}, and what each needs:", ""]
     lines += ["| verdict | rows | what it needs |", 3 * "|---" + "|"]
     lines += [f"| {word} | {len(tables[word])} | {needs} |" for word, needs in VERDICTS.items()]
     lines.append("")
-    for word, rows in tables.items():
-        if rows:
-            lines += [f"## {word.capitalize()}", ""]
-            lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
-            lines += [*map(_row, rows), ""]
+    for word in filter(tables.get, tables):
+        lines += [f"## {word.capitalize()}", ""]
+        lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
+        for v in tables[word]:
+            cells = str(v.number), v.place, v.statement, v.value, v.error, v.evidence
+            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        lines.append("")
     return "\n".join(lines)
-
-
-def _row(row: Verdict) -> str:
-    """Return a verdict as a row of a Markdown table."""
-    cells = (str(row.number), row.place, row.statement, row.value, row.error, row.evidence)
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

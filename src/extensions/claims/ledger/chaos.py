@@ -11,20 +11,8 @@ from pseudorigid.dynamics.regularity import regular, regular_bound
 from pseudorigid.dynamics.variables import final_exponents
 
 from ..analyses.spread import in_sea, stretches
-from .schema import (
-    CORRECTED,
-    FALSE,
-    HOLDS,
-    UNDECIDED,
-    Outcome,
-    Series,
-    enclosed,
-    energy_of,
-    entropy_bound,
-    formula,
-    outcome_of,
-    regular_share,
-)
+from .evidence import enclosed, energy_of, entropy_bound, formula, regular_share
+from .outcomes import CORRECTED, FALSE, HOLDS, UNDECIDED, Outcome, Series, outcome_of
 
 SHORT = FIGURES["fig7"]["impacts"]  # impacts of a run of Figure 7
 ENERGIES = (FIGURES["fig8"]["energy"], FIGURES["fig2"]["energy"])

@@ -13,21 +13,8 @@ from pseudorigid.dynamics.paper import BALL, FIGURES
 from pseudorigid.dynamics.variables import states_of
 
 from ..analyses.spread import stretches
-from .schema import (
-    CORRECTED,
-    FALSE,
-    HOLDS,
-    PROVED,
-    Outcome,
-    Series,
-    bounds_of,
-    derived,
-    enclosed,
-    formula,
-    numbers_of,
-    outcome_of,
-    regular_share,
-)
+from .evidence import bounds_of, derived, enclosed, formula, numbers_of, regular_share
+from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, Outcome, Series, outcome_of
 
 APPRECIABLE = 0.1  # share of the energy
 FLIGHT_ERROR = 1e-13  # of a position after a flight that is computed twice
@@ -91,23 +78,20 @@ def diffeomorphism(algebra: xr.Dataset, jumps: xr.Dataset, proved: Mapping[str, 
         return Outcome(HOLDS, {"energy": energies[0]}, case="smooth")
     errors = jumps["length_error"].values
     lower = np.flatnonzero((lengths > 0.0) & (energies < energies[0]))
-    numbers: dict[str, Any] = {
-        "said": all(proved.values()),
-        "threshold": numbers_of(algebra)["smooth"],
-    }
+    numbers: dict[str, Any] = {"said": all(proved.values()), "second": bool(lower.size)}
     numbers |= {"energy": energies[0], "length": lengths[0], "length_error": errors[0]}
-    numbers |= {"second": bool(lower.size)}
     if lower.size:
         row = lower[np.argmax(energies[lower])]
         numbers |= {"second_length": lengths[row], "second_error": errors[row]}
-        numbers |= {"second_energy": energies[row]}
+        numbers["second_energy"] = energies[row]
     near = jumps.sel(distance=list(DISTANCES), method="nearest")
     h, touched, missed = (
         near[name].values for name in ("distance", "derivative_touched", "derivative_missed")
     )
     power = np.log(touched[-1] / touched[-2]) / np.log(h[-1] / h[-2])
     numbers |= {"touched": Series(touched), "distances": Series(h), "missed": missed[-1]}
-    return outcome_of(False, **numbers, power=power)
+    threshold = numbers_of(algebra)["smooth"]
+    return outcome_of(False, **numbers, power=power, threshold=threshold)
 
 
 def energy_surface(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:

@@ -16,20 +16,8 @@ from pseudorigid.dynamics.variables import chart, states_of
 
 from ..analyses.branches import branch_stretching, half_turns, trace_by_differences
 from ..analyses.perturbed_map import FORMS, PROPERTIES
-from .schema import (
-    CORRECTED,
-    FALSE,
-    HOLDS,
-    PROVED,
-    UNDECIDED,
-    Outcome,
-    Series,
-    bounds_of,
-    enclosed,
-    energy_of,
-    formula,
-    outcome_of,
-)
+from .evidence import bounds_of, enclosed, energy_of, formula
+from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED, Outcome, Series, outcome_of
 
 TRANSVERSAL = 1e-8  # sine of a crossing angle above which doubles tell it from 0
 STEP_BITS = range(20, 44)  # steps of differences are 2^-20 to 2^-43

@@ -12,7 +12,8 @@ from pipeline.config import PAPER, Config
 from pipeline.records.files import read_text
 
 from .. import ledger
-from ..ledger.schema import CORRECTED, FALSE, Verdict
+from ..ledger.outcomes import CORRECTED, FALSE
+from ..ledger.schema import Verdict
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -31,7 +32,7 @@ def part(config: Config, root: Path, links: Links) -> Part:
     values = {
         "linked": links.of,
         "claims": verdicts,
-        "counts": list(Counter(row.verdict for row in verdicts).items()),
+        "counts": list(Counter(verdict.verdict for verdict in verdicts).items()),
         "corrected": (FALSE, CORRECTED),
     }
     html: Any = _TEMPLATES.get_template("parts.html").make_module(values)
@@ -51,4 +52,4 @@ def _verdicts(root: Path) -> list[Verdict]:
         verdicts = ledger.read_json(read_text(root / ledger.DATA))
     except (OSError, ValueError):
         return []
-    return [row for rows in ledger.by_verdict(verdicts).values() for row in rows]
+    return [verdict for group in ledger.by_verdict(verdicts).values() for verdict in group]

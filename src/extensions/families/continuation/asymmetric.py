@@ -119,13 +119,14 @@ class AsymmetricOrbits(PeriodicOrbits):
         gradients = tuple(map(tuple, (ahead - back)[:, :3].tolist()))
         defect = tuple((ahead - back)[:, 3].tolist())
         matrix = whole.derivatives[:2].ravel()
-        guard = np.concatenate((matrix / math.sqrt(np.sum(matrix * matrix)), whole.times))
+        controls = np.concatenate((matrix / math.sqrt(np.sum(matrix * matrix)), whole.times))
         orbit = whole.points[:-1]
         mirrored = orbit * _MIRROR
         index = np.arange(self.period)
-        apart = [np.roll(orbit, -d, axis=0) - orbit for d in self.divisors]
-        apart += [orbit[(shift - index) % self.period] - mirrored for shift in index]
-        return Point(place, defect, gradients, guard, tuple(v.ravel() for v in apart), whole)
+        vectors = [np.roll(orbit, -d, axis=0) - orbit for d in self.divisors]
+        vectors += [orbit[(shift - index) % self.period] - mirrored for shift in index]
+        separations = tuple(each.ravel() for each in vectors)
+        return Point(place, defect, gradients, controls, separations, whole)
 
     def _halves(self, place: Place, first: int) -> tuple[WholeOrbit, np.ndarray, np.ndarray]:
         """Return the orbit from a place, and the ways ahead and back in time.
@@ -182,7 +183,8 @@ class AsymmetricOrbits(PeriodicOrbits):
         place = np.array(second.place[:2])
         points = first.data.points[:-1]
         return any(
-            np.any(np.max(np.abs(points - at), axis=1) < SAME) for at in (place, place * _MIRROR)
+            np.any(np.max(np.abs(points - start), axis=1) < SAME)
+            for start in (place, place * _MIRROR)
         )
 
     def innermost(self, point: Point) -> tuple[float, float]:

@@ -18,12 +18,12 @@ LARGEST_STEP, FIRST_STEP, LEAST_STEP = 0.02, 1e-3, 1e-11
 # Least cosine of the angle by which the tangent turns in a step, and from predictor to solution.
 _STRAIGHT = 0.98
 _CORRECTION = 0.25  # largest distance from predictor to solution, in units of the step
-_CHANGE = 0.2  # largest change of an entry of Point.guard in a step
-# Least factor by which a vector of Point.apart shrinks in a step, and least cosine of its turn.
+_CONTROL_CHANGE = 0.2  # largest change of an entry of Point.controls in a step
+# Least factor by which a vector of Point.separations shrinks in a step, and cosine of its turn.
 _SHRINK, _TURN = 0.6, 0.7
 _NEWTON_STEPS = 12
 _ROUNDING = 1e-9  # Newton steps below this that no longer fall have reached rounding
-_FALL = 0.1  # a defect that falls by this factor is progress even if the Newton step is no shorter
+_DEFECT_DROP = 0.1  # a defect that falls by this factor is progress, even if the step does not
 _DEFECT = 1e-5  # largest defect of a solution; at a jump the Newton steps shrink but it does not
 _HALVINGS = 30  # bisections of a chord, to find a parameter
 _CUTS = 200  # most cuts of a chord, to locate an event
@@ -36,10 +36,10 @@ class Point(NamedTuple):
     place: Place
     defect: Place  # values of the equations
     gradients: tuple[Place, ...]  # of each equation
-    guard: np.ndarray  # quantities that may change by at most _CHANGE in a step
+    controls: np.ndarray  # quantities that may change by at most _CONTROL_CHANGE in a step
     # Differences between points of an orbit, or of its mirror image, that vanish only where the
     # curve ends because the orbit merges with a shorter or more symmetric one.
-    apart: tuple[np.ndarray, ...]
+    separations: tuple[np.ndarray, ...]
     data: Any  # the orbit, as the System represents it
 
     @property
@@ -63,16 +63,6 @@ class System(Protocol):
         """Evaluate the equations at a place; None where they are not defined."""
 
 
-class Curve(NamedTuple):
-    """Points along a curve, and why it stops: "range", "closed", "collapse" or "blocked".
-
-    It is blocked if not even LEAST_STEP leads on, or if it has MOST_POINTS.
-    """
-
-    points: list[Point]
-    reason: str
-
-
 def dot(a: Place, b: Place) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
@@ -81,20 +71,20 @@ def cross(a: Place, b: Place) -> Place:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-def _rows(system: System, point: Point) -> list[Place]:
+def _scaled_gradients(system: System, point: Point) -> list[Place]:
     """Return the gradients of the equations with respect to the scaled coordinates."""
     return [(*row[:-1], row[-1] * system.scale) for row in point.gradients]
 
 
 def tangent(system: System, point: Point) -> Place:
     """Return the unit tangent, in scaled coordinates, or NaN if the gradients are dependent."""
-    rows = _rows(system, point)
+    rows = _scaled_gradients(system, point)
     vector = (-rows[0][1], rows[0][0]) if len(rows) == 1 else cross(*rows)
     size = math.sqrt(dot(vector, vector))
     return tuple(x / size for x in vector) if 0.0 < size < math.inf else (math.nan,) * len(vector)
 
 
-def moved(system: System, place: Place, vector: Place, length: float) -> Place:
+def displaced(system: System, place: Place, vector: Place, length: float = 1.0) -> Place:
     """Return the place that is reached from a place by a scaled vector times a length."""
     steps = (*vector[:-1], vector[-1] * system.scale)
     return tuple(x + length * step for x, step in zip(place, steps, strict=True))
@@ -106,7 +96,7 @@ def distance(system: System, first: Place, last: Place) -> float:
     return max(*ends, parameter / system.scale)
 
 
-def cramer(rows: Sequence[Place], values: Place) -> Place | None:
+def newton_step(rows: Sequence[Place], values: Place) -> Place | None:
     """Return the step at which linear functions with these gradients and values vanish, or None."""
     if len(rows) == 2:
         (a, b), (c, d) = rows
@@ -123,47 +113,49 @@ def cramer(rows: Sequence[Place], values: Place) -> Place | None:
     )
 
 
-def correct(system: System, place: Place, along: Place, reach: float) -> Point | None:
+def correct(system: System, place: Place, along: Place, radius: float) -> Point | None:
     """Return the solution in the plane through a place that is normal to `along`, or None.
 
-    Newton's method may move by at most 2 `reach`. With two equations, whose gradients are nearly
+    Newton's method may move by at most 2 `radius`. With two equations, whose gradients are nearly
     dependent at large multipliers, it also goes on while only the defect falls.
     """
     first, previous, previous_defect = place, math.inf, math.inf
     for _ in range(_NEWTON_STEPS):
         point = system.point(place)
-        step = cramer([*_rows(system, point), along], (*point.defect, 0.0)) if point else None
-        if point is None or step is None:
+        if point is None:
+            return None
+        step = newton_step([*_scaled_gradients(system, point), along], (*point.defect, 0.0))
+        if step is None:
             return None
         size, defect = max(map(abs, step)), max(map(abs, point.defect))
-        defect_falls = len(along) > 2 and defect < _FALL * previous_defect
+        defect_falls = len(along) > 2 and defect < _DEFECT_DROP * previous_defect
         stalls = previous <= _ROUNDING and size >= 0.25 * previous and not defect_falls
         converged = size <= 4e-17 or stalls
         if converged:
             break
         falls = size < 0.7 * previous or defect_falls
         previous, previous_defect, converged = size, defect, size <= _ROUNDING
-        place = moved(system, place, step, 1.0)
-        if not (falls and distance(system, first, place) <= 2.0 * reach):
+        place = displaced(system, place, step)
+        if not (falls and distance(system, first, place) <= 2.0 * radius):
             return None
     return point if converged and defect < _DEFECT else None
 
 
-def solve_at(system: System, place: Place, reach: float) -> Point | None:
+def solve_at(system: System, place: Place, radius: float) -> Point | None:
     """Return the solution near a place that has the place's parameter, or None."""
-    return correct(system, place, (*(0.0,) * (len(place) - 1), 1.0), reach)
+    return correct(system, place, (*(0.0,) * (len(place) - 1), 1.0), radius)
 
 
 def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: float) -> bool:
     """Return whether so little changes in a step that the new point is on the old one's curve."""
-    before, between, after = (tangent(system, point) for point in (old, predicted, new))
-    if not (dot(before, after) > _STRAIGHT and dot(between, after) > _STRAIGHT):
+    before, expected, after = (tangent(system, point) for point in (old, predicted, new))
+    if not (dot(before, after) > _STRAIGHT and dot(expected, after) > _STRAIGHT):
         return False
     if not distance(system, new.place, predicted.place) <= _CORRECTION * step:
         return False
-    if not np.all(np.abs(new.guard - old.guard) <= _CHANGE):
+    if not np.all(np.abs(new.controls - old.controls) <= _CONTROL_CHANGE):
         return False
-    for first, last in zip(old.apart, new.apart, strict=True):
+    for first, last in zip(old.separations, new.separations, strict=True):
         square, last_square = float(np.sum(first * first)), float(np.sum(last * last))
         if last_square < _SHRINK * _SHRINK * square:
             return False
@@ -172,54 +164,50 @@ def _acceptable(system: System, old: Point, predicted: Point, new: Point, step: 
     return True
 
 
-def trace(system: System, start: Point, sign: float, collapsed: Callable[[Point], bool]) -> Curve:
-    """Follow a curve from a point on it until it ends.
+def continue_curve(
+    system: System, start: Point, sign: float, collapsed: Callable[[Point], bool]
+) -> tuple[list[Point], str]:
+    """Return the points of a curve from one of them to its end, and why it stops.
 
-    Parameters
-    ----------
-    system : System
-    start : Point
-        On the curve.
-    sign : {1.0, -1.0}
-        Direction: along the tangent at each point, or against it.
-    collapsed : callable
-        Whether a point is so near to the curve's end, where a vector of `apart` vanishes, that the
-        curve need not be followed further.
+    The direction is that of the tangent if `sign` is 1, and opposite if it is -1. `collapsed` says
+    whether a point is so near to the curve's end, where a vector of `separations` vanishes, that
+    the curve need not be followed further. The reasons are "range", "closed", "collapse", and
+    "blocked" if not even LEAST_STEP leads on or there are MOST_POINTS.
     """
     points, step = [start], FIRST_STEP
     low, high = system.limits
     while len(points) < MOST_POINTS:
         old = points[-1]
         along = tuple(sign * x for x in tangent(system, old))
-        place = moved(system, old.place, along, step)
+        place = displaced(system, old.place, along, step)
         predicted = system.point(place)
         new = correct(system, place, along, step) if predicted else None
         if not (predicted and new and _acceptable(system, old, predicted, new, step)):
             step *= 0.5
             if step < LEAST_STEP:
-                return Curve(points, "blocked")
+                break
             continue
         if not low <= new.p <= high:
             end = at_parameter(system, old, new, high if new.p > high else low)
-            return Curve([*points, end] if end is not None else points, "range")
+            return [*points, *filter(None, [end])], "range"
         points.append(new)
         if collapsed(new):
-            return Curve(points, "collapse")
+            return points, "collapse"
         if len(points) > 3 and _returns(system, start, old, new):
-            return Curve(points, "closed")
+            return points, "closed"
         step = min(1.5 * step, LARGEST_STEP)
-    return Curve(points, "blocked")
+    return points, "blocked"
 
 
-def trace_both_ways(
+def continue_both_ways(
     system: System, start: Point, collapsed: Callable[[Point], bool]
 ) -> tuple[list[Point], list[str]]:
     """Return the points of a curve through a point on it, and why it stops at its two ends."""
-    ahead = trace(system, start, 1.0, collapsed)
-    if ahead.reason == "closed":
-        return [*ahead.points[:-1], start], ["closed", "closed"]
-    back = trace(system, start, -1.0, collapsed)
-    return [*reversed(back.points), *ahead.points[1:]], [back.reason, ahead.reason]
+    ahead, last = continue_curve(system, start, 1.0, collapsed)
+    if last == "closed":
+        return [*ahead[:-1], start], ["closed", "closed"]
+    back, first = continue_curve(system, start, -1.0, collapsed)
+    return [*reversed(back), *ahead[1:]], [first, last]
 
 
 def _chord(system: System, first: Point, last: Point) -> tuple[Place, float]:
@@ -243,11 +231,11 @@ def _returns(system: System, start: Point, old: Point, new: Point) -> bool:
         return False
     part = part_of_chord(system, old, new, start)
     along, length = _chord(system, old, new)
-    beside = distance(system, moved(system, old.place, along, part * length), start.place)
+    beside = distance(system, displaced(system, old.place, along, part * length), start.place)
     return 0.0 <= part <= 1.0 and beside <= 0.05 * length
 
 
-def _beside(system: System, first: Point, last: Point, share: float) -> Place:
+def _hermite_place(system: System, first: Point, last: Point, share: float) -> Place:
     """Return the place at a share, 0 to 1, of the Hermite cubic between two points of a curve."""
     along, length = _chord(system, first, last)
     tangents = [tangent(system, point) for point in (first, last)]
@@ -257,20 +245,11 @@ def _beside(system: System, first: Point, last: Point, share: float) -> Place:
     if not all(map(math.isfinite, (*start, *end))):
         start = end = tuple(length * x for x in along)
     rest = 1.0 - share
-    at_start, at_end = share * rest * rest, -share * share * rest
-    forward = share * share * (3.0 - 2.0 * share) * length
-    vector = tuple(
-        forward * c + at_start * a + at_end * b for a, b, c in zip(start, end, along, strict=True)
-    )
-    return moved(system, first.place, vector, 1.0)
-
-
-def between(system: System, first: Point, last: Point, share: float) -> Point | None:
-    """Return the point of a curve near a share, 0 to 1, of the chord of two points, or None."""
-    along, length = _chord(system, first, last)
-    if not length > 0.0:
-        return first
-    return correct(system, _beside(system, first, last, share), along, length)
+    by_start, by_end = share * rest * rest, -share * share * rest
+    by_chord = share * share * (3.0 - 2.0 * share) * length
+    vectors = zip(start, end, along, strict=True)
+    vector = tuple(by_chord * c + by_start * a + by_end * b for a, b, c in vectors)
+    return displaced(system, first.place, vector)
 
 
 def locate(
@@ -282,6 +261,7 @@ def locate(
     (the Illinois rule), with bisection as a safeguard, until its ends are neighbouring doubles or
     |value| no longer falls. Returns None where a point on the way is not found.
     """
+    along, length = _chord(system, first, last)
     low, high = 0.0, 1.0
     at_low, at_high = value(first), value(last)
     best, least = (first, abs(at_low)) if abs(at_low) < abs(at_high) else (last, abs(at_high))
@@ -292,19 +272,20 @@ def locate(
             share = 0.5 * (low + high)
         if share in (low, high):
             break
-        point = between(system, first, last, share)
+        place = _hermite_place(system, first, last, share)
+        point = correct(system, place, along, length) if length > 0.0 else first
         if point is None:
             return None
-        at = value(point)
-        idle = 0 if abs(at) < least else idle + 1
-        if abs(at) <= least:
-            best, least = point, abs(at)
-        if at == 0.0 or (idle > 8 and high - low < 1e-9):
+        here = value(point)
+        idle = 0 if abs(here) < least else idle + 1
+        if abs(here) <= least:
+            best, least = point, abs(here)
+        if here == 0.0 or (idle > 8 and high - low < 1e-9):
             break
-        if (at > 0.0) == (at_low > 0.0):
-            low, weight_low, weight_high = share, at, 0.5 * weight_high
+        if (here > 0.0) == (at_low > 0.0):
+            low, weight_low, weight_high = share, here, 0.5 * weight_high
         else:
-            high, weight_high, weight_low = share, at, 0.5 * weight_low
+            high, weight_high, weight_low = share, here, 0.5 * weight_low
     return best
 
 
@@ -319,19 +300,17 @@ def at_parameter(system: System, first: Point, last: Point, p: float) -> Point |
     low, high = 0.0, 1.0
     for _ in range(_HALVINGS):
         share = 0.5 * (low + high)
-        if (_beside(system, first, last, share)[-1] < p) == (first.p < p):
+        if (_hermite_place(system, first, last, share)[-1] < p) == (first.p < p):
             low = share
         else:
             high = share
     length = distance(system, first.place, last.place)
-    pairs = list(zip(first.place[:-1], last.place[:-1], strict=True))
-    point = solve_at(system, (*_beside(system, first, last, high)[:-1], p), length)
-    if point is not None and all(
-        min(a, b) - margin <= x <= max(a, b) + margin
-        for x, (a, b) in zip(point.place, pairs, strict=False)
-        for margin in (0.25 * abs(a - b) + 1e-9,)
-    ):
-        return point
+    point = solve_at(system, (*_hermite_place(system, first, last, high)[:-1], p), length)
+    if point is not None:
+        a, b, x = (np.array(each.place[:-1]) for each in (first, last, point))
+        margin = 0.25 * np.abs(a - b) + 1e-9
+        if np.all((np.minimum(a, b) - margin <= x) & (x <= np.maximum(a, b) + margin)):
+            return point
     near = locate(system, first, last, lambda point: point.p - p)
     if near is None:
         return None

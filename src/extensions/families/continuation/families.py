@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 from pseudorigid.kernel.arithmetic import sincos
 
 from .asymmetric import NO_LINE, AsymmetricOrbits
-from .curve import Place, Point, cramer, locate, part_of_chord, trace_both_ways
+from .curve import Place, Point, continue_both_ways, locate, newton_step, part_of_chord
 from .half_orbit import FIX_RP
 from .symmetric import COLLAPSED, SymmetricOrbits
 
@@ -36,7 +37,7 @@ class Event(NamedTuple):
     turns: int
     order: int  # the children have the parent's period times this
     point: Point
-    at: float  # place along the family, an index of its points
+    curve_index: float  # its place along the family, an index of its points
 
 
 @dataclass
@@ -77,6 +78,12 @@ class Family:
         """Whether the orbits meet the symmetry lines."""
         return self.line != NO_LINE
 
+    @cached_property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """The parameters (n,) of the points, and all their positions (n, ...)."""
+        positions = [self.system.positions(point) for point in self.points]
+        return np.array([point.p for point in self.points]), np.array(positions)
+
     @property
     def grazings(self) -> list[End]:
         """The ends at which an impact grazes."""
@@ -94,7 +101,7 @@ def follow(system: OrbitSystem, start: Point, longest: int) -> Family:
         near = system.separation(point) < COLLAPSED
         return near and abs(system.trace(point) - 2.0) < _RESTS
 
-    points, reasons = trace_both_ways(system, start, collapsed)
+    points, reasons = continue_both_ways(system, start, collapsed)
     ends = [
         _grazing(system, last) if reason == "blocked" else End(reason, last, last.p)
         for reason, last in zip(reasons, (points[0], points[-1]), strict=True)
@@ -129,13 +136,13 @@ def _grazing(system: OrbitSystem, last: Point) -> End:
     return End("unresolved", last, last.p, flight if symmetric else -1)
 
 
-def _touch(system: OrbitSystem, last: Point, flight: int, at: float) -> Point | None:
+def _touch(system: OrbitSystem, last: Point, flight: int, time: float) -> Point | None:
     """Return the orbit near a given one whose flight touches the floor near a time, or None."""
     place: Place | None
-    if isinstance(system, SymmetricOrbits) and (system.line, flight, at) == (FIX_RP, 0, 0.0):
+    if isinstance(system, SymmetricOrbits) and (system.line, flight, time) == (FIX_RP, 0, 0.0):
         place = _at_rest(system, last)
     else:
-        place = _touching(system, last, flight, at)
+        place = _touching(system, last, flight, time)
     if place is None or not _is_next_to(place, last):
         return None
     return last._replace(place=place, data=system.tracked(place, last.data.times)[0])
@@ -153,10 +160,10 @@ def _at_rest(system: SymmetricOrbits, last: Point) -> Place:
     return q, p
 
 
-def _touching(system: OrbitSystem, last: Point, flight: int, at: float) -> Place | None:
+def _touching(system: OrbitSystem, last: Point, flight: int, time: float) -> Place | None:
     """Return the place near an orbit from which a flight touches the floor, or None."""
     near = np.full(last.data.times.size, np.nan)
-    near[flight] = at
+    near[flight] = time
 
     def values(place: Place) -> Place:
         data, defect = system.tracked(place, last.data.times)
@@ -175,7 +182,7 @@ def _touching(system: OrbitSystem, last: Point, flight: int, at: float) -> Place
             step = 1e-7 * (place[-1] if i == len(place) - 1 else 1.0)
             beside = values(tuple(z + step * (i == j) for j, z in enumerate(place)))
             columns.append([(b - a) / step for a, b in zip(here, beside, strict=True)])
-        newton = cramer(list(zip(*columns, strict=True)), here)
+        newton = newton_step(list(zip(*columns, strict=True)), here)
         if newton is None:
             return None
         place = tuple(z + dz for z, dz in zip(place, newton, strict=True))
@@ -216,7 +223,7 @@ def _find_events(family: Family, longest: int) -> None:
 
         for i, part, event in _zeros(system, points, range(len(points)), above):
             family.events.append(Event("resonance", turns, order, event, i - 1 + part))
-    family.events.sort(key=lambda event: event.at)
+    family.events.sort(key=lambda event: event.curve_index)
 
 
 def _zeros(

@@ -127,11 +127,15 @@ def _fall(a, depth):
 
 
 @jit
-def _nearby_root(t, x, b, c, s, depth):
-    """Return the root of the gap, less `depth`, that Newton's method reaches from t."""
+def _newton(t, x, b, c, s, order, value):
+    """Return the time that Newton's method reaches from t, where the gap's derivative has a value.
+
+    The derivative is of `order` 0, the gap itself, or 1.
+    """
     for _ in range(50):
-        f, df, _, _, _ = gap(t, x, b, c, s)
-        after = t - (f - depth) / df
+        f, df, ddf, _, _ = gap(t, x, b, c, s)
+        off, slope = (f, df) if order == 0 else (df, ddf)
+        after = t - (off - value) / slope
         if abs(after - t) <= 4e-16 * abs(t):
             return after
         t = after
@@ -158,7 +162,7 @@ def fly(x, v, w, k, k_p, coefficients, guess, tangents):
     """
     b, c, s = rebound(v, w, k, coefficients)
     if guess > 0.0:
-        tau = _nearby_root(guess, x, b, c, s, 0.0)
+        tau = _newton(guess, x, b, c, s, 0, 0.0)
         _, _, _, p, rate = gap(tau, x, b, c, s)
     else:
         tau, p, rate, _ = first_impact(x, b, c, s, 1.0)
@@ -236,7 +240,7 @@ def _start_on_fix_rp(k, rho, q, rho_p, k_p, guess):
     """
     a, r, a_q, r_q, a_p = _place(k, rho, q, rho_p, k_p)
     depth = 0.5 * (rho * r) * (rho * r) / k
-    theta = _nearby_root(guess, a, 0.0, 0.0, 0.0, depth) if guess > 0.0 else _fall(a, depth)
+    theta = _newton(guess, a, 0.0, 0.0, 0.0, 0, depth) if guess > 0.0 else _fall(a, depth)
     x, v, w = landing(a, theta)
     _, slope, _, _, _ = gap(theta, a, 0.0, 0.0, 0.0)
     _, _, _, cosine, sine = gap(theta, 1.0, 0.0, 0.0, 0.0)
@@ -329,44 +333,32 @@ def evaluate(line, period, parameter, k, rho, q, guess):
 
 
 @jit
-def _maximum(t, x, b, c, s):
-    """Return the time near t at which the gap has a maximum, by Newton's method."""
-    for _ in range(50):
-        _, df, ddf, _, _ = gap(t, x, b, c, s)
-        after = t - df / ddf
-        if abs(after - t) <= 4e-16 * abs(t):
-            return after
-        t = after
-    return t
-
-
-@jit
 def _highest_touch(x, b, c, s, tau, depth, to_apex):
     """Return the time and height of the highest local maximum of the gap in a flight, or NaN.
 
     The flight has the length tau, and the floor lies below its start by `depth`. With `to_apex` its
     end counts too.
     """
-    at, highest = math.nan, math.nan
+    time, highest = math.nan, math.nan
     if depth > 0.0 and 1.0 + x < 0.0:
-        at, highest = 0.0, -depth
+        time, highest = 0.0, -depth
     steps = int(tau / 0.02) + 8
     before = 0.0
     for j in range(1, steps + 1):
         t = tau * j / steps
         _, df, _, _, _ = gap(t, x, b, c, s)
         if before > 0.0 and df <= 0.0:
-            peak = _maximum(t - 0.5 * tau / steps, x, b, c, s)
+            peak = _newton(t - 0.5 * tau / steps, x, b, c, s, 1, 0.0)
             if not 0.0 < peak < tau * (1.0 + 1e-9):
                 peak = t
             height = gap(peak, x, b, c, s)[0] - depth
             if not height <= highest:
-                at, highest = peak, height
+                time, highest = peak, height
         before = df
     f, _, ddf, _, _ = gap(tau, x, b, c, s)
     if to_apex and ddf < 0.0 and not f - depth <= highest:
-        at, highest = tau, f - depth
-    return at, highest
+        time, highest = tau, f - depth
+    return time, highest
 
 
 @jit
@@ -385,7 +377,7 @@ def flight_heights(x, v, w, k, depth, to_apex, times, near):
         b, c, s = rebound(v, w, k, coefficients)
         tau = times[i]
         if near[i] > 0.0:
-            t = _maximum(near[i], x, b, c, s)
+            t = _newton(near[i], x, b, c, s, 1, 0.0)
             heights[i, 0], heights[i, 1] = t, gap(t, x, b, c, s)[0] - depth
         else:
             last = to_apex and i == times.size - 1

@@ -32,7 +32,6 @@ class Search:
         self.parameter, self.longest = parameter, longest
         self.families: list[Family] = []
         self.starts: list[tuple[int, int, float, float]] = []  # period, line, q, p of each family
-        self._curves: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     def resume(self, starts: list[tuple[int, int, float, float]]) -> None:
         """Follow the symmetric families again of which an earlier search kept the starts."""
@@ -65,7 +64,7 @@ class Search:
 
         Its place is solved for only on those parts of the curve that come near the solution.
         """
-        levels, places = self._curve(family)
+        levels, places = family.places
         below = levels < point.p
         (cells,) = np.nonzero(below[:-1] != below[1:])
         for i in cells.tolist():
@@ -73,19 +72,10 @@ class Search:
             margin = _MARGIN + (high - low)
             if np.any((low - margin < point.q) & (point.q < high + margin)):
                 first, last = family.points[i : i + 2]
-                at = at_parameter(family.system, first, last, point.p)
-                if at is not None and family.system.same(at, point):
+                there = at_parameter(family.system, first, last, point.p)
+                if there is not None and family.system.same(there, point):
                     return True
         return False
-
-    def _curve(self, family: Family) -> tuple[np.ndarray, np.ndarray]:
-        """Return the parameters (n,) of a family's points, and all their positions (n, ...)."""
-        if family.number not in self._curves:
-            self._curves[family.number] = (
-                np.array([point.p for point in family.points]),
-                np.array([family.system.positions(point) for point in family.points]),
-            )
-        return self._curves[family.number]
 
     def _append(self, family: Family, start: Point) -> None:
         family.number = len(self.families)

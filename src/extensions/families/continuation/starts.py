@@ -9,7 +9,7 @@ from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.impact import impact_coefficients, rebound
 
 from .asymmetric import AsymmetricOrbits, evaluate_orbit, state_at
-from .curve import Place, Point, correct, cramer, dot, tangent
+from .curve import Place, Point, correct, dot, newton_step, tangent
 from .families import FAR, Event, OrbitSystem
 from .half_orbit import gap
 from .symmetric import COLLAPSED, NO_GUESS, Parameter
@@ -30,18 +30,20 @@ Vector = tuple[float, float]
 
 def starts_beside(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
     """Return orbits of a system beside the event of another one at which they branch off."""
-    if event.kind == "pitchfork":
-        return _beside_pitchfork(system, parent, event)
-    return (_beside_doubling if event.kind == "doubling" else _beside_resonance)(system, event)
-
-
-def _beside_pitchfork(system: AsymmetricOrbits, parent: OrbitSystem, event: Event) -> list[Point]:
-    """Return the orbit that branches off at a pitchfork of a symmetric one, a small way aside."""
-    point = _innermost(system, system.point(parent.first_place(event.point)))
-    if point is None:
-        return []
-    (a, b, _), (c, d, _) = point.gradients
-    return _aside(system, point.place, _kernel(a, b, c, d), _ASIDE, _ASIDE)
+    if event.kind == "resonance":
+        return _beside_resonance(system, event)
+    if event.kind == "doubling":
+        place = event.point.place
+        (a, c), (b, d), _ = event.point.data.derivatives.tolist()  # of P^n
+        a, d = a + 1.0, d + 1.0
+    else:  # a pitchfork
+        point = _innermost(system, system.point(parent.first_place(event.point)))
+        if point is None:
+            return []
+        place, ((a, b, _), (c, d, _)) = point.place, point.gradients
+    # A null vector of the singular matrix with the rows (a, b) and (c, d).
+    across = (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
+    return _aside(system, place, across, _ASIDE, _ASIDE)
 
 
 def _innermost(system: AsymmetricOrbits, point: Point | None) -> Point | None:
@@ -49,28 +51,21 @@ def _innermost(system: AsymmetricOrbits, point: Point | None) -> Point | None:
     return system.point((*system.innermost(point), point.p)) if point is not None else None
 
 
-def _beside_doubling(system: AsymmetricOrbits, event: Event) -> list[Point]:
-    """Return the orbit that branches off at a period doubling, a small way aside."""
-    (a, c), (b, d), _ = event.point.data.derivatives.tolist()  # of P^n
-    return _aside(system, event.point.place, _kernel(a + 1.0, b, c, d + 1.0), _ASIDE, _ASIDE)
-
-
-def _kernel(a: float, b: float, c: float, d: float) -> Vector:
-    """Return a null vector of the singular matrix with the rows (a, b) and (c, d)."""
-    return (b, -a) if abs(a) + abs(b) > abs(c) + abs(d) else (d, -c)
-
-
 def _aside(
-    system: AsymmetricOrbits, place: Place, across: Vector, distance: float, reach: float
+    system: AsymmetricOrbits, place: Place, across: Vector, distance: float, radius: float
 ) -> list[Point]:
     """Return the orbit at a distance from a place in a direction, unless it is more symmetric."""
     size = math.sqrt(dot(across, across))
     if not 0.0 < size < math.inf:
         return []
-    x, y, p = place
     along = (across[0] / size, across[1] / size, 0.0)
+    x, y, p = place
     beside = (x + distance * along[0], y + distance * along[1], p)
-    start = correct(system, beside, along, reach)
+    return _separate(system, correct(system, beside, along, radius))
+
+
+def _separate(system: AsymmetricOrbits, start: Point | None) -> list[Point]:
+    """Return an orbit in a list, which is empty if it is missing, shorter or more symmetric."""
     return [start] if start is not None and system.separation(start) > COLLAPSED else []
 
 
@@ -87,33 +82,36 @@ def _beside_resonance(system: AsymmetricOrbits, event: Event) -> list[Point]:
     size = _ASIDE / math.sqrt(1.0 + dot(conjugate, conjugate))
     found = []
     for radius in (size * factor for factor in _FARTHER):
-        before = None
+        before = math.nan
         for i in range(2 * _ANGLES + 1):
             sine, cosine = sincos(math.pi * i / (_ANGLES * event.order))
             # to the ellipse, and along it to the next quarter
             outward = radius * (cosine + sine * conjugate[0]), radius * sine * conjugate[1]
             around = radius * (cosine * conjugate[0] - sine), radius * cosine * conjugate[1]
-            moved = _moved_outward(system, event.point, outward, around)
-            if moved is not None and before is not None and moved[0] * before < 0.0:
-                found += _aside(system, moved[1], outward, 0.0, math.sqrt(dot(outward, outward)))
-            before = None if moved is None else moved[0]
+            way, place = _way_along_ray(system, event.point, outward, around)
+            if way * before < 0.0:
+                found += _aside(system, place, outward, 0.0, math.sqrt(dot(outward, outward)))
+            before = way
     return found
 
 
-def _moved_outward(
+def _way_along_ray(
     system: AsymmetricOrbits, parent: Point, outward: Vector, around: Vector
-) -> tuple[float, Place] | None:
-    """Return how far P^n moves a point along its ray, and the place where it stays on the ray."""
+) -> tuple[float, Place]:
+    """Return how far P^n moves a point along its ray, and the place where it stays on the ray.
+
+    The first result is NaN if there is no such place.
+    """
     ((a, b, x_p), (c, d, y_p)), (x, y, p) = parent.gradients, parent.place
-    drift = cramer([(a, b), (c, d)], (x_p, y_p))
+    drift = newton_step([(a, b), (c, d)], (x_p, y_p))
     wedge = outward[0] * around[1] - outward[1] * around[0]
     if drift is None or wedge == 0.0:
-        return None
+        return math.nan, parent.place
     for _ in range(_NEWTON_STEPS):
         at_x = x + (p - parent.p) * drift[0] + outward[0]
         at_y = y + (p - parent.p) * drift[1] + outward[1]
         if not at_x * at_x + at_y * at_y < 1.0:
-            return None
+            break
         whole, (dx, dy) = system.tracked((at_x, at_y, p), NO_GUESS)
         (a, c), (b, d), (x_p, y_p) = whole.derivatives.tolist()
         x_p += (a - 1.0) * drift[0] + b * drift[1]
@@ -123,11 +121,11 @@ def _moved_outward(
         if abs(turned) < _UNTURNED:
             return (around[1] * dx - around[0] * dy) / wedge, (at_x, at_y, p)
         if not 0.0 < abs(rate) < math.inf:
-            return None
+            break
         p -= turned / rate
         if not abs(p - parent.p) < 0.05 * system.scale:
-            return None
-    return None
+            break
+    return math.nan, parent.place
 
 
 def _entered(system: AsymmetricOrbits, place: Place) -> list[Point]:
@@ -141,8 +139,7 @@ def _entered(system: AsymmetricOrbits, place: Place) -> list[Point]:
     along = tangent(system, point)
     if not all(map(math.isfinite, along)):
         return []
-    start = correct(system, point.place, along, FAR)
-    return [start] if start is not None and system.separation(start) > COLLAPSED else []
+    return _separate(system, correct(system, point.place, along, FAR))
 
 
 def beyond_rim(system: AsymmetricOrbits, longer: Point, levels: list[float]) -> list[Point]:
@@ -168,7 +165,7 @@ def _with_flight_times(system: AsymmetricOrbits, place: Place, times: np.ndarray
             return None
         whole, defect = system.tracked((x, y, p), times)
         (a, c), (b, d), _ = whole.derivatives.tolist()
-        step = cramer([(a - 1.0, b), (c, d - 1.0)], defect)
+        step = newton_step([(a - 1.0, b), (c, d - 1.0)], defect)
         if step is None:
             return None
         x, y = x + step[0], y + step[1]
@@ -216,7 +213,7 @@ class _Touch(NamedTuple):
             x, y = self.mismatch(turn, p, speed)
             x1, y1 = self.mismatch(turn + _DIFFERENCE, p, speed)
             x2, y2 = self.mismatch(turn, p * (1.0 + _DIFFERENCE), speed)
-            step = cramer([(x1 - x, x2 - x), (y1 - y, y2 - y)], (x, y))
+            step = newton_step([(x1 - x, x2 - x), (y1 - y, y2 - y)], (x, y))
             if step is None:
                 return None
             turn, p = turn + _DIFFERENCE * step[0], p * (1.0 + _DIFFERENCE * step[1])
@@ -233,33 +230,27 @@ def beyond_touch(system: AsymmetricOrbits, place: Place, symmetric: bool) -> lis
     `place` is on a touching orbit of period n - 1, where n is the period of `system`. A symmetric
     orbit must touch the floor in two flights.
     """
-    touch = _touch(system, place, 2 if symmetric else 1)
-    if touch is None:
-        return []
-    found = []
-    for speed in _SPEEDS:
-        solution = touch.solved(place[2], speed)
-        if solution is not None:
-            turn, p = solution
-            found += _entered(system, (*touch.point(turn, speed), p))
-    return found
-
-
-def _touch(system: AsymmetricOrbits, place: Place, least: int) -> _Touch | None:
-    """Return the first touch of the orbit from a place; None if it has fewer than `least`."""
     at_x, at_y, p = place
     k, rho = system.parameter.k_and_rho(p)
     orbit = evaluate_orbit(system.period - 1, system.parameter.kind, k, rho, at_x, at_y, NO_GUESS)
     heights = system.heights(place, orbit.times, np.full(orbit.times.size, np.nan))
     (flights,) = np.nonzero(heights[:, 1] > -FAR)
-    if flights.size < least:
-        return None
+    if flights.size < (2 if symmetric else 1):
+        return []
     flight = int(flights[0])
     before = float(heights[flight, 0])
     x, y = orbit.points[flight].tolist()
+    rim = _rim_point(k, rho, x, y, before)
     times = np.roll(orbit.times, -flight)
     times[0] -= before
-    return _Touch(system.parameter, _rim_point(k, rho, x, y, before), times, before)
+    touch = _Touch(system.parameter, rim, times, before)
+    found = []
+    for speed in _SPEEDS:
+        solution = touch.solved(p, speed)
+        if solution is not None:
+            turn, at_p = solution
+            found += _entered(system, (*touch.point(turn, speed), at_p))
+    return found
 
 
 def _rim_point(k: float, rho: float, at_x: float, at_y: float, t: float) -> Vector:

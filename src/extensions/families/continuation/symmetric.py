@@ -75,11 +75,11 @@ class PeriodicOrbits:
 
     def separation(self, point: Point) -> float:
         """Return how far the orbit is from a shorter or more symmetric one, in section radii."""
-        return min((float(np.max(np.abs(a))) for a in point.apart), default=math.inf)
+        return min((float(np.max(np.abs(a))) for a in point.separations), default=math.inf)
 
     def shorter(self, point: Point) -> int:
         """Return the period of the shorter orbit that an orbit is near, or its own period."""
-        sizes = (float(np.max(np.abs(vectors))) for vectors in point.apart)
+        sizes = (float(np.max(np.abs(vectors))) for vectors in point.separations)
         near = (d for d, size in zip(self.divisors, sizes, strict=False) if size < _SHORTER)
         return next(near, self.period)
 
@@ -94,33 +94,29 @@ class SymmetricOrbits(PeriodicOrbits):
         ("doubling", attrgetter("data.d")),
     )
 
-    def _evaluate(self, place: Place, times: np.ndarray = NO_GUESS) -> HalfOrbit:
-        """Return the half orbit at a place, with about these times of flight if they are given."""
-        q, p = place
-        k, rho = self.parameter.k_and_rho(p)
-        return evaluate(self.line, self.period, self.parameter.kind, k, rho, q, times)
-
     def point(self, place: Place) -> Point | None:
         """Return the half orbit at a position and parameter, or None where there is none."""
         q, p = place
         if not (-1.0 < q < 1.0 and p > 0.0):
             return None
-        half = self._evaluate(place)
+        half, defect = self.tracked(place, NO_GUESS)
         if not half.exists:
             return None
         k, rho = self.parameter.k_and_rho(p)
         ratio = math.sqrt(k * (1.0 + k))  # y/x of the section
         a, b, c, d = half.a, half.b * ratio, half.c / ratio, half.d
         size = math.sqrt(a * a + b * b + c * c + d * d)
-        guard = np.concatenate(([a / size, b / size, c / size, d / size], half.times))
+        controls = np.concatenate(([a / size, b / size, c / size, d / size], half.times))
         # In section radii, so that the vectors do not turn when the section grows.
         points = half.points * np.array([k / rho, k / (rho * ratio)])
-        apart = tuple((points[d:] - points[:-d]).ravel() for d in self.divisors)
-        return Point(place, (half.h,), ((half.h_q, half.h_p),), guard, apart, half)
+        separations = tuple((points[d:] - points[:-d]).ravel() for d in self.divisors)
+        return Point(place, defect, ((half.h_q, half.h_p),), controls, separations, half)
 
     def tracked(self, place: Place, times: np.ndarray) -> tuple[HalfOrbit, Place]:
         """Return the half orbit with about these times of flight, and its defect."""
-        half = self._evaluate(place, times)
+        q, p = place
+        k, rho = self.parameter.k_and_rho(p)
+        half = evaluate(self.line, self.period, self.parameter.kind, k, rho, q, times)
         return half, (half.h,)
 
     def heights(self, place: Place, times: np.ndarray, near: np.ndarray) -> np.ndarray:

@@ -56,18 +56,21 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     above.dots(at[beyond], 0.0 * at[beyond] + 0.98 * highest, style.BLUE, 2.6, marker="^")
     for end in rim[1:]:
         middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
-    shown = [i for i, n in enumerate(families["period"].values) if n <= scene["drawn"]]
+    period, spans = families["period"].values.tolist(), rows(families)
+    shown = {i: spans[i] for i, n in enumerate(period) if n <= scene["drawn"]}
+    values, types = families[parameter].values, families["type"].values
     # Near grazing the residue grows without bound.
     residue = np.clip(0.25 * (2.0 - families["trace"].values), -50.0, 50.0)
     for level in (0.0, 1.0):
         below.line([low, high], [level, level], color=style.FRAME, lw=0.5)
-    for i in shown:
-        _family(middle, parameter, families, i, x)
-        _family(below, parameter, families, i, residue)
-    leaves = [_exits(below, parameter, families, i, residue) for i in shown]
+    for i, span in shown.items():
+        for panel, heights in ((middle, x), (below, residue)):
+            _family(panel, values[span], heights[span], types[span], _hue(period[i]))
+    leaves = [_exits(below, values[s], residue[s], _hue(period[i])) for i, s in shown.items()]
     title(sheet, below.frame, "Residue $(2-$trace$)/4$" + _BEYOND * any(leaves))
-    marks = _events(middle, parameter, families, set(shown))
-    _keys(sheet, families, shown, marks)
+    marks = _events(middle, parameter, families, shown)
+    stability = {str(kind) for span in shown.values() for kind in types[span]}
+    _keys(sheet, stability, marks, sorted({period[i] for i in shown}))
     fixed = {name: scene["ball"][name] for name in "kg" if name != parameter}
     setting = style.setting(scene | {"ball": fixed}, energy=parameter == "k")
     sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
@@ -81,33 +84,23 @@ def _share_axis(shares: xr.Dataset) -> Axis:
     return linear(0.0, min(1.0, 1.1 * (later if 4.0 * later < largest else largest)), 4)
 
 
-def _family(
-    panel: Window, parameter: str, families: xr.Dataset, index: int, values: np.ndarray
-) -> None:
+def _family(panel: Window, across: np.ndarray, up: np.ndarray, types: np.ndarray, hue: str) -> None:
     """Draw one family, in pieces of one type of stability."""
-    span = rows(families)[index]
-    across = families[parameter].values[span]
-    up, types = values[span], families["type"].values[span]
-    hue = _hue(int(families["period"].values[index]))
     changes = [0, *(np.flatnonzero(types[1:] != types[:-1]) + 1).tolist(), types.size]
     for first, last in pairwise(changes):
-        kind = str(types[first])
-        end = min(last + 1, types.size)
+        kind, piece = str(types[first]), slice(first, last + 1)
         dashes = {"ls": (0, (4.0, 2.5))} if kind == "inverse hyperbolic" else {}
-        panel.line(across[first:end], up[first:end], color=hue, lw=_WIDTHS[kind], **dashes)
+        panel.line(across[piece], up[piece], color=hue, lw=_WIDTHS[kind], **dashes)
 
 
-def _exits(
-    panel: Window, parameter: str, families: xr.Dataset, index: int, residue: np.ndarray
-) -> int:
+def _exits(panel: Window, across: np.ndarray, residue: np.ndarray, hue: str) -> int:
     """Mark where a family leaves the axis of residues, and return how often it does."""
-    span = rows(families)[index]
-    at, values = families[parameter].values[span], residue[span]
-    hue, count = _hue(int(families["period"].values[index])), 0
+    count = 0
     for end, inner, marker in ((_RESIDUES[1], 1.56, "^"), (_RESIDUES[0], -0.56, "v")):
-        beyond = (values > end) == (end > 0.0)
+        beyond = (residue > end) == (end > 0.0)
         i = np.flatnonzero(beyond[1:] != beyond[:-1])
-        x = at[i] + (end - values[i]) / (values[i + 1] - values[i]) * (at[i + 1] - at[i])
+        share = (end - residue[i]) / (residue[i + 1] - residue[i])
+        x = across[i] + share * (across[i + 1] - across[i])
         panel.dots(x, 0.0 * x + inner, hue, 2.6, marker=marker)
         count += i.size
     return count
@@ -118,23 +111,22 @@ def _hue(period: int) -> str:
     return style.MANY_HUES[(period - 1) % len(style.MANY_HUES)]
 
 
-def _events(panel: Window, parameter: str, families: xr.Dataset, shown: set[int]) -> set[str]:
+def _events(
+    panel: Window, parameter: str, families: xr.Dataset, shown: dict[int, slice]
+) -> set[str]:
     """Mark events, and ends where an impact grazes; return which kinds there are."""
     marked = set()
-    number = families["event_family"].values
-    chosen = np.isin(number, sorted(shown))
-    across = families[f"event_{parameter}"].values
-    up, kinds = families["event_x"].values, families["event_kind"].values
+    number, order = (families[f"event_{name}"].values for name in ("family", "order"))
+    across, up, kinds = (families[f"event_{name}"].values for name in (parameter, "x", "kind"))
+    few = (order * families["period"].values[number] <= 12) & (order <= 6)
     for kind, marker in _MARKS.items():
-        at = chosen & (kinds == kind)
+        chosen = np.isin(number, [*shown]) & (kinds == kind)
         if kind == "resonance":  # of longer chains there are too many
-            at &= families["event_order"].values * families["period"].values[number] <= 12
-            at &= families["event_order"].values <= 6
-        panel.dots(across[at], up[at], style.BLACK, 2.6, hollow=True, marker=marker)
-        marked |= {kind} if at.any() else set()
-    spans = rows(families)
-    for index in sorted(shown):
-        for side, last in ((0, spans[index].start), (1, spans[index].stop - 1)):
+            chosen &= few
+        panel.dots(across[chosen], up[chosen], style.BLACK, 2.6, hollow=True, marker=marker)
+        marked |= {kind} if chosen.any() else set()
+    for index, span in shown.items():
+        for side, last in ((0, span.start), (1, span.stop - 1)):
             if families["end_kind"].values[index, side] in ("touch", "rim"):
                 x, y = (families[name].values[last] for name in (parameter, "x"))
                 panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker="x")
@@ -167,9 +159,8 @@ def _resonances(panels: Sequence[Window], parameter: str, families: xr.Dataset) 
             reach = x
 
 
-def _keys(sheet: Sheet, families: xr.Dataset, shown: list[int], marks: set[str]) -> None:
+def _keys(sheet: Sheet, types: set[str], marks: set[str], periods: list[int]) -> None:
     """Explain the widths, marks and colours that are drawn."""
-    types = {kind for i in shown for kind in families["type"].values[rows(families)[i]]}
     widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)
     entries = [
         *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in widths),
@@ -178,7 +169,6 @@ def _keys(sheet: Sheet, families: xr.Dataset, shown: list[int], marks: set[str])
         *[("an impact grazes", style.BLACK, "x", True)] * ("grazing" in marks),
     ]
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
-    periods = sorted({int(families["period"].values[i]) for i in shown})
     entries = [(f"{n}", _hue(n), "", False, 1.7) for n in periods]
     sheet.text(_LEFT - 30, 65, "period", size=7.0)
     key(sheet, entries, 65, 10, _LEFT + 80, 820, 7.0)

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from extensions.claims import ledger as claims
-from extensions.claims.ledger.schema import VERDICT_WORDS
+from extensions.claims.ledger.outcomes import VERDICT_WORDS
 from extensions.proofs.theorems.statements import THEOREMS
 from pipeline.checks import manifest, published_sets
 from pipeline.checks.quantities import measured, printed
@@ -78,7 +78,7 @@ def numbers_of(root: Path, config: Config) -> str:
             **_of_citation(cff),
             "claims": [asdict(row) for row in verdicts],
             "counts": {word: counts[word] for word in VERDICT_WORDS},
-            "statements": claims.checkable(verdicts),
+            "statements": claims.checkable_count(verdicts),
             "figures": figures,
             "printed": {"exponent": EXPONENT},
             "lines": _source_lines(root),
