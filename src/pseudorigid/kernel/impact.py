@@ -14,6 +14,8 @@ impacts are counted.
 
 import math
 
+import numpy as np
+
 from . import formulas
 from .arithmetic import quadrant, quarter_turns, sincos
 from .compiled import jit
@@ -155,8 +157,8 @@ def steps(x, v, w, k, g, impacts, tau, out, root_finder):
     for i in range(x.size):
         xi, vi, wi, t = x[i], v[i], w[i], tau[i]
         for j in range(impacts):
-            xi, vi, wi, t, _, late = step(xi, vi, wi, k, g, coefficients, root_finder)
-            missed += late
+            xi, vi, wi, t, _, missed_one = step(xi, vi, wi, k, g, coefficients, root_finder)
+            missed += missed_one
             if out.size > 0:
                 out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = xi, vi, wi, t
         x[i], v[i], w[i], tau[i] = xi, vi, wi, t
@@ -177,17 +179,12 @@ def jacobians(x, v, w, k, g, impacts, out, root_finder):
     missed = 0
     for i in range(x.size):
         xi, vi, wi = x[i], v[i], w[i]
-        for m in range(3):
-            for j in range(3):
-                out[i, m, j] = 1.0 if m == j else 0.0
+        out[i] = np.eye(3)
         for _ in range(impacts):
-            xi, vi, wi, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
-                xi, vi, wi, k, g, coefficients, root_finder
-            )
-            missed += late
+            after = step_with_flight(xi, vi, wi, k, g, coefficients, root_finder)
+            (xi, vi, wi), flight, missed = after[:3], after[4:9], missed + after[9]
             for j in range(3):
-                out[i, 0, j], out[i, 1, j], out[i, 2, j] = tangent(
-                    out[i, 0, j], out[i, 1, j], out[i, 2, j],
-                    k, g, coefficients, xi, wi, sine, cosine, tau_x, tau_s, tau_c,
-                )  # fmt: skip
+                column = out[i, 0, j], out[i, 1, j], out[i, 2, j]
+                column = tangent(*column, k, g, coefficients, xi, wi, *flight)
+                out[i, 0, j], out[i, 1, j], out[i, 2, j] = column
     return missed

@@ -118,13 +118,11 @@ def exponents_of_orbit(x, v, w, k, g, at, out, root_finder):
     missed, done = 0, 0
     for m in range(at.size):
         while done < at[m]:
-            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
-                x, v, w, k, g, coefficients, root_finder
-            )
+            after = step_with_flight(x, v, w, k, g, coefficients, root_finder)
+            (x, v, w), flight, missed = after[:3], after[4:9], missed + after[9]
             a, b, c, lengths, sums = push_frame(
-                a, b, c, lengths, sums, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c
+                a, b, c, lengths, sums, k, g, coefficients, x, w, *flight
             )
-            missed += late
             done += 1
         sums, lengths = with_logarithms(sums, lengths), (1.0, 1.0, 1.0)
         for j in range(3):
@@ -140,9 +138,8 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
     coefficients = impact_coefficients(k)
     states, flights = allocate_buffers()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
-    for i in range(n):
-        frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
-        frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
+    rows = frames.reshape(4, 3, GROUP)[:, :, :n]  # three vectors, and the products of lengths
+    rows[0, 0], rows[1, 1], rows[2, 2], rows[3] = 1.0, 1.0, 1.0, 1.0
     for m in range(at.size):
         while done < at[m]:
             impacts = min(CHUNK, at[m] - done)
@@ -152,9 +149,7 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
                     _collect(total, frames, n, False)
             done += impacts
         _collect(total, frames, n, True)
-        for i in range(n):
-            for j in range(3):
-                out[i, m, j] = total[j, i] / done
+        out[:, m] = total.T / done
     return missed
 
 

@@ -137,11 +137,19 @@ def begin(k, states, centre, expected):
     return orbits
 
 
+def _bump(impact, length):
+    """Return the weight (t (1 - t))^3 of one impact of a window, of which t is its middle."""
+    t = (impact + 0.5) / length
+    product = t * (1.0 - t)
+    return product * product * product
+
+
+_compiled_bump = jit(_bump)
+
+
 def weight(length):
     """Return the sum of the weights of turns over a window of `length` impacts."""
-    time = (np.arange(length) + 0.5) / length
-    bump = time * (1.0 - time)
-    return np.sum(bump * bump * bump)
+    return np.sum(_bump(np.arange(length), length))
 
 
 @jit
@@ -181,13 +189,6 @@ def _rescale(rows, n):
 
 
 @jit
-def _add(sums, weight, rows, row):
-    """Add a weighted row to some sums."""
-    for i in range(sums.size):
-        sums[i] += weight * rows[row + i]
-
-
-@jit
 def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, growth):
     """Propagate the orbits from `low_end` to before `high_end`, at most GROUP of them."""
     n = high_end - low_end
@@ -195,12 +196,10 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
     round_y = 1.0 / math.sqrt(k * (1.0 + k))  # the section is a disk in (x, round_y * y)
     states, flights = allocate_buffers()
     rows = np.zeros(_ROWS)
-    for i in range(n):
-        for m in range(KEPT):
-            rows[m * GROUP + i] = orbits[m, low_end + i]
-        rows[_P + i] = rows[i] - rows[_CENTRE + i]
-        rows[_Q + i] = round_y * (rows[GROUP + i] - k * rows[2 * GROUP + i])
+    kept = rows.reshape(KEPT + 3, GROUP)[:KEPT, :n]
+    kept[:] = orbits[:, low_end:high_end]
     x, v, w = orbits[0, low_end:high_end], orbits[1, low_end:high_end], orbits[2, low_end:high_end]
+    rows[_P : _P + n], rows[_Q : _Q + n] = x - kept[CENTRE], round_y * (v - k * w)
     done = start
     while done < stop:
         impacts = min(CHUNK, stop - done)
@@ -211,17 +210,14 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
             for m in range(len(turning)):
                 first, length = turning[m]
                 if first <= done < first + length:
-                    time = (done - first + 0.5) / length
-                    bump = time * (1.0 - time)
-                    _add(turned[m, low_end:high_end], bump * bump * bump, rows, _TURN)
+                    share = _compiled_bump(done - first, length)
+                    turned[m, low_end:high_end] += share * rows[_TURN : _TURN + n]
             for m in range(len(growing)):
                 first, length = growing[m]
                 if first <= done < first + length:
-                    _add(growth[m, low_end:high_end], 1.0, rows, _SIZE)
+                    growth[m, low_end:high_end] += kept[SIZE]
             done += 1
-    for m in range(VECTOR, CENTRE):
-        for i in range(n):
-            orbits[m, low_end + i] = rows[m * GROUP + i]
+    orbits[VECTOR:CENTRE, low_end:high_end] = kept[VECTOR:CENTRE]
 
 
 @jit
