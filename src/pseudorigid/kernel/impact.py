@@ -111,12 +111,12 @@ def flight_derivatives(x, b, c, s, g, tau, trigonometry):
     """
     sine, cosine, sine_tail, cosine_tail, n = trigonometry
     cosine, sine = quarter_turns(cosine, sine, n)
-    near = n == 0.0
-    versine = 0.5 * tau * tau - cosine_tail if near else 1.0 - cosine
-    speed_near = ((g + x) * tau - s) + (x * sine_tail - c * versine)
-    speed_far = b + g * tau + (x * sine + c * cosine)
-    speed = speed_near if near else speed_far
-    tail = sine_tail if near else sine - tau
+    is_short = n == 0.0
+    versine = 0.5 * tau * tau - cosine_tail if is_short else 1.0 - cosine
+    speed_short = ((g + x) * tau - s) + (x * sine_tail - c * versine)
+    speed_long = b + g * tau + (x * sine + c * cosine)
+    speed = speed_short if is_short else speed_long
+    tail = sine_tail if is_short else sine - tau
     return sine, cosine, -versine / speed, tau / speed, -tail / speed
 
 
