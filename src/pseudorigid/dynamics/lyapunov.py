@@ -1,9 +1,4 @@
-"""Lyapunov exponents of orbits, eq. (32) with the factor 1/i that it lacks.
-
-Benettin's method: the analytic Jacobian, eq. (33), carries an orthonormal frame of three vectors
-along the orbit, and the frame is made orthonormal again at each impact (Benettin et al. 1980,
-reference [18] of the paper).
-"""
+"""Lyapunov exponents of orbits, by Benettin's method (`kernel.spectrum`)."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,7 +10,7 @@ from ..kernel import spectrum
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import GROUP
 from .ball import Ball
-from .ensemble import shared
+from .ensemble import in_threads
 from .inputs import not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
 from .variables import described, orbit_dims
@@ -53,7 +48,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     References
     ----------
     Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks; Benettin, Galgani,
-    Giorgilli and Strelcyn, Meccanica 15 (1980).
+    Giorgilli and Strelcyn, Meccanica 15 (1980), reference [18] of the paper.
 
     Examples
     --------
@@ -82,7 +77,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
         k, g, scan = ball.k, ball.g, ball.map.scan
         return sum(compute(x[i], v[i], w[i], k, g, at, out[i], scan) for i in parts)
 
-    missed = shared(exponents_of_piece, impacts, *(a.flatten() for a in state), out)
+    missed = in_threads(exponents_of_piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
     values = np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3)
     meaning = "Lyapunov exponent an impact, of each vector of the frame"
