@@ -19,14 +19,6 @@ def values(dataset):
     return np.stack([dataset[name].values for name in NAMES])
 
 
-def test_an_orbit_has_the_bits_of_single_impacts():
-    state = BALL.start(0.534522, 0.01)
-    found = orbit(BALL, state, 50)
-    for expected in values(found).T:
-        *state, tau = BALL.impact(*state)
-        assert np.array_equal((*state, tau), expected)
-
-
 @pytest.mark.parametrize(
     ("fractions", "dims"),
     [
