@@ -14,8 +14,6 @@ impacts are counted.
 
 import math
 
-import numpy as np
-
 from . import formulas
 from .arithmetic import quadrant, quarter_turns, sincos
 from .compiled import jit
@@ -179,7 +177,9 @@ def jacobians(x, v, w, k, g, impacts, out, root_finder):
     missed = 0
     for i in range(x.size):
         xi, vi, wi = x[i], v[i], w[i]
-        out[i] = np.eye(3)
+        for m in range(3):
+            for j in range(3):
+                out[i, m, j] = 1.0 if m == j else 0.0
         for _ in range(impacts):
             after = step_with_flight(xi, vi, wi, k, g, coefficients, root_finder)
             (xi, vi, wi), flight, missed = after[:3], after[4:9], missed + after[9]

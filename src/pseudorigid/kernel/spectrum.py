@@ -138,8 +138,9 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
     coefficients = impact_coefficients(k)
     states, flights = allocate_buffers()
     frames, total = np.zeros(_SIZE), np.zeros((3, n))
-    rows = frames.reshape(4, 3, GROUP)[:, :, :n]  # three vectors, and the products of lengths
-    rows[0, 0], rows[1, 1], rows[2, 2], rows[3] = 1.0, 1.0, 1.0, 1.0
+    for i in range(n):
+        frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
+        frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
     for m in range(at.size):
         while done < at[m]:
             impacts = min(CHUNK, at[m] - done)
@@ -149,7 +150,9 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
                     _collect(total, frames, n, False)
             done += impacts
         _collect(total, frames, n, True)
-        out[:, m] = total.T / done
+        for i in range(n):
+            for j in range(3):
+                out[i, m, j] = total[j, i] / done
     return missed
 
 

@@ -189,6 +189,13 @@ def _rescale(rows, n):
 
 
 @jit
+def _add(sums, weight, rows, row):
+    """Add a weighted row to some sums."""
+    for i in range(sums.size):
+        sums[i] += weight * rows[row + i]
+
+
+@jit
 def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing, turned, growth):
     """Propagate the orbits from `low_end` to before `high_end`, at most GROUP of them."""
     n = high_end - low_end
@@ -196,10 +203,12 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
     round_y = 1.0 / math.sqrt(k * (1.0 + k))  # the section is a disk in (x, round_y * y)
     states, flights = allocate_buffers()
     rows = np.zeros(_ROWS)
-    kept = rows.reshape(KEPT + 3, GROUP)[:KEPT, :n]
-    kept[:] = orbits[:, low_end:high_end]
+    for i in range(n):
+        for m in range(KEPT):
+            rows[m * GROUP + i] = orbits[m, low_end + i]
+        rows[_P + i] = rows[i] - rows[_CENTRE + i]
+        rows[_Q + i] = round_y * (rows[GROUP + i] - k * rows[2 * GROUP + i])
     x, v, w = orbits[0, low_end:high_end], orbits[1, low_end:high_end], orbits[2, low_end:high_end]
-    rows[_P : _P + n], rows[_Q : _Q + n] = x - kept[CENTRE], round_y * (v - k * w)
     done = start
     while done < stop:
         impacts = min(CHUNK, stop - done)
@@ -211,13 +220,15 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
                 first, length = turning[m]
                 if first <= done < first + length:
                     share = _compiled_bump(done - first, length)
-                    turned[m, low_end:high_end] += share * rows[_TURN : _TURN + n]
+                    _add(turned[m, low_end:high_end], share, rows, _TURN)
             for m in range(len(growing)):
                 first, length = growing[m]
                 if first <= done < first + length:
-                    growth[m, low_end:high_end] += kept[SIZE]
+                    _add(growth[m, low_end:high_end], 1.0, rows, _SIZE)
             done += 1
-    orbits[VECTOR:CENTRE, low_end:high_end] = kept[VECTOR:CENTRE]
+    for m in range(VECTOR, CENTRE):
+        for i in range(n):
+            orbits[m, low_end + i] = rows[m * GROUP + i]
 
 
 @jit
