@@ -41,8 +41,12 @@ def __getattr__(name: str) -> Any:
         return getattr(importlib.import_module(f".{_MODULES[name]}", __name__), name)
     if name == "__version__":
         return _version()
-    if place := _moved().get(name):
-        raise ImportError(f"{name} has moved: from {place} import {name}")
+    from importlib import resources  # these imports take longer than that of this package
+    from tomllib import loads
+
+    moved = loads(resources.files(__name__).joinpath("moved.toml").read_text())
+    if name in moved:
+        raise ImportError(f"{name} has moved: from {moved[name]} import {name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -61,12 +65,3 @@ def _version() -> str:
         version: str = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
         return version
     return metadata.version(__name__)
-
-
-def _moved() -> dict[str, str]:
-    """Return name -> the package that has it now, for names that were in this one."""
-    import tomllib
-    from importlib import resources
-
-    text = resources.files(__name__).joinpath("moved.toml").read_text()
-    return tomllib.loads(text)

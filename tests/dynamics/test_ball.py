@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -16,15 +15,8 @@ numbers = st.floats(-2.0, 2.0)
 balls = st.builds(Ball, k=st.floats(0.01, 1.0), g=st.floats(1e-4, 1.0))
 
 
-def test_the_ranges_of_the_parameters():
-    for k, g, name in ((0, 1, "k"), (1.0000001, 1, "k"), (1, 0, "g"), (1, -1, "g")):
-        with pytest.raises(ValueError, match=rf"^{name} = "):
-            Ball(k, g)
-    for k, g in ((1, 1), (5e-324, 1e308), (1.0, 5e-324), (np.float64(0.2), np.float32(0.5))):
-        assert type(Ball(k, g).k) is type(Ball(k, g).g) is float
-
-
 def test_balls_are_equal_by_value():
+    assert [Ball(*ends).k for ends in ((1, 1), (5e-324, 1e308), (1.0, 5e-324))] == [1, 5e-324, 1]
     assert Ball(0.2, 0.04) == BALL
     assert hash(Ball(0.2, 0.04)) == hash(BALL)
     assert repr(BALL) == "Ball(k=0.2, g=0.04, map=ImpactMap(scan=None))"
@@ -79,15 +71,12 @@ def test_both_branches_of_a_state():
     assert upper[2] == -lower[2] > 0.0
 
 
-@pytest.mark.parametrize(
-    ("method", "arguments", "message"),
-    [
+def test_states_that_do_not_exist_are_rejected():
+    for method, arguments, message in (
         (BALL.state, (0.9, 0.0, 0.01), "no state"),
         (BALL.state, (0.2, -0.01, 0.01, -1), "section"),
         (BALL.state_xy, (0.2, 0.9, 0.01), "section"),
         (BALL.state, (0.2, 0.0, 0.01, 2), "branch = 2"),
-    ],
-)
-def test_states_that_do_not_exist_are_rejected(method, arguments, message):
-    with pytest.raises(ValueError, match=message):
-        method(*arguments)
+    ):
+        with pytest.raises(ValueError, match=message):
+            method(*arguments)

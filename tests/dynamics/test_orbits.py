@@ -15,20 +15,8 @@ NAMES = ("x", "xdot", "udot", "tau")
 FRACTIONS = np.array([[-0.44, -0.1, 0.142], [0.17, 0.53, 0.9]])
 
 
-def bits(a):
-    return np.asarray(a, dtype=float).tobytes()
-
-
 def values(dataset):
     return np.stack([dataset[name].values for name in NAMES])
-
-
-def test_an_orbit_has_the_bits_of_single_impacts():
-    state = BALL.start(0.534522, 0.01)
-    found = orbit(BALL, state, 50)
-    for expected in values(found).T:
-        *state, tau = BALL.impact(*state)
-        assert bits((*state, tau)) == bits(expected)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +43,7 @@ def test_dims_follow_the_state_and_keep_last_returns_the_last_impact(fractions, 
         assert found[name].dtype == float
         assert found[name].attrs["units"] == "1" and found[name].attrs["long_name"]
         assert last[name].dims == dims
-        assert bits(last[name].values) == bits(found[name].values[-1])
+        assert np.array_equal(last[name], found[name][-1])
     assert found["impact"].values.tolist() == list(range(1, int(impacts) + 1))
 
 
@@ -80,7 +68,7 @@ def test_a_scene_is_a_ragged_array():
     at = 0
     for start, count in zip(starts, impacts, strict=True):
         alone = values(orbit(BALL, BALL.start(start, 0.01), count))
-        assert bits(values(found)[:, at : at + count]) == bits(alone)
+        assert np.array_equal(values(found)[:, at : at + count], alone)
         at += count
     energy = BALL.energy(*values(found)[:3])
     assert np.max(np.abs(energy - 0.01)) < 1e-16 * 20

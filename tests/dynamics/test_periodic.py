@@ -1,18 +1,22 @@
-"""Periodic orbits: closure, prime periods, symmetry, stability, digits and completeness."""
+"""Periodic orbits: closure, prime periods, symmetry, stability, digits and completeness.
 
+Fixed points are those of the closed form in 40 digits, and brute force over the whole section finds
+no symmetric orbit that the search misses.
+"""
+
+from functools import reduce
+
+import mpmath
 import numpy as np
 import pytest
 from cycles import NAMES, PERIODS, SETTINGS, points_of
 from independent_solver import periodic_point
+from mpmath import mpf
 from sections import BALL
 from slowly import slowly
 
-from pseudorigid import Ball, symmetric_orbits
+from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
-
-
-def tolerance(multiplier):
-    return 1e-14 * max(1.0, abs(multiplier) / 50.0)
 
 
 def check(ball, energy, period, orbits):
@@ -31,21 +35,18 @@ def check(ball, energy, period, orbits):
         points = points_of(orbits, i)
         trace = float(orbits["trace"][i])
         multiplier = float(orbits["multiplier"][i])
-        limit = tolerance(multiplier)
-        # The orbit closes under single impacts from the first point.
-        state = points[:3, 0]
-        for j in range(period):
-            assert np.array_equal(state, points[:3, j])
-            *state, tau = ball.impact(*state)
-            state = np.array(state)
-            assert tau == points[3, j]
-        gap = np.max(np.abs(state - points[:3, 0]))
+        limit = 1e-14 * max(1.0, abs(multiplier) / 50.0)
+        # The orbit closes under single impacts.
+        after = np.stack(ball.impact(*points[:3]))
+        assert np.array_equal(after[:3, :-1], points[:3, 1:])
+        assert np.array_equal(after[3], points[3])
+        gap = np.max(np.abs(after[:3, -1] - points[:3, 0]))
         assert gap <= limit, (period, trace, gap)
         assert np.max(np.abs(ball.energy(*points[:3]) - energy)) < 1e-14 * (1 + radius) + 2 * limit
         # The period is prime, and no orbit occurs twice.
         x, y = points[0], points[1] - k * points[2]
-        apart = np.hypot(x[:, None] - x, y[:, None] - y) + np.eye(period)
-        assert period == 1 or np.min(apart) > 1e-8 * radius
+        distances = np.hypot(x[:, None] - x, y[:, None] - y) + np.eye(period)
+        assert period == 1 or np.min(distances) > 1e-8 * radius
         for other_x, other_y in seen:
             assert np.min(np.hypot(x[:, None] - other_x, y[:, None] - other_y)) > 1e-8 * radius
         seen.append((x, y))
@@ -53,9 +54,7 @@ def check(ball, energy, period, orbits):
         mirrored = np.min(np.hypot(x[:, None] - x, y[:, None] + y), axis=1)
         assert np.max(mirrored) < 1e-9 * radius
         # Trace, type, multiplier and rotation number follow from the Jacobians.
-        product = np.eye(3)
-        for state in points[:3].T:
-            product = ball.jacobian(*state) @ product
+        product = reduce(lambda before, jacobian: jacobian @ before, ball.jacobian(*points[:3]))
         size = 1.0 + np.max(np.abs(product))
         assert abs(np.trace(product) - 1.0 - trace) < 1e-12 * size * size
         assert abs(np.linalg.det(product) - 1.0) < 1e-12 * size * size
@@ -106,16 +105,6 @@ def test_of_type_returns_one_orbit_or_names_the_available_types():
             of_type(symmetric_orbits(BALL, 0.01, period), "elliptic")
 
 
-def test_a_scaled_problem_has_the_same_orbits_scaled():
-    for period in (1, 6, 7):
-        plain = symmetric_orbits(BALL, 0.01, period)
-        scaled = symmetric_orbits(Ball(0.2, 0.04 / 8), 0.01 / 64, period)
-        for name in ("x", "xdot", "udot"):
-            assert np.array_equal(scaled[name].values, plain[name].values / 8)
-        for name in ("tau", "trace", "multiplier", "rotation_number", "total_time"):
-            assert np.array_equal(scaled[name].values, plain[name].values)
-
-
 @pytest.mark.parametrize(
     ("k", "g", "energy", "period"),
     [
@@ -142,3 +131,145 @@ def test_trace_and_points_in_sixty_digits(k, g, energy, period):
         size = max(1.0, *(abs(float(a)) for a in product))
         assert moved < 2e-15 * max(1.0, size / 50)
         assert abs(trace - float(orbits["trace"][i])) < 2e-13 * size * size
+
+
+def fixed_points(k, g, energy):
+    """Return (theta, x, v, w) of all fixed points, by the closed form of `dynamics.fixed_point`.
+
+    Roots theta beyond pi count only if the flight does not touch the floor earlier.
+    """
+    big = mpf(energy) * 2 * mpf(k) / mpf(g) ** 2 + 1
+
+    def excess(theta):
+        return (1 + mpf(k)) * theta**2 + (1 - theta * mpmath.cot(theta)) ** 2 - big
+
+    found = []
+    last = float(mpmath.sqrt(big / (1 + k)))
+    # Nodes are dense near both ends, where cot is infinite.
+    share = (1 - np.cos(np.pi * (np.arange(4000) + 1 / 3) / 4000)) / 2
+    for branch in range(int(last / np.pi) + 1):
+        theta = np.pi * (branch + share)
+        q = theta / np.tan(np.pi * share)
+        values = (1 + k) * theta**2 + (1 - q) ** 2 - float(big)
+        for j in np.nonzero(values[:-1] * values[1:] <= 0)[0]:
+            theta0 = mpmath.findroot(
+                excess, theta[j : j + 2].tolist(), solver="anderson", tol=1e-50
+            )
+            v, w = g * theta0, g * theta0 / mpf(k)
+            x = w * mpmath.cot(theta0)
+            t = np.linspace(0, 2 * float(theta0), 20_001)[1:-1]
+            gap = float(x) * (1 - np.cos(t)) - float(v) * t + 0.5 * g * t * t - float(w) * np.sin(t)
+            if np.all(gap < 0):
+                found.append((theta0, x, v, w))
+    return found
+
+
+FIXED = [
+    *SETTINGS,
+    (0.2, 0.004, 0.05),
+    (0.2, 0.001, 0.09),
+    (0.5, 0.01, 0.2),
+    (1.0, 0.02, 0.4),
+    (0.03, 0.0005, 0.01),
+    (0.2, 0.04, -0.004 + 1e-9),
+]
+
+
+@pytest.mark.parametrize(("k", "g", "energy"), FIXED)
+def test_fixed_points_against_the_closed_form(k, g, energy):
+    ball = Ball(k, g)
+    lowest, _ = ball.energy_bounds()
+    radius = ball.section(energy)[1]
+    # Effect on the points of a rounding of the terms of E
+    limit = 1e-15 * (1 + abs(lowest) / (energy - lowest))
+    with mpmath.workdps(40):
+        expected = sorted(fixed_points(k, g, energy))
+        found = symmetric_orbits(ball, energy, 1)
+        assert found.sizes["orbit"] == len(expected)
+        order = np.argsort(found["tau"].values[:, 0])
+        for i, (theta, *state) in zip(order, expected, strict=True):
+            stretch = max(1.0, abs(float(found["multiplier"][i])))
+            assert abs(float(found["tau"][i, 0]) / 2 - theta) < limit * stretch * theta
+            for name, value in zip(NAMES[:3], state, strict=True):
+                assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
+
+
+def brute_force(ball, energy, period, cells, steps=25):
+    """Return symmetric orbits found by Newton's method in the chart from a grid of the section."""
+    k, g = ball.k, ball.g
+    centre, radius = ball.section(energy)
+    height = radius * np.sqrt(k * (1 + k))
+    grid = np.linspace(-0.9999, 0.9999, cells)
+    x, y = (a.ravel() for a in np.meshgrid(grid, grid))
+    inside = x * x + y * y < 0.9999
+    x, y = centre + radius * x[inside], height * y[inside]
+
+    def gap_and_derivatives(x, y):
+        state = ball.state_xy(x, y, energy)
+        s = state[1] + state[2]
+        s_x, s_y = (1 + k) * (g - k * x) / (k * s), -y / (k * s)
+        along_x = np.stack([np.ones_like(x), k * s_x / (1 + k), s_x / (1 + k)])
+        along_y = np.stack([np.zeros_like(x), (1 + k * s_y) / (1 + k), (s_y - 1) / (1 + k)])
+        jacobian = ball.jacobian(*state, impacts=period)
+        by_x = np.einsum("nij,jn->in", jacobian, along_x)
+        by_y = np.einsum("nij,jn->in", jacobian, along_y)
+        after = ball.after(state, period)
+        derivatives = (by_x[0], by_y[0], by_x[1] - k * by_x[2], by_y[1] - k * by_y[2])
+        return after[0] - x, after[1] - k * after[2] - y, *derivatives
+
+    with np.errstate(all="ignore"):
+        for _ in range(steps):
+            f, h, a, b, c, d = gap_and_derivatives(x, y)
+            det = (a - 1) * (d - 1) - b * c
+            dx, dy = ((1 - d) * f + b * h) / det, (c * f + (1 - a) * h) / det
+            limit = np.minimum(1, 0.1 / np.hypot(dx / radius, dy / height))
+            x, y = x + limit * dx, y + limit * dy
+            good = ((x - centre) / radius) ** 2 + (y / height) ** 2 < 1
+            x, y = x[good], y[good]
+        f, h, a, _, _, d = gap_and_derivatives(x, y)
+    solved = np.maximum(np.abs(f), np.abs(h)) < 1e-12
+    found = []
+    for x0, y0, trace in zip(x[solved], y[solved], (a + d)[solved], strict=True):
+        if any(np.min(np.hypot(u - x0, v - y0)) < 1e-7 * radius for u, v, _ in found):
+            continue
+        points = orbit(ball, ball.state_xy(x0, y0, energy), period)
+        u, v = points["x"].values, (points["xdot"] - k * points["udot"]).values
+        if period > 1 and np.min(np.hypot(u[:-1] - x0, v[:-1] - y0)) < 1e-7 * radius:
+            continue
+        if np.min(np.hypot(u - x0, v + y0)) < 1e-7 * radius:
+            found.append((u, v, trace))
+    return found
+
+
+def compare_with_brute_force(ball, energy, period, cells):
+    """Check that the search finds each orbit of brute force with |trace| < 500."""
+    radius = ball.section(energy)[1]
+    orbits = symmetric_orbits(ball, energy, period)
+    starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]
+    expected = brute_force(ball, energy, period, cells)
+    for u, v, trace in expected:
+        pairs = zip(*starts, strict=True)
+        found = any(np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in pairs)
+        assert found or abs(trace) > 500, (period, trace, u[0], v[0])
+    return len(expected)
+
+
+@pytest.mark.parametrize(
+    ("k", "g", "energy", "periods"),
+    [
+        (0.2, 0.04, 0.01, (1, 2, 6)),
+        (1.0, 0.1, 0.05, (3, 9)),
+        (0.03, 0.0005, 0.01, (2,)),
+        *slowly((0.05, 0.004, 0.003, (5, 7)), (0.33, 0.1, 0.06, (5,))),
+    ],
+)
+def test_brute_force_finds_no_orbit_that_the_search_misses(k, g, energy, periods):
+    found = [compare_with_brute_force(Ball(k, g), energy, period, 45) for period in periods]
+    assert sum(found) > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("k", "g", "energy"), SETTINGS)
+def test_brute_force_to_period_twelve(k, g, energy):
+    for period in PERIODS:
+        compare_with_brute_force(Ball(k, g), energy, period, 70)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from independent_solver import exact_jacobian, judge
 from sections import BALL, sea
@@ -13,7 +13,7 @@ from pseudorigid.kernel import flight
 # Tolerances: about 1.4 times the largest errors of 20,000 states of each ball, or of 300 and 40
 # states where the reference solver is used.
 STATE = 2.5e-16
-DETERMINANT = 6e-15
+DETERMINANT = 2.7e-15
 JACOBIAN = 8e-16
 INVERSE = 1.4e-16
 ENERGY = 1e-11  # relative, over a million impacts; the largest error of these orbits is 7.8e-12
@@ -33,18 +33,6 @@ def sizes(ball, x, v, w):
 def spread(matrices):
     """Return the largest entry of each matrix, at least 1."""
     return np.maximum(1.0, np.abs(matrices).max(axis=(-1, -2)))
-
-
-def determinant(j):
-    """Return determinants (...) by cofactors, and the scale of their rounding errors."""
-    terms = [
-        (j[..., 0, i], (j[..., 1, p] * j[..., 2, q], j[..., 1, q] * j[..., 2, p]))
-        for i, p, q in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    ]
-    return (
-        sum(first * (plus - minus) for first, (plus, minus) in terms),
-        sum(np.abs(first) * (np.abs(plus) + np.abs(minus)) for first, (plus, minus) in terms),
-    )
 
 
 def test_energy_over_a_million_impacts():
@@ -71,9 +59,10 @@ def test_area_is_kept(ball):
     """In (x, v, w) the chart's determinant 1 at fixed energy becomes (v + w)/(v' + w')."""
     state = states(ball, 3000)
     _, v, w, _ = ball.impact(*state)
-    det, scale = determinant(ball.jacobian(*state))
+    j = ball.jacobian(*state)
+    scale = np.prod(np.linalg.norm(j, axis=-1), axis=-1)  # of the determinant's rounding errors
     ratio = (v + w) / (state[1] + state[2])
-    assert np.max(np.abs(det * ratio - 1.0) / (scale * ratio)) < DETERMINANT
+    assert np.max(np.abs(np.linalg.det(j) * ratio - 1.0) / (scale * ratio)) < DETERMINANT
 
 
 @pytest.mark.parametrize("ball", BALLS[:4], ids=str)
@@ -115,6 +104,11 @@ def test_inverse(ball):
         assert np.all(np.abs(tau_again - tau) <= slack * (1.0 + tau))
 
 
+# Squares of such lengths overflow or underflow; the march once did not end.
+@example(-1000, 0.2, 0.04, -0.05, 0.1, 0.3)
+@example(-700, 0.2, 0.04, -0.05, 0.1, 0.3)
+@example(700, 0.2, 0.04, -0.05, 0.1, 0.3)
+@example(1000, 0.2, 0.04, -0.05, 0.1, 0.3)
 @settings(derandomize=True, deadline=None)
 @given(
     st.integers(-60, 60), st.floats(0.01, 1.0), st.floats(1e-4, 1.0),

@@ -22,14 +22,14 @@ def threads() -> int:
     return max(1, int(setting)) if setting.isdigit() else len(os.sched_getaffinity(0))
 
 
-def shared(work: Callable[..., int], impacts: int, *arrays: np.ndarray) -> int:
+def in_threads(work: Callable[..., int], impacts: int, *arrays: np.ndarray) -> int:
     """Apply `work` to pieces of arrays, one in each thread, and return the sum of its results.
 
     The arrays are cut along their first axis, the orbits, which have `impacts` impacts each.
     """
     orbits = len(arrays[0])
-    enough = orbits * impacts // MIN_IMPACTS_PER_THREAD
-    workers = min(threads(), orbits // MIN_ORBITS_PER_THREAD, enough)
+    busy = orbits * impacts // MIN_IMPACTS_PER_THREAD
+    workers = min(threads(), orbits // MIN_ORBITS_PER_THREAD, busy)
     if workers < 2:
         return work(*arrays)
     pieces = zip(*(np.array_split(a, workers) for a in arrays), strict=True)
@@ -75,13 +75,13 @@ class ImpactMap:
     ) -> None:
         """Advance columns x, v, w, tau in place, as `kernel.impact.steps`, in lanes and threads."""
         compiled = not getattr(numba.config, "DISABLE_JIT", False)
-        for_lanes = self.certified and impacts > 0 and compiled
+        fits_lanes = self.certified and impacts > 0 and compiled
 
         def advance_piece(*arrays: np.ndarray) -> int:
             x, v, w, tau, out = arrays
-            if for_lanes and x.size >= lanes.MIN_ORBITS_FOR_LANES:
+            if fits_lanes and x.size >= lanes.MIN_ORBITS_FOR_LANES:
                 lanes.steps(x, v, w, k, g, impacts, tau, out)
                 return 0
             return impact.steps(x, v, w, k, g, impacts, tau, out, self.scan)
 
-        self.count(impacts * len(out), shared(advance_piece, impacts, *columns, out))
+        self.count(impacts * len(out), in_threads(advance_piece, impacts, *columns, out))

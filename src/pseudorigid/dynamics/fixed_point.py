@@ -25,8 +25,8 @@ def _one_minus_theta_cot(theta: float) -> float:
 
 def energy(k: float, theta: float) -> float:
     """Return E/g^2, which rises with theta = tau/2 from -1/(2k)."""
-    b = _one_minus_theta_cot(theta)
-    return ((1.0 + k) * theta * theta + b * b - 1.0) / (2.0 * k)
+    rest = _one_minus_theta_cot(theta)
+    return ((1.0 + k) * theta * theta + rest * rest - 1.0) / (2.0 * k)
 
 
 def half_time(k: float, e: float) -> float:
@@ -56,24 +56,24 @@ def rotation(trace: float) -> float:
 def numbers(k: float, e: float) -> tuple[float, float, float]:
     """Return x, trace and rotation number of the fixed point at the energy e."""
     theta = half_time(k, e)
-    trace_there = trace(k, theta)
-    return place(k, theta), trace_there, rotation(trace_there)
+    trace_of_point = trace(k, theta)
+    return place(k, theta), trace_of_point, rotation(trace_of_point)
 
 
 def resonance(k: float, turns: int, impacts: int) -> float:
     """Return the lowest E/g^2 at which the rotation number is turns/impacts <= 1/2."""
-    trace_wanted = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
-    return energy(k, _root(lambda theta: trace(k, theta) > trace_wanted, math.pi))
+    resonant_trace = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
+    return energy(k, _root(lambda theta: trace(k, theta) > resonant_trace, math.pi))
 
 
-def _root(below: Callable[[float], bool], end: float) -> float:
-    """Return the number in (0, end) up to which `below` holds, by bisection to the last bit."""
-    low, high = 0.0, end
+def _root(is_below: Callable[[float], bool], upper: float) -> float:
+    """Return the number in (0, upper) up to which `is_below` holds, bisected to the last bit."""
+    low, high = 0.0, upper
     while True:
         middle = 0.5 * (low + high)
         if middle in (low, high):
             return low if low > 0.0 else high
-        if below(middle):
+        if is_below(middle):
             low = middle
         else:
             high = middle

@@ -1,9 +1,4 @@
-"""Lyapunov exponents of orbits, eq. (32) with the factor 1/i that it lacks.
-
-Benettin's method: the analytic Jacobian, eq. (33), carries an orthonormal frame of three vectors
-along the orbit, and the frame is made orthonormal again at each impact (Benettin et al. 1980,
-reference [18] of the paper).
-"""
+"""Lyapunov exponents of orbits, by Benettin's method (`kernel.spectrum`)."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,10 +10,10 @@ from ..kernel import spectrum
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import GROUP
 from .ball import Ball
-from .ensemble import shared
+from .ensemble import in_threads
 from .inputs import not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
-from .variables import attributes_of, orbit_dims
+from .variables import described, orbit_dims
 
 
 def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) -> xr.Dataset:
@@ -53,7 +48,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     References
     ----------
     Kanso and Papadopoulos, eq. (32), with the factor 1/i that it lacks; Benettin, Galgani,
-    Giorgilli and Strelcyn, Meccanica 15 (1980).
+    Giorgilli and Strelcyn, Meccanica 15 (1980), reference [18] of the paper.
 
     Examples
     --------
@@ -73,7 +68,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     except (MemoryError, ValueError):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
-    def piece(x: np.ndarray, v: np.ndarray, w: np.ndarray, out: np.ndarray) -> int:
+    def exponents_of_piece(x: np.ndarray, v: np.ndarray, w: np.ndarray, out: np.ndarray) -> int:
         parts: Sequence[Any] = range(x.size)
         compute = spectrum.exponents_of_orbit
         if x.size >= MIN_ORBITS_FOR_LANES:  # fewer are not worth the time to compile this
@@ -82,15 +77,12 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
         k, g, scan = ball.k, ball.g, ball.map.scan
         return sum(compute(x[i], v[i], w[i], k, g, at, out[i], scan) for i in parts)
 
-    missed = shared(piece, impacts, *(a.flatten() for a in state), out)
+    missed = in_threads(exponents_of_piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
-    exponent = (
-        ("impact", *dims, "index"),
-        np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3),
-        attributes_of("Lyapunov exponent an impact, of each vector of the frame"),
-    )
-    attributes = attributes_of("number of impacts")
-    return xr.Dataset({"exponent": exponent}, coords={"impact": ("impact", at, attributes)})
+    values = np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3)
+    meaning = "Lyapunov exponent an impact, of each vector of the frame"
+    exponent = described({"exponent": (("impact", *dims, "index"), values, meaning)})
+    return xr.Dataset(exponent, coords=described({"impact": ("impact", at, "number of impacts")}))
 
 
 def scene_exponents(
@@ -109,10 +101,8 @@ def scene_exponents(
     states = np.array([start_state(ball, energy, start) for start in starts])
     counts = impacts if isinstance(impacts, list) else [impacts] * len(starts)
     if len(set(counts)) > 1:
-        spectra = [
-            lyapunov_spectrum(ball, state[:, None], count, records)
-            for state, count in zip(states, counts, strict=True)
-        ]
+        pairs = zip(states, counts, strict=True)
+        spectra = [lyapunov_spectrum(ball, state[:, None], n, records) for state, n in pairs]
         spectrum = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
         spectrum = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)

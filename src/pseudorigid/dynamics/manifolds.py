@@ -1,7 +1,4 @@
-"""Stable and unstable manifolds of a hyperbolic periodic orbit, as ordered polylines.
-
-`branch` computes points of a branch, `tracing` makes a polyline of them.
-"""
+"""Stable and unstable manifolds of a hyperbolic periodic orbit, as ordered polylines."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -11,9 +8,8 @@ import numpy as np
 import xarray as xr
 
 from .ball import Ball
-from .branch import Branch
+from .branch import Branch, Window
 from .inputs import coordinates, not_allowed, number, one_of
-from .tracing import trace
 from .variables import NAMES, of_rows, of_type, variables
 
 MOST_VERTICES_OF_SCENE = 10_000_000
@@ -60,7 +56,7 @@ def trace_manifold(
     distance : float
         Largest side of the polyline, in section radii, or with a window in units of its size.
     bend : float
-        Largest angle between sides, in degrees, where a side is longer than `tracing.FINEST`, a
+        Largest angle between sides, in degrees, where a side is longer than `branch.FINEST`, a
         thousandth, times the distance.
     window : (x_low, x_high, xdot_low, xdot_high), optional
         In R and R omega; only what passes through the window is kept.
@@ -77,7 +73,7 @@ def trace_manifold(
     ------
     ValueError
         The orbit is not hyperbolic or not of this energy, an argument is out of range, or the
-        branch has more points or images than `tracing.MOST_VERTICES` or `branch.MOST_IMAGES`.
+        branch has more points or images than `branch.MOST_VERTICES` or `branch.MOST_IMAGES`.
 
     Examples
     --------
@@ -90,24 +86,24 @@ def trace_manifold(
     """
     points = _points(orbit)
     energy = number("energy", energy)
-    _check_orbit(ball, energy, points)
+    errors = np.abs(ball.energy(*points) - energy)
+    if not np.all(errors <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
+        allowed = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
+        raise not_allowed("energy", energy, allowed)
     indices = range(points.shape[1])
     allowed = f"an index from 0 to {indices[-1]}"
     saddle = int(number("saddle", saddle, allowed, indices.__contains__))
     one_of("side", side, ("inner", "outer"))
     if not isinstance(stable, (bool, np.bool_)):
         raise not_allowed("stable", stable, "True or False")
-    length, distance = (
-        number(name, value, "above 0", lambda v: v > 0.0)
-        for name, value in (("length", length), ("distance", distance))
-    )
+    length = number("length", length, "above 0", lambda v: v > 0.0)
+    distance = number("distance", distance, "above 0", lambda v: v > 0.0)
     bend = number("bend", bend, "between 0 and 180 degrees", lambda v: 0.0 < v < 180.0)
-    window = None if window is None else _edges(window)
+    edges = None if window is None else _edges(window)
     branch = Branch(ball, energy, points, saddle, side, stable)
-    vertices = trace(branch, length, distance, bend, window)
-    attributes = {"start_error": branch.start_error()}
-    if branch.ended is not None:
-        attributes["ended"] = branch.ended
+    vertices = branch.trace(length, distance, bend, edges)
+    ended = {} if branch.ended is None else {"ended": branch.ended}
+    attributes = {"start_error": branch.start_error()} | ended
     return xr.Dataset(variables("vertex", vertices, _STATES), attrs=attributes)
 
 
@@ -120,23 +116,15 @@ def _points(orbit: Any) -> np.ndarray:
     return np.stack(coordinates(**{name: orbit[name].values for name in _STATES}))
 
 
-def _check_orbit(ball: Ball, energy: float, points: np.ndarray) -> None:
-    """Raise ValueError if the orbit has another energy."""
-    errors = np.abs(ball.energy(*points) - energy)
-    if not np.all(errors <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):
-        allowed = f"the orbit's own, {float(ball.energy(*points[:, 0])):.6g}"
-        raise not_allowed("energy", energy, allowed)
-
-
-def _edges(window: Any) -> tuple[float, float, float, float]:
+def _edges(window: Any) -> Window:
     """Return the edges of a window as floats."""
-    allowed = "(x_low, x_high, xdot_low, xdot_high)"
     try:
         x_low, x_high, xdot_low, xdot_high = (number("window", edge) for edge in window)
+        valid = x_low < x_high and xdot_low < xdot_high
     except (TypeError, ValueError):
-        raise not_allowed("window", window, allowed) from None
-    if not (x_low < x_high and xdot_low < xdot_high):
-        raise not_allowed("window", window, allowed)
+        valid = False
+    if not valid:
+        raise not_allowed("window", window, "(x_low, x_high, xdot_low, xdot_high)")
     return x_low, x_high, xdot_low, xdot_high
 
 
@@ -149,7 +137,7 @@ def scene_manifolds(
     resolution: dict[str, float],
     branches: dict[str, dict[str, Any]] | None = None,
     point: int | None = None,
-    window: dict[str, list[float]] | None = None,
+    window: Any = None,
     length: float | None = None,
 ) -> xr.Dataset:
     """Trace both manifolds of an orbit's points (Figure 5), or what a window shows (Figure 6).
@@ -172,15 +160,19 @@ def scene_manifolds(
     if branches is not None:
         extents = {side: dict(branches[side]) for side in sorted(branches)}
     else:
-        attributes = _window_around(orbit.isel(point=point), window, ball.section(energy)[1])
-        shown = {"length": length, "window": attributes["window_x"] + attributes["window_xdot"]}
+        radius = ball.section(energy)[1]
+        centre = {name: float(orbit[name][point]) for name in ("x", "xdot")}
+        edges = {name: [at + radius * edge for edge in window[name]] for name, at in centre.items()}
+        attributes = {f"window_{name}": edges[name] for name in centre}
+        attributes |= {f"point_{name}": at for name, at in centre.items()}
+        shown = {"length": length, "window": edges["x"] + edges["xdot"]}
         extents = {"inner": shown, "outer": shown}
     lines, rows, total = [], [], 0
     for side, stable, saddle in product(extents, (False, True), range(period)):
         options = {"stable": stable, "side": side} | extents[side] | resolution
         lines.append(trace_manifold(ball, energy, orbit, saddle, **options))
         rows.append((lines[-1].sizes["vertex"], np.int8(stable), saddle, side))
-        total += rows[-1][0]
+        total += lines[-1].sizes["vertex"]
         if total > MOST_VERTICES_OF_SCENE:
             raise ValueError(
                 f"manifolds of more than {MOST_VERTICES_OF_SCENE} points: make length shorter"
@@ -188,14 +180,7 @@ def scene_manifolds(
     attributes["start_error"] = max(line.attrs["start_error"] for line in lines)
     if ended := [line.attrs["ended"] for line in lines if "ended" in line.attrs]:
         attributes["ended"] = min(ended)
-    whole = xr.concat(lines, "vertex", combine_attrs="override").assign(of_rows(_BRANCHES, rows))
-    whole["row_size"].attrs["sample_dimension"] = "vertex"
-    return whole.assign_attrs(attributes)
-
-
-def _window_around(point: xr.Dataset, window: Any, radius: float) -> dict[str, Any]:
-    """Return a window's edges around a point, given relative to it, and the point itself."""
-    centre = {name: float(point[name]) for name in ("x", "xdot")}
-    edges = {name: [centre[name] + radius * edge for edge in window[name]] for name in centre}
-    attributes: dict[str, Any] = {f"window_{name}": edges[name] for name in centre}
-    return attributes | {f"point_{name}": centre[name] for name in centre}
+    vertices = xr.concat(lines, "vertex", combine_attrs="override")
+    dataset = vertices.assign(of_rows(_BRANCHES, rows)).assign_attrs(attributes)
+    dataset["row_size"].attrs["sample_dimension"] = "vertex"
+    return dataset

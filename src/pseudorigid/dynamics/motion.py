@@ -1,7 +1,7 @@
 """Motion in time, between the impacts of an orbit."""
 
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from itertools import cycle, pairwise
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import not_allowed, number, state_of
-from .variables import LENGTH, TIME, of_type, states_of, variables
+from .variables import LENGTH, NAMES, TIME, of_type, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
 SAMPLES = 200
@@ -26,18 +26,6 @@ _IMPACT_NAMES = {
     "impact_t": ("time of impact", TIME),
     "impact_position": ("position at impact, downwards", LENGTH),
 }
-
-
-def _flights(
-    ball: Ball, state: Sequence[Any], repeated: Sequence[tuple[float, ...]]
-) -> Iterator[tuple[Any, ...]]:
-    """Yield (x, xdot, udot, tau) of each flight: the repeated ones, or else those from a state."""
-    yield from itertools.cycle(repeated)
-    x, xdot, udot = state
-    while True:
-        *after, tau = ball.impact(x, xdot, udot)
-        yield x, xdot, udot, tau
-        x, xdot, udot = after
 
 
 def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
@@ -70,22 +58,19 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     7
     """
     duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
-    repeated: list[tuple[float, ...]] = []
+    points: list[tuple[Any, ...]] = []
     if "point" in getattr(start, "dims", ()):
-        columns = (start[name].values.tolist() for name in ("x", "xdot", "udot", "tau"))
-        repeated = [*zip(*columns, strict=True)]
-        start = repeated[0][:3]
+        points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
+        start = points[0][:3]
     state = ball.on_section(*state_of(start))
     if state[0].shape:
         raise not_allowed("start", start, "one state or one orbit")
-    flights = _flights(ball, [float(a) for a in state], repeated)
-    following = next(flights)
+    flights = cycle(points) if points else _flights(ball, *(float(a) for a in state))
     coefficients = impact_coefficients(ball.k)
     samples: list[tuple[np.ndarray, ...]] = []
     impacts: list[tuple[float, float]] = []
     time = 0.0
-    while time <= duration:
-        (x, xdot, udot, tau), following = following, next(flights)
+    for (x, xdot, udot, tau), (next_x, *_) in pairwise(flights):
         if len(impacts) == MOST_FLIGHTS:
             raise not_allowed("duration", duration, f"at most {MOST_FLIGHTS:,} flights")
         impacts.append((time, x))
@@ -97,12 +82,21 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
         strain = c * sine - x * cosine
         position[0], strain[0] = x, -x
         if time + tau <= duration:
-            end = following[0]
-            position[-1], strain[-1] = end, -end
+            position[-1], strain[-1] = next_x, -next_x
         samples.append((time + t, position, strain))
         time += tau
+        if time > duration:
+            break
     data = variables("sample", np.concatenate(samples, axis=1), _SAMPLE_NAMES)
     return xr.Dataset(data | variables("impact", np.transpose(impacts), _IMPACT_NAMES))
+
+
+def _flights(ball: Ball, x: Any, xdot: Any, udot: Any) -> Iterator[tuple[Any, ...]]:
+    """Yield x, xdot, udot and tau of each flight after a state."""
+    while True:
+        *after, tau = ball.impact(x, xdot, udot)
+        yield x, xdot, udot, tau
+        x, xdot, udot = after
 
 
 def scene_motion(

@@ -5,11 +5,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from .ball import Ball, State, require_short_flights
 from .inputs import not_allowed, one_of, state_of, whole_number
-from .variables import LENGTH, RADIUS, SPEED, Variables, attributes_of, orbit_dims, variables
+from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
 
 def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset:
@@ -56,24 +55,20 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     state = ball.on_section(*state_of(state))
     shape = state[0].shape
     dims = orbit_dims(shape)
+    numbers: tuple[Any, Any] = (), impacts
     if keep == "last":
         values = [a.reshape(shape) for a in ball.after(state, impacts)]
-        require_short_flights(state, values)
-        return xr.Dataset(variables(dims, values), coords={"impact": _impact((), impacts)})
-    try:
-        out = ball.history(state, impacts)
-    except (MemoryError, ValueError):
-        raise not_allowed("impacts", impacts, "fewer, or keep='last': memory is short") from None
-    values = [a.reshape(impacts, *shape) for a in out.T]
-    require_short_flights(state, [value[-1] for value in values])
-    return xr.Dataset(
-        variables(("impact", *dims), values),
-        coords={"impact": _impact("impact", np.arange(1, impacts + 1))},
-    )
-
-
-def _impact(dims: Any, values: ArrayLike) -> tuple[Any, ArrayLike, dict[str, str]]:
-    return dims, values, attributes_of("number of impacts")
+    else:
+        try:
+            history = ball.history(state, impacts)
+        except (MemoryError, ValueError):
+            allowed = "fewer, or keep='last': memory is short"
+            raise not_allowed("impacts", impacts, allowed) from None
+        values = [a.reshape(impacts, *shape) for a in history.T]
+        dims, numbers = ("impact", *dims), ("impact", np.arange(1, impacts + 1))
+    require_short_flights(state, (a.flat[-1] for a in values))
+    coordinate = described({"impact": (*numbers, "number of impacts")})
+    return xr.Dataset(variables(dims, values), coords=coordinate)
 
 
 def scene_orbits(
@@ -99,11 +94,8 @@ def ragged_orbits(
 ) -> xr.Dataset:
     """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau."""
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
-    data["row_size"] = (
-        "orbit",
-        np.asarray(impacts, dtype=np.int64),
-        attributes_of("number of impacts") | {"sample_dimension": "point"},
-    )
+    data |= described({"row_size": ("orbit", np.array(impacts, np.int64), "number of impacts")})
+    data["row_size"][2]["sample_dimension"] = "point"
     return xr.Dataset(data)
 
 
@@ -128,10 +120,9 @@ def start_variables(starts: Sequence[Any], states: Any) -> Variables:
     is.
     """
     fractions = [np.nan if isinstance(start, dict) else start for start in starts]
-    attributes = attributes_of("start along y = 0, in section radii from the centre", RADIUS)
-    data = {"start": ("orbit", np.asarray(fractions, dtype=float), attributes)}
+    meaning = "start along y = 0, in section radii from the centre"
+    table = {"start": ("orbit", np.array(fractions, dtype=float), meaning, RADIUS)}
     if any(isinstance(start, dict) for start in starts):
-        for i, (name, scale) in enumerate((("x", LENGTH), ("xdot", SPEED))):
-            values = np.array([state[i] for state in states], dtype=float)
-            data[f"start_{name}"] = ("orbit", values, attributes_of(f"{name} of the start", scale))
-    return data
+        for name, values in zip(("x", "xdot"), np.array(states, dtype=float).T[:2], strict=True):
+            table[f"start_{name}"] = "orbit", values, f"{name} of the start", NAMES[name][1]
+    return described(table)

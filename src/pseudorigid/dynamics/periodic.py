@@ -9,7 +9,6 @@ in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -19,7 +18,10 @@ from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball
 from .inputs import number, whole_number
-from .variables import NAMES, TIME, Variables, variables
+from .variables import NAMES, TIME, described, variables
+
+Function = Callable[[np.ndarray], np.ndarray]
+_Line = tuple[Function, np.ndarray, Callable[..., np.ndarray]]
 
 # Cells into which a symmetry line is divided to find sign changes. For the paper's ball at energies
 # 0.0017, 0.01 and 0.03, ten times as many cells show no further orbit of a period up to 12.
@@ -79,49 +81,37 @@ def symmetric_orbits(ball: Ball, energy: float, period: int) -> xr.Dataset:
     period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
     solved, unsolved = [], 0
-    for seen in _distinct_orbits(ball, energy, period, radius):
+    for orbit in _distinct_orbits(ball, energy, period, radius):
         # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
-        x, xdot, udot, _ = seen[:, 0]
+        x, xdot, udot, _ = orbit[:, 0]
         trace = float(np.trace(ball.jacobian(x, xdot, udot, period)) - 1.0)
         limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
         # If the orbit is too sensitive at its first point, begin it at another one.
-        nearest = (_closest(ball, energy, point, period) for point in seen[:3].T)
+        nearest = (_closest(ball, energy, point, period) for point in orbit[:3].T)
         first = next((state for state, gap in nearest if gap <= limit), None)
         if first is None:
             unsolved += 1
         else:
             solved.append((trace, _orbit_from(ball, first, period)))
     solved.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
-    points = np.array([p for _, p in solved]).reshape(len(solved), 4, period)
+    traces = np.array([trace for trace, _ in solved])
+    points = np.array([orbit for _, orbit in solved]).reshape(len(solved), 4, period)
+    types = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
+    types[np.abs(traces) < 2.0] = "elliptic"
     names = NAMES | {"tau": ("time of flight to the next point", TIME)}
-    data = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
-    attrs = {"k": ball.k, "g": ball.g, "energy": float(energy), "period": period}
-    attrs |= {"resolution": RESOLUTION, "unsolved": unsolved}
-    traces = np.array([t for t, _ in solved])
-    return xr.Dataset(data | _stability(traces, points[:, 3]), attrs=attrs)
-
-
-def _stability(traces: np.ndarray, tau: np.ndarray) -> Variables:
-    """Return variables on `orbit` from the traces (n,) and the times of flight (n, period)."""
-    kinds = np.where(traces > 0.0, "hyperbolic", "inverse hyperbolic").astype(object)
-    kinds[np.abs(traces) < 2.0] = "elliptic"
-    names = {
-        "trace": "trace of the Jacobian of P^n on the energy surface",
-        "multiplier": "multiplier of largest modulus; the modulus, 1, of elliptic orbits",
-        "rotation_number": "argument of the multiplier over 2 pi",
-        "total_time": ("sum of the times of flight", TIME),
+    of_points = variables(("orbit", "point"), points.transpose(1, 0, 2), names)
+    rotations = _rotation_number(traces)
+    largest = "multiplier of largest modulus; the modulus, 1, of elliptic orbits"
+    of_orbits = {
+        "trace": ("orbit", traces, "trace of the Jacobian of P^n on the energy surface"),
+        "multiplier": ("orbit", _multiplier(traces), largest),
+        "rotation_number": ("orbit", rotations, "argument of the multiplier over 2 pi"),
+        "total_time": ("orbit", points[:, 3].sum(axis=1), "sum of the times of flight", TIME),
+        "type": ("orbit", types, "type of stability"),
     }
-    values = traces, _multiplier(traces), _rotation_number(traces), tau.sum(axis=1)
-    data = variables("orbit", values, names)
-    return data | {"type": ("orbit", kinds, {"long_name": "type of stability"})}
-
-
-class _Line(NamedTuple):
-    """A symmetry line: states (3, n) at parameters (n,), and a defect that is 0 for orbits."""
-
-    states: Callable[[np.ndarray], np.ndarray]
-    parameters: np.ndarray
-    defect: Callable[..., np.ndarray]
+    attrs = {"k": ball.k, "g": ball.g, "energy": energy, "period": period}
+    attrs |= {"resolution": RESOLUTION, "unsolved": unsolved}
+    return xr.Dataset(of_points | described(of_orbits), attrs=attrs)
 
 
 def _distinct_orbits(ball: Ball, energy: float, period: int, radius: float) -> Iterator[np.ndarray]:
@@ -138,7 +128,11 @@ def _distinct_orbits(ball: Ball, energy: float, period: int, radius: float) -> I
 
 
 def _lines(ball: Ball, energy: float, period: int) -> Iterator[_Line]:
-    """Yield the symmetry lines on which orbits of a period are searched for."""
+    """Yield the symmetry lines on which orbits of a period are searched for.
+
+    A line has a function from parameters (n,) to states (3, n), the parameters to search, and the
+    defect of states, which is 0 for an orbit after half of its impacts.
+    """
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
 
@@ -155,13 +149,13 @@ def _lines(ball: Ball, energy: float, period: int) -> Iterator[_Line]:
     # The rim is left out, because a ball there is at rest.
     inside = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
     if period % 2:
-        yield _Line(on_r, inside, off_rp)
+        yield on_r, inside, off_rp
         return
-    yield _Line(on_r, inside, lambda x, xdot, udot: xdot - k * udot)  # y is 0 on Fix R
+    yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y is 0 on Fix R
     longest = radius * np.sqrt(k) / g
     for sign in (1.0, -1.0):
         on_rp = partial(symmetric_flights, ball, energy, sign)
-        yield _Line(on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, off_rp)
+        yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, off_rp
 
 
 def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray) -> np.ndarray:
@@ -184,12 +178,12 @@ def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray)
 
 def _solutions(ball: Ball, line: _Line, period: int, radius: float) -> Iterator[np.ndarray]:
     """Yield the states on one symmetry line that return after `period` impacts."""
+    states_at, parameters, defect = line
 
-    def value(p: np.ndarray) -> np.ndarray:
-        return line.defect(*ball.after(line.states(p), period // 2)[:3])
+    def defect_halfway(parameters: np.ndarray) -> np.ndarray:
+        return defect(*ball.after(states_at(parameters), period // 2)[:3])
 
-    ends = np.concatenate(_sign_changes(value, line.parameters))
-    states = line.states(ends)
+    states = states_at(np.concatenate(_sign_changes(defect_halfway, parameters)))
     _, gaps = _gaps(ball, states, period)
     states, gaps = states.reshape(3, 2, -1), gaps.reshape(2, -1)
     for root in range(gaps.shape[1]):
@@ -197,28 +191,25 @@ def _solutions(ball: Ball, line: _Line, period: int, radius: float) -> Iterator[
             yield states[:, np.argmin(gaps[:, root]), root]
 
 
-def _sign_changes(
-    value: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _sign_changes(value: Function, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the ends, neighbouring doubles, of sign changes of `value`, NaN off the line."""
     on_line = ~np.isnan(value(parameters))
     low, high = parameters[:-1].copy(), parameters[1:].copy()
-    # Where a line ends between two parameters, replace the one beyond by the last point on the
-    # line.
+    # Where a line ends between two parameters, its last point replaces the parameter beyond it.
     (leaves,) = np.nonzero(on_line[:-1] & ~on_line[1:])
-    high[leaves] = _halve(low[leaves], high[leaves], lambda p: ~np.isnan(value(p)))[0]
+    high[leaves] = _bisected(low[leaves], high[leaves], lambda p: ~np.isnan(value(p)))[0]
     (enters,) = np.nonzero(~on_line[:-1] & on_line[1:])
-    low[enters] = _halve(low[enters], high[enters], lambda p: np.isnan(value(p)))[1]
+    low[enters] = _bisected(low[enters], high[enters], lambda p: np.isnan(value(p)))[1]
     at_low = value(low)
     change = at_low * value(high) <= 0.0
     at_low = at_low[change]
-    return _halve(low[change], high[change], lambda p: at_low * value(p) > 0.0)
+    return _bisected(low[change], high[change], lambda p: at_low * value(p) > 0.0)
 
 
-def _halve(
-    low: np.ndarray, high: np.ndarray, goes_right: Callable[[np.ndarray], np.ndarray]
+def _bisected(
+    low: np.ndarray, high: np.ndarray, goes_right: Function
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Bisect intervals (n,) down to neighbouring doubles; goes_right(middle) selects halves."""
+    """Return intervals (n,), bisected to neighbouring doubles; goes_right(middle) picks halves."""
     while True:
         middle = 0.5 * (low + high)
         if np.all((middle == low) | (middle == high)):
@@ -254,11 +245,12 @@ def _closest(ball: Ball, energy: float, state: np.ndarray, period: int) -> tuple
             state = np.stack(ball.state_xy(x + dx, y + dy, energy))
         except ValueError:  # off the section
             break
-    shift = np.indices((5, 5, 5)).reshape(3, -1) - 2
-    near = best[:, None] + shift * np.spacing(best)[:, None]
-    near = near[:, near[1] + near[2] >= 0.0]
-    _, gaps = _gaps(ball, near, period)
-    return near[:, np.argmin(gaps)], float(np.min(gaps))
+    # The closest of the doubles around it.
+    steps = np.indices((5, 5, 5)).reshape(3, -1) - 2
+    neighbours = best[:, None] + steps * np.spacing(best)[:, None]
+    neighbours = neighbours[:, neighbours[1] + neighbours[2] >= 0.0]
+    _, gaps = _gaps(ball, neighbours, period)
+    return neighbours[:, np.argmin(gaps)], float(np.min(gaps))
 
 
 def _orbit_from(ball: Ball, state: np.ndarray, period: int) -> np.ndarray:
@@ -278,5 +270,5 @@ def _rotation_number(traces: np.ndarray) -> np.ndarray:
     """Return arccos(trace/2)/(2 pi), by bisection on `sincos` for reproducible bits."""
     low, high = np.zeros(traces.size), np.full(traces.size, 0.5)
     turn = 2.0 * math.pi
-    low, high = _halve(low, high, lambda part: 2.0 * sincos_each(turn * part)[1] > traces)
+    low, high = _bisected(low, high, lambda part: 2.0 * sincos_each(turn * part)[1] > traces)
     return np.where(traces <= -2.0, 0.5, 0.5 * (low + high))

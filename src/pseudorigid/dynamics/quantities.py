@@ -1,7 +1,7 @@
 """Quantities of orbits that users ask for: rotation number, residue and regularity."""
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,7 +10,7 @@ from ..kernel.tangents import turns_and_growth
 from . import fixed_point
 from .ball import Ball
 from .inputs import not_allowed, state_of, whole_number
-from .variables import attributes_of, orbit_dims, variables
+from .variables import attributes_of, described, orbit_dims
 from .verdict import classify_orbits as follow_until_decided
 
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
@@ -55,9 +55,9 @@ def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
     0.176039
     """
     impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
-    finite, states, centre, expected = _read(ball, state)
+    finite, orbits = _finite_orbits(ball, state)
     turns = np.full(finite.shape, math.nan)
-    turns[finite], _ = turns_and_growth(ball.k, states, centre, expected, impacts)
+    turns[finite], _ = turns_and_growth(ball.k, *orbits, impacts)
     return turns if turns.shape else float(turns)
 
 
@@ -141,21 +141,25 @@ def classify_orbits(ball: Ball, state: Any, impacts: int = 10_000) -> xr.Dataset
     ['regular', 'chaotic']
     """
     impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
-    finite, states, centre, expected = _read(ball, state)
+    finite, orbits = _finite_orbits(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     winding, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
-        verdicts = follow_until_decided(ball.k, states, centre, expected, impacts)
+        verdicts = follow_until_decided(ball.k, *orbits, impacts)
         words = np.where(verdicts.regular, "regular", "chaotic")
         types[finite] = np.where(np.isnan(verdicts.growth), "undefined", words)
         winding[finite], followed[finite] = verdicts.winding, verdicts.followed
     dims = orbit_dims(finite.shape)
-    numbers = {
-        "rotation_number": "rotation number around the fixed point, in turns per impact",
-        "followed": "number of impacts that the orbit was followed",
+    table = {
+        "type": (dims, types, "regular or chaotic"),
+        "rotation_number": (
+            dims,
+            winding,
+            "rotation number around the fixed point, in turns per impact",
+        ),
+        "followed": (dims, followed, "number of impacts that the orbit was followed"),
     }
-    kinds = {"type": (dims, types, {"long_name": "regular or chaotic"})}
-    return xr.Dataset(kinds | variables(dims, (winding, followed), numbers))
+    return xr.Dataset(described(table))
 
 
 def require_default_map(ball: Ball) -> None:
@@ -166,17 +170,12 @@ def require_default_map(ball: Ball) -> None:
         raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
 
 
-class _Orbits(NamedTuple):
-    """Orbits of finite states, as `kernel.tangents.begin` takes them."""
+def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[Any, np.ndarray, np.ndarray]]:
+    """Return which states are finite, and their orbits as `kernel.tangents.begin` takes them.
 
-    finite: np.ndarray  # which of all states are finite
-    states: tuple[np.ndarray, ...]  # x, xdot, udot in g R
-    centre: np.ndarray  # x of the fixed point at each orbit's energy
-    expected: np.ndarray  # its rotation number
-
-
-def _read(ball: Ball, state: Any) -> _Orbits:
-    """Return the orbits of the finite ones among some states."""
+    These are states with lengths in g R, and x and rotation number of the fixed point at each
+    orbit's energy.
+    """
     require_default_map(ball)
     x, xdot, udot = ball.on_section(*state_of(state))
     finite = np.isfinite(x)
@@ -184,4 +183,4 @@ def _read(ball: Ball, state: Any) -> _Orbits:
     energies, inverse = np.unique(ball.energy(*columns) / ball.g**2, return_inverse=True)
     fixed_points = [fixed_point.numbers(ball.k, energy) for energy in energies.tolist()]
     centre, _, expected = np.array(fixed_points).reshape(-1, 3)[inverse.reshape(-1)].T
-    return _Orbits(finite, tuple(a / ball.g for a in columns), centre, expected)
+    return finite, (tuple(a / ball.g for a in columns), centre, expected)

@@ -68,10 +68,10 @@ def classify_orbits(
             verdicts.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
         strict = grown < GROWTH_THRESHOLD / MARGIN_FACTOR
         if length < impacts:
-            regular = strict & (np.abs(winding[1] - winding[2]) < WINDING_TOLERANCE)
+            strict &= np.abs(winding[1] - winding[2]) < WINDING_TOLERANCE
+            regular = lenient = strict
             chaotic = (grown > MARGIN_FACTOR * GROWTH_THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_G)
             decided = regular | chaotic | np.isnan(grown)
-            strict = lenient = regular
         else:
             regular, lenient = grown < GROWTH_THRESHOLD, grown < MARGIN_FACTOR * GROWTH_THRESHOLD
             decided = np.ones(undecided.size, bool)
@@ -106,5 +106,6 @@ def means(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
     weights = np.array([[weight(length)] for _, length in turning])
-    late, early = growth[1::2] / growing[1::2, 1:], growth[::2] / growing[::2, 1:]
-    return (turned / weights).reshape(-1, 3, turned.shape[1]), late - early
+    mean_logarithms = growth / growing[:, 1:]  # over the second and the last quarters
+    winding_numbers = (turned / weights).reshape(-1, 3, turned.shape[1])
+    return winding_numbers, mean_logarithms[1::2] - mean_logarithms[::2]

@@ -22,11 +22,14 @@ def jit(function):
     """
     import numba  # slow to import, and every start of the pipeline imports this module
 
+    # Code is kept for a function of a module in a package, unless another one has its name.
+    module, name = function.__module__, function.__qualname__
+    keep = (module, name) not in _SEEN and "." in module and _path(module) is not None
+    _SEEN.add((module, name))
     config: Any = numba.config
     previous = config.CACHE_LOCATOR_CLASSES
     config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
     try:
-        keep = _keeps(function)
         return numba.njit(cache=keep, error_model="numpy", fastmath=False, nogil=True)(function)
     finally:
         config.CACHE_LOCATOR_CLASSES = previous
@@ -74,18 +77,6 @@ def _digest(*packages):
     """Return a hash of all modules of some packages."""
     files = [file for name in packages for file in Path(*sys.modules[name].__path__).rglob("*.py")]
     return hashlib.sha256(b"".join(file.read_bytes() for file in sorted(files))).hexdigest()[:16]
-
-
-def _keeps(function):
-    """Return whether machine code of a function is kept; if not, each process compiles it.
-
-    It is not kept if the folder cannot be written, if `subfolder` says so, for functions of the
-    main program, or for a second function with the same name.
-    """
-    module, name = function.__module__, function.__qualname__
-    first = (module, name) not in _SEEN
-    _SEEN.add((module, name))
-    return first and "." in module and _path(module) is not None
 
 
 @cache

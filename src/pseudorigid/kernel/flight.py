@@ -45,11 +45,11 @@ def first_step(x, c, s, g, amplitude):
     """Return a time at or before the root: the root of -s + (g + x) t/2 + A t^2/6 >= f/t."""
     h = 0.5 * (g + x)
     root = math.sqrt(h * h + (2.0 / 3.0) * s * amplitude)
-    top = 2.0 * s if h >= 0.0 else 3.0 * (root - h)
-    below = h + root if h >= 0.0 else amplitude
+    numerator = 2.0 * s if h >= 0.0 else 3.0 * (root - h)
+    denominator = h + root if h >= 0.0 else amplitude
     if h == 0.0 and s == 0.0:
-        top, below = 4.0 * max(c, 0.0), amplitude
-    return top / below
+        numerator, denominator = 4.0 * max(c, 0.0), amplitude
+    return numerator / denominator
 
 
 @jit
@@ -75,15 +75,15 @@ def gap(t, x, b, c, s, g, trigonometry):
     a, d = quarter_turns(x, c, n)  # the processor does this while it computes sine and cosine
     p = a * cosine - d * sine
     q = a * sine + d * cosine
-    near = n == 0.0
-    f_near = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
-    df_near = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
-    ddf_near = (g + x) + (x * (cosine_tail - 0.5 * t * t) - c * sine)
-    f_far = (x + t * (b + 0.5 * g * t)) - p
-    df_far = b + g * t + q
-    f = f_near if near else f_far
-    df = df_near if near else df_far
-    ddf = ddf_near if near else g + p
+    is_short = n == 0.0
+    f_short = t * (0.5 * (g + x) * t - s) + (c * sine_tail - x * cosine_tail)
+    df_short = ((g + x) * t - s) + (x * sine_tail + c * (cosine_tail - 0.5 * t * t))
+    ddf_short = (g + x) + (x * (cosine_tail - 0.5 * t * t) - c * sine)
+    f_long = (x + t * (b + 0.5 * g * t)) - p
+    df_long = b + g * t + q
+    f = f_short if is_short else f_long
+    df = df_short if is_short else df_long
+    ddf = ddf_short if is_short else g + p
     return f, df, ddf, p, q
 
 
@@ -108,34 +108,34 @@ def sure_stride(depth, df, g, amplitude):
     """Return a step that cannot pass the root from depth = -f > 0 below it, as f'' <= g + A."""
     most = g + amplitude
     root = math.sqrt(df * df + 2.0 * most * depth)
-    top = 2.0 * depth if df > 0.0 else root - df
-    below = df + root if df > 0.0 else most
-    return top / below
+    numerator = 2.0 * depth if df > 0.0 else root - df
+    denominator = df + root if df > 0.0 else most
+    return numerator / denominator
 
 
 @jit
-def stride(depth, df, ddf, q, g, amplitude, reach):
-    """Return a step up to `reach` that cannot pass the root, by a bound of f'' over `reach`."""
+def stride(depth, df, ddf, q, g, amplitude, limit):
+    """Return a step up to `limit` that cannot pass the root, by a bound of f'' over `limit`."""
     bend = min(
-        g + amplitude, ddf + reach * (max(-q, 0.0) * (1.0 / 3.0) + amplitude * reach * (1.0 / 12.0))
+        g + amplitude, ddf + limit * (max(-q, 0.0) * (1.0 / 3.0) + amplitude * limit * (1.0 / 12.0))
     )
     square = df * df + 2.0 * bend * depth
     root = math.sqrt(square if square >= 0.0 else 0.0)
-    top = 2.0 * depth if df > 0.0 else root - df
-    below = df + root if df > 0.0 else bend
-    met = square >= 0.0 and (df > 0.0 or bend > 0.0)
-    return min(reach, top / below) if met else reach
+    numerator = 2.0 * depth if df > 0.0 else root - df
+    denominator = df + root if df > 0.0 else bend
+    has_root = square >= 0.0 and (df > 0.0 or bend > 0.0)
+    return min(limit, numerator / denominator) if has_root else limit
 
 
 @jit
 def longest_stride(depth, df, ddf, q, g, amplitude):
     """Return the longest of the steps that `sure_stride` and `stride` find admissible."""
     sure = sure_stride(depth, df, g, amplitude)
-    reach = 2.0 * sure
-    step = stride(depth, df, ddf, q, g, amplitude, reach)
-    while step == reach and 0.0 < reach < math.inf:
-        reach *= 8.0  # near x = -g, f'' is far below g + A, which alone would give tiny steps
-        step = stride(depth, df, ddf, q, g, amplitude, reach)
+    limit = 2.0 * sure
+    step = stride(depth, df, ddf, q, g, amplitude, limit)
+    while step == limit and 0.0 < limit < math.inf:
+        limit *= 8.0  # near x = -g, f'' is far below g + A, which alone would give tiny steps
+        step = stride(depth, df, ddf, q, g, amplitude, limit)
     return max(sure, step)
 
 
@@ -217,10 +217,10 @@ def _first_impact(x, b, c, s, g):
         low = t
     high = math.inf
     while df > 0.0 and f != 0.0:
-        h, near, last = series(f, df, ddf, p, q, t, amplitude)
-        if not near:
+        h, applies, accurate = series(f, df, ddf, p, q, t, amplitude)
+        if not applies:
             h = newton(f, df, ddf, p, q)
-        elif last:
+        elif accurate:
             p, q = rotated(p, q, h)
             return t + h, p, q, evaluations
         after = t + h

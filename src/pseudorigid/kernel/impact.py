@@ -109,12 +109,12 @@ def flight_derivatives(x, b, c, s, g, tau, trigonometry):
     """
     sine, cosine, sine_tail, cosine_tail, n = trigonometry
     cosine, sine = quarter_turns(cosine, sine, n)
-    near = n == 0.0
-    versine = 0.5 * tau * tau - cosine_tail if near else 1.0 - cosine
-    speed_near = ((g + x) * tau - s) + (x * sine_tail - c * versine)
-    speed_far = b + g * tau + (x * sine + c * cosine)
-    speed = speed_near if near else speed_far
-    tail = sine_tail if near else sine - tau
+    is_short = n == 0.0
+    versine = 0.5 * tau * tau - cosine_tail if is_short else 1.0 - cosine
+    speed_short = ((g + x) * tau - s) + (x * sine_tail - c * versine)
+    speed_long = b + g * tau + (x * sine + c * cosine)
+    speed = speed_short if is_short else speed_long
+    tail = sine_tail if is_short else sine - tau
     return sine, cosine, -versine / speed, tau / speed, -tail / speed
 
 
@@ -155,8 +155,8 @@ def steps(x, v, w, k, g, impacts, tau, out, root_finder):
     for i in range(x.size):
         xi, vi, wi, t = x[i], v[i], w[i], tau[i]
         for j in range(impacts):
-            xi, vi, wi, t, _, late = step(xi, vi, wi, k, g, coefficients, root_finder)
-            missed += late
+            xi, vi, wi, t, _, missed_one = step(xi, vi, wi, k, g, coefficients, root_finder)
+            missed += missed_one
             if out.size > 0:
                 out[i, j, 0], out[i, j, 1], out[i, j, 2], out[i, j, 3] = xi, vi, wi, t
         x[i], v[i], w[i], tau[i] = xi, vi, wi, t
@@ -181,13 +181,10 @@ def jacobians(x, v, w, k, g, impacts, out, root_finder):
             for j in range(3):
                 out[i, m, j] = 1.0 if m == j else 0.0
         for _ in range(impacts):
-            xi, vi, wi, _, sine, cosine, tau_x, tau_s, tau_c, late = step_with_flight(
-                xi, vi, wi, k, g, coefficients, root_finder
-            )
-            missed += late
+            after = step_with_flight(xi, vi, wi, k, g, coefficients, root_finder)
+            (xi, vi, wi), flight, missed = after[:3], after[4:9], missed + after[9]
             for j in range(3):
-                out[i, 0, j], out[i, 1, j], out[i, 2, j] = tangent(
-                    out[i, 0, j], out[i, 1, j], out[i, 2, j],
-                    k, g, coefficients, xi, wi, sine, cosine, tau_x, tau_s, tau_c,
-                )  # fmt: skip
+                column = out[i, 0, j], out[i, 1, j], out[i, 2, j]
+                column = tangent(*column, k, g, coefficients, xi, wi, *flight)
+                out[i, 0, j], out[i, 1, j], out[i, 2, j] = column
     return missed

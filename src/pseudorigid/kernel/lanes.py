@@ -54,7 +54,7 @@ _MOST_ROUNDS = 50
 _TINY = 1e-15
 # Values of CASE: the common case, a lane for `_step_alone`, and a lane whose next step of the march
 # is longer than `_march` finds.
-_PLAIN, _ALONE, _LONG = 0.0, 1.0, 2.0
+_COMMON, _ALONE, _LONG = 0.0, 1.0, 2.0
 
 
 @jit
@@ -69,8 +69,8 @@ def _begin_flights(lanes, n, k, g, coefficients):
         t = first_step(x, c, s, g, amplitude)
         rise, rate, free = impact_free_time(x, b, g, amplitude)
         t = free if (t < free) & (t * rate >= rise) else t
-        usual = (size > 1.0 / HUGE) & (size < HUGE) & (s > _TINY) & (t > _TINY) & (t < WIDE)
-        t = t if usual else math.inf
+        common = (size > 1.0 / HUGE) & (size < HUGE) & (s > _TINY) & (t > _TINY) & (t < WIDE)
+        t = t if common else math.inf
         lanes[X0 + i], lanes[B + i], lanes[C + i], lanes[S + i] = x, b, c, s
         lanes[A + i], lanes[T + i] = amplitude, t
         lanes[RISE + i], lanes[RATE + i], lanes[FREE + i] = rise, rate, free
@@ -101,9 +101,9 @@ def _find_ends(lanes, n, g):
         landing = was_landing | (not below) | rises_to_its_root(-f, df, ddf, q, g, amplitude)
         low = t if (not was_landing) | below else low
         high = (high if below else t) if was_landing else math.inf
-        h, near, last = series(f, df, ddf, p, q, t, amplitude)
-        ends = landing & near & last & (df > 0.0) & (f != 0.0)
-        h = h if near else math.nan
+        h, applies, accurate = series(f, df, ddf, p, q, t, amplitude)
+        ends = landing & applies & accurate & (df > 0.0) & (f != 0.0)
+        h = h if applies else math.nan
         over += 1 if ends | math.isnan(t) else 0
         lanes[LANDING + i], lanes[LOW + i], lanes[HIGH + i] = 1.0 if landing else 0.0, low, high
         lanes[STEP + i], lanes[ENDS + i] = h, 1.0 if ends else 0.0
@@ -171,10 +171,10 @@ def _choose(lanes, n):
         root = t + (newton_step if math.isnan(h) else h)
         lands = (df > 0.0) & (f != 0.0) & (low < root) & (root < high) & (root != t)
         after = root if landing else ahead
-        plain = (lands if landing else marches) & (after > _TINY) & (after < WIDE)
+        common = (lands if landing else marches) & (after > _TINY) & (after < WIDE)
         case = _ALONE if landing | (not t < WIDE) else _LONG
-        case = _PLAIN if plain else case
-        lanes[T + i], lanes[CASE + i] = after if plain else t, case
+        case = _COMMON if common else case
+        lanes[T + i], lanes[CASE + i] = after if common else t, case
         exceptions += int(case)
     return exceptions
 

@@ -137,11 +137,19 @@ def begin(k, states, centre, expected):
     return orbits
 
 
+def _bump(impact, length):
+    """Return the weight (t (1 - t))^3 of one impact of a window, of which t is its middle."""
+    t = (impact + 0.5) / length
+    product = t * (1.0 - t)
+    return product * product * product
+
+
+_compiled_bump = jit(_bump)
+
+
 def weight(length):
     """Return the sum of the weights of turns over a window of `length` impacts."""
-    time = (np.arange(length) + 0.5) / length
-    bump = time * (1.0 - time)
-    return np.sum(bump * bump * bump)
+    return np.sum(_bump(np.arange(length), length))
 
 
 @jit
@@ -211,9 +219,8 @@ def _propagate_group(orbits, low_end, high_end, k, start, stop, turning, growing
             for m in range(len(turning)):
                 first, length = turning[m]
                 if first <= done < first + length:
-                    time = (done - first + 0.5) / length
-                    bump = time * (1.0 - time)
-                    _add(turned[m, low_end:high_end], bump * bump * bump, rows, _TURN)
+                    share = _compiled_bump(done - first, length)
+                    _add(turned[m, low_end:high_end], share, rows, _TURN)
             for m in range(len(growing)):
                 first, length = growing[m]
                 if first <= done < first + length:
