@@ -13,6 +13,9 @@ from runs import VARIANTS
 
 from pipeline.records import sources
 
+# As under ./reproduce: tests that pytest has rewritten are kept, which halves collection.
+sys.dont_write_bytecode = False
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_cmdline_main(config):

@@ -24,18 +24,6 @@ PARTS = (
     *("CITATION.cff", "Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements"),
     *("src", "workflow"),
 )
-# Prints the results that a run would make for published figures.
-PLANNED = """
-import sys
-from pipeline.checks.freshness import Freshness
-from pipeline.config import figures, load
-from pipeline.config.build_specs import build_specs, with_dependencies
-from pipeline.records.sources import ROOT
-config = load(ROOT / "config.yaml")
-specs, published = build_specs(config, ["paper"]), figures(config.variants, "paper")
-drawings = [published[path][1][-1] for path in sys.argv[1:] or published]
-print(*Freshness(ROOT, specs).outdated(with_dependencies(specs, drawings)))
-"""
 # The C library parses and writes a config ten times as fast.
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
@@ -149,10 +137,18 @@ class Tree:
         return subprocess.Popen(self.command(*arguments), **how)
 
     def planned(self, *targets):
-        """Return the outdated results behind published figures, by default behind all of them."""
-        result = self.python("-P", "-c", PLANNED, *targets)
-        assert result.returncode == 0, result.stderr
-        return set(result.stdout.split())
+        """Return the outdated results behind published figures, by default behind all of them.
+
+        It is found in this process: files of the tree may differ from those here, imports may not.
+        """
+        from pipeline.checks.freshness import Freshness
+        from pipeline.config import figures, load
+        from pipeline.config.build_specs import build_specs, with_dependencies
+
+        config = load(self.config)
+        specs, published = build_specs(config, [PAPER]), figures(config.variants, PAPER)
+        drawings = [published[path][1][-1] for path in targets or published]
+        return set(Freshness(self.path, specs).outdated(with_dependencies(specs, drawings)))
 
     def published(self):
         """Name -> (bytes, inode, mtime) of each file in paper_figures/."""

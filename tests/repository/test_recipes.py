@@ -115,9 +115,9 @@ returns:
 """
 
 
-@pytest.fixture
-def copy(tmp_path):
-    """A copy of the project with a new kind, a new stage and a scene of them."""
+@pytest.mark.slow
+def test_a_kind_and_a_stage(tmp_path):
+    """They have data, a figure, a caption, a number, refusals, docs, and are recomputed alone."""
     tree = fresh_tree(tmp_path / "recipes", DOCUMENT)
     tree.append("pipeline/checks/report/captions.toml", CAPTION)
     tree.append("pipeline/config/schema/kinds/examples.yaml", EXAMPLE)
@@ -129,30 +129,24 @@ def copy(tmp_path):
     for name, text in RULES.items():
         with (tree.path / "workflow" / "rules" / f"{name}.smk").open("a") as file:
             file.write(text)
-    tree.warm()
-    return tree
-
-
-@pytest.mark.slow
-def test_a_kind_and_a_stage(copy):
-    """They have data, a figure, a caption, a number, refusals, docs, and are recomputed alone."""
-    assert rows(copy.succeed("report")) == {"paper_figures/map.png": "recomputed"}
-    report = (copy.path / "results" / "report" / "report.html").read_text()
+    assert rows(tree.succeed("report")) == {"paper_figures/map.png": "recomputed"}
+    report = (tree.path / "results" / "report" / "report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
-    results = copy.path / "results" / "paper"
+    results = tree.path / "results" / "paper"
     orbits, flights = (load(results / f"{name}_map.nc") for name in ("orbits", "flights"))
     assert flights["mean"].values.tolist() == [
         np.mean(part) for part in np.split(orbits["tau"].values, 2)
     ]
-    copy.write(DOCUMENT | {"scenes": {"map": SCENE | {"axes": {"y": {}}}}})
+    tree.write(DOCUMENT | {"scenes": {"map": SCENE | {"axes": {"y": {}}}}})
     line = "map.axes.y: unknown key: allowed here: x, next"
-    assert copy.run().stdout == f"config.yaml: scenes.{line}\n"
-    copy.write(DOCUMENT)
-    assert "### picture: returns\n\nThe next position against the present one." in page_of(copy)
-    assert rows(copy.succeed("variant", "low")) == {"results/low/figures/map.png": "recomputed"}
-    copy.append("pseudorigid/dynamics/flights.py")
-    assert copy.planned() == {"results/paper/flights_map.nc", "results/paper/figures/map.png"}
+    assert tree.run().stdout == f"config.yaml: scenes.{line}\n"
+    tree.write(DOCUMENT)
+    assert "### picture: returns\n\nThe next position against the present one." in page_of(tree)
+    assert rows(tree.succeed("variant", "low")) == {"results/low/figures/map.png": "recomputed"}
+    tree.append("pseudorigid/dynamics/flights.py")
+    edited = "made by other code than this tree's: src/pseudorigid/dynamics/flights.py differs"
+    assert tree.succeed("-n") == f"map: {edited}: flights; perhaps drawing\n"
 
 
 def page_of(tree):
