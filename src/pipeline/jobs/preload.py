@@ -5,6 +5,7 @@ fails again in a job, which reports it.
 """
 
 import os
+import sys
 from contextlib import suppress
 from importlib import import_module
 
@@ -18,4 +19,7 @@ for _name in _MODULES:
         import_module(_name)
 with suppress(Exception):
     if _DATA:  # the first call of any compiled function initialises numba
+        # Without scipy.linalg numba loads no OpenBLAS, with which each fork takes 0.1 s longer.
+        sys.modules["scipy.linalg"] = None  # type: ignore[assignment]
         import_module("numba").njit(lambda: 0)()
+        del sys.modules["scipy.linalg"]  # a job may import it
