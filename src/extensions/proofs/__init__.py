@@ -11,7 +11,7 @@ from typing import Any
 _MODULES = {
     "Surface": "study.enclosure.surface",
     "THEOREMS": "extensions.proofs.theorems.statements",
-    "search_certificate": "extensions.proofs.theorems.requests",
+    "search_certificate": "extensions.proofs.theorems.searches",
     "prove_orbit": "extensions.proofs.theorems.requests",
     "prove_curve": "extensions.proofs.theorems.requests",
     "prove_horseshoe": "extensions.proofs.theorems.requests",

@@ -1,7 +1,7 @@
 """A surface of constant energy of a ball with exact parameters, and the impact map on it."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -13,6 +13,8 @@ from .flight import Flight, UndecidedError
 from .jets import Jet, Real, Value, square_root
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
+
+_MOST_PRECISIONS = 50  # whose constants are kept
 
 Exact = int | Fraction | Decimal | str
 
@@ -113,11 +115,16 @@ class Surface:
     def constants(self) -> tuple[arb, arb, arb]:
         """Return k, g and the energy in balls of the context's precision."""
         if ctx.prec not in self._constants:
+            if len(self._constants) == _MOST_PRECISIONS:
+                self._constants.clear()
             k, g, energy = map(ball_of, (self.k, self.g, self.energy))
             if self.width:
                 energy = energy.union(ball_of(self.energy + self.width))
             self._constants[ctx.prec] = k, g, energy
         return self._constants[ctx.prec]
+
+    def __getstate__(self) -> dict[str, Fraction]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def _constants(self) -> dict[int, tuple[arb, arb, arb]]:

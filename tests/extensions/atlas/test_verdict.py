@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from project import ROOT
 
 from extensions.atlas import cell, verdicts
 from pseudorigid import Ball
@@ -82,3 +83,9 @@ def test_wrong_verdicts_are_rare():
     gaps = (data["exponent"] - data["exponent_long"]).values
     error = data["exponent_error"].values
     assert np.nanmax(np.abs(gaps) / np.maximum(error, 1e-3)) < 4
+
+
+def test_nothing_runs_beside_the_study_of_verdicts():
+    rules = (ROOT / "src/extensions/atlas/rules.smk").read_text()
+    (rule,) = (r for r in rules.split("\nuse rule ") if r.startswith("orbits as verdicts "))
+    assert "threads: lambda wildcards: workflow.cores" in rule

@@ -231,6 +231,14 @@ def test_the_link_the_sources_and_the_variants_are_there(visitor):
     assert visitor.state()["k"].startswith("0.333")
 
 
+def test_exponents_have_a_logarithmic_axis(visitor):
+    offsets, labels = visitor.run(
+        "const t = decadesAround(1, Math.log10(25000)); return [t.offsets, t.labels]"
+    )
+    assert labels == ["10", "100", "1,000", "10,000"]
+    assert offsets == pytest.approx([offsets[0] + i for i in range(4)])
+
+
 def test_the_atlas_shows_a_small_section_at_once(visitor):
     visitor.run("document.getElementById('atlas-panel').open = true; atlas.scrollIntoView()")
     drawn = (

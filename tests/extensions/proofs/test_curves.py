@@ -209,8 +209,8 @@ def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monke
 
 
 @pytest.mark.parametrize(("change", "reason"), [
-    ("share 0.0068", "not 0.0069 as stated"), ("error 1e-30", "not at most"),
-    ("error 0", "not at most"), ("strip 0.05", "too narrow"),
+    ("share 0.0068", "not 0.0069 as stated"), ("error 1e-30", "not above 0 and at most"),
+    ("error 0", "not above 0 and at most"), ("strip 0.05", "too narrow"),
     ("loss 0.011", "too narrow"), ("strip 2", "out of range"), ("loss 0", "out of range"),
     ("columns 0", "out of range"), ("columns 100000", "out of range"), ("rows 0", "out of range"),
     ("more_rows 0", "out of range"), ("more_rows true", "another form"),
@@ -235,6 +235,7 @@ def test_the_curve_of_another_energy_or_ball_is_refused(change):
 @pytest.mark.parametrize(("bound", "value"), [
     ("share", Fraction("0.00691")), ("rotation", (Fraction("0.17864"), Fraction("0.1787"))),
     ("error", Fraction("1e-36")), ("radius", Fraction("1e-5")), ("period", 2),
+    ("window", ((Fraction(1), Fraction(2)), (Fraction(1), Fraction(2)))),
 ])  # fmt: skip
 def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
     assert refused(SMALL, TEXT, **{bound: value})

@@ -72,7 +72,7 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
 @pytest.mark.parametrize(("name", "field", "value", "reason"), [
     ("jump-set", "speed", "0.1172", "rim point with x < -g"),
     ("jump-set", "speed", "-0.13670", "rim point with x < -g"),
-    ("jump-set", "radius", "0", "not at most"),
+    ("jump-set", "radius", "0", "not above 0 and at most"),
     ("no-circle", "leaves", 6, "does not begin at its saddles"),
     ("one-fixed-point", "theta_below", "-3.66", "theta is not proved"),
     ("one-fixed-point", "theta_below", "4.8", "theta is not proved"),
@@ -85,7 +85,7 @@ def test_the_jump_set_is_not_continued_through_the_floor_beyond_its_inner_end():
     ("six-elliptic-doubling", "radius", "0", "not 2e-10 as stated"),
     ("fixed-point", "radius", "-4e-3", "not 0.004 as stated"),
     ("twist-six", "twist", "0", "not the stated"),
-    ("twist-zero", "width", "0", "not at most"),
+    ("twist-zero", "width", "0", "not above 0 and at most"),
     ("twist-zero", "energy", "-1/250", "not allowed: above"),
     ("curve-six", "loss", "0.02", "6 times the loss"),
     ("horseshoe-outer", "leaves", 6, "saddles"),

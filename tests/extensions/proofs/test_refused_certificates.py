@@ -131,7 +131,7 @@ def stated(name, field):
       for bands, reason in ((1, "each band"), (-4, "bands"), (10**9, "bands"))),
     ("fixed-point-elliptic", "trace_above", "-1/2", "not -0.46"),
     ("fixed-point-elliptic", "trace_above", "-0.45", "not proved to be above"),
-    ("jump-set", "radius", "1e-27", "not at most"),
+    ("jump-set", "radius", "1e-27", "not above 0 and at most"),
     *(("jump-set", "speed", speed, "") for speed in ("0.2", "-0.2", "nan")),
 ])  # fmt: skip
 def test_another_number_in_a_field_is_refused(name, field, value, reason):

@@ -9,6 +9,8 @@ from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 
+import mpmath
+import numpy as np
 import pytest
 import second_checker
 from certificates import refused, with_field
@@ -39,6 +41,44 @@ def test_it_imports_nothing_but_the_standard_library():
     imported = re.findall(r"^\s*(?:import|from) (\w+)", text, re.MULTILINE)
     assert imported and {*imported} <= sys.stdlib_module_names
     assert "import_module" not in text and "__import__" not in text
+
+
+def test_sine_and_cosine_contain_those_of_mpmath():
+    random = np.random.default_rng(1)
+    for low in [0.0, 1e-30, 31.5, *random.uniform(0.0, 30.0, 200)]:
+        width = 10.0 ** random.uniform(-60, 0.2)
+        interval = Interval(Interval.of(low).lo, Interval.of(Fraction(low) + Fraction(width)).hi)
+        sine, cosine = interval.sine_cosine()
+        with mpmath.workdps(80):
+            for share in (0, 0.25, 0.5, 1):
+                t = mpmath.mpf(low) + mpmath.mpf(width) * share
+                for value, true in ((sine, mpmath.sin(t)), (cosine, mpmath.cos(t))):
+                    assert value.lo <= true * second_checker.ONE <= value.hi
+        assert sine.hi - sine.lo <= 1.2 * (interval.hi - interval.lo) + 10
+    with pytest.raises(NotProvedError, match="longer"):
+        Interval.of(33).sine_cosine()
+
+
+def test_operations_contain_the_results_for_numbers_inside():
+    random = np.random.default_rng(2)
+    for _ in range(300):
+        ends = [sorted(Fraction(a) for a in random.normal(size=2)) for _ in range(2)]
+        one, other = (Interval(Interval.of(a).lo, Interval.of(b).hi) for a, b in ends)
+        for s, t in ((0, 1), (1, 0), (0, 0), (1, 1), (Fraction(1, 3), Fraction(2, 7))):
+            a, b = ((low + (high - low) * u) for (low, high), u in zip(ends, (s, t), strict=True))
+            exact = [(one + other, a + b), (one - other, a - b), (one * other, a * b),
+                     (one.square(), a * a), (abs(one), abs(a)), (-one, -a)]  # fmt: skip
+            if other.lo > 0 or other.hi < 0:
+                exact.append((one / other, a / b))
+            for interval, value in exact:
+                assert interval.lo <= value * second_checker.ONE <= interval.hi
+            if one.lo > 0:
+                root = one.sqrt()
+                assert root.lo**2 <= a * second_checker.ONE**2 <= root.hi**2
+    with pytest.raises(NotProvedError):
+        Interval.of(1) / Interval(-1, 1)
+    with pytest.raises(NotProvedError):
+        Interval(0, 1).sqrt()
 
 
 @pytest.mark.parametrize("name", STATEMENTS)

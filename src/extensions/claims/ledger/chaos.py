@@ -11,7 +11,7 @@ from pseudorigid.dynamics.regularity import regular, regular_bound
 from pseudorigid.dynamics.variables import final_exponents
 
 from ..analyses.spread import in_sea, stretches
-from .evidence import enclosed, energy_of, entropy_bound, formula, regular_share
+from .lookup import enclosed, energy_of, entropy_bound, formula, regular_share
 from .outcomes import CORRECTED, FALSE, HOLDS, UNDECIDED, Outcome, Series, outcome_of
 
 SHORT = FIGURES["fig7"]["impacts"]  # impacts of a run of Figure 7

@@ -13,7 +13,7 @@ from pseudorigid.dynamics.paper import BALL, FIGURES
 from pseudorigid.dynamics.variables import states_of
 
 from ..analyses.spread import stretches
-from .evidence import bounds_of, derived, enclosed, formula, numbers_of, regular_share
+from .lookup import bounds_of, derived, enclosed, formula, numbers_of, regular_share
 from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, Outcome, Series, outcome_of
 
 APPRECIABLE = 0.1  # share of the energy

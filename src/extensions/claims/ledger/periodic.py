@@ -16,7 +16,7 @@ from pseudorigid.dynamics.variables import chart, states_of
 
 from ..analyses.branches import branch_stretching, half_turns, trace_by_differences
 from ..analyses.perturbed_map import FORMS, PROPERTIES
-from .evidence import bounds_of, enclosed, energy_of, formula
+from .lookup import bounds_of, enclosed, energy_of, formula
 from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED, Outcome, Series, outcome_of
 
 TRANSVERSAL = 1e-8  # sine of a crossing angle above which doubles tell it from 0

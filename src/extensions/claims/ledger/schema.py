@@ -17,7 +17,7 @@ from pipeline.config.schema.stages import STAGES
 from pipeline.config.validation.mistakes import dotted
 from pipeline.records.names import suggestion
 
-from .evidence import derived
+from .lookup import derived
 from .outcomes import PROVED, Outcome, VerdictWord
 
 Text = Annotated[str, Field(min_length=1)]

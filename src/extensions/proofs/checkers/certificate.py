@@ -112,7 +112,9 @@ class Certificate:
         value = self.number(name)
         if not 0 < value <= most:
             found, stated = float(value), float(most)
-            raise NotProvedError(f"the certificate's {name} is {found:g}, not at most {stated:g}")
+            raise NotProvedError(
+                f"the certificate's {name} is {found:g}, not above 0 and at most {stated:g}"
+            )
         return value
 
     def whole(self, name: str) -> int:

@@ -171,6 +171,7 @@ def check_unstable(
 ) -> Finding:
     """Prove that lambda^4 = 1 at one energy between `energies`, and the fixed point unstable there.
 
+    There P z = lambda (z + A |z|^2 z + B conj(z)^3) + ..., and |B| > |A| makes the point unstable.
     The certificate's two theta are the ends of a band. Checked: the trace falls over all of
     `energies`, and through zero between the two theta; over the band's energies there is a fixed
     point, elliptic, whose flights have simple first roots; |A| and |B| are those stated there, and

@@ -62,8 +62,10 @@ def check_no_circle(
     """Prove that the unstable manifold of a certificate's hyperbolic orbit meets the jump set.
 
     The orbit must have this prime period, be the only one within the radius of the centres of the
-    S, and have a point in the window; the jump set must be one curve. The margins are the least
-    over all relations. The parts are the chain, a list of HSet with N last, and the orbit.
+    S, and have a point in the window; the jump set must be one curve. The S are sets around the
+    orbit's points, of which each covers the next. A chain of sets leads from one of them to N, each
+    covering the next, and the jump set crosses N. The margins are the least over all relations. The
+    parts are the chain, a list of HSet with N last, and the orbit.
     """
     certificate = Certificate(text, "jump crossing", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)

@@ -1,13 +1,9 @@
-"""Proofs of a user's symmetric orbits, of horseshoes on them, and of invariant curves.
-
-The search for a certificate of each theorem is here too.
-"""
+"""Proofs of a user's symmetric orbits, of horseshoes on them, and of invariant curves."""
 
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from importlib import import_module
 
 import numpy as np
 import xarray as xr
@@ -23,7 +19,7 @@ from ..checkers.certificate import Finding
 from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search
-from .statements import THEOREMS, Theorem
+from .statements import Theorem
 
 
 def prove_orbit(
@@ -167,32 +163,6 @@ def prove_curve(
     theorem = Theorem(name, name, curve.check, bounds | {"surface": surface, "period": 1})
     with _errors_naming(name):
         return curve_search.search(theorem, rotation)
-
-
-def search_certificate(name: str) -> str:
-    """Search a new certificate of a theorem, which its checker has yet to prove.
-
-    The search of checkers.X.check_Y is search.X.propose_Y.
-
-    Parameters
-    ----------
-    name : str
-        A key of THEOREMS.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> text = search_certificate("one-fixed-point")
-    >>> THEOREMS["one-fixed-point"].check(text).verdict
-    'proved'
-    """
-    theorem = THEOREMS[name]
-    module = import_module(theorem.checker.__module__.replace(".checkers.", ".search."))
-    propose = getattr(module, theorem.checker.__name__.replace("check", "propose"))
-    return propose(theorem, **theorem.hints)
 
 
 @contextmanager
