@@ -185,7 +185,7 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
 
 @style.pinned()
 def separation(scene: Scene, data: xr.Dataset) -> Figure:
-    """Draw the distance of each method's orbit from the proved one, from `failures.orbits`."""
+    """Draw the distance of each method's orbit from the proved one, from `stages.drift`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
     up = _error_axis(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")

@@ -179,13 +179,13 @@ def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> Pict
     columns[2] = np.maximum(columns[2], -columns[1])
     truth = proved_times(ball, columns)
     exact = _next_states(ball, columns, truth)
+    solved = [method.solve(ball, *columns) for method in METHODS]
     error = []
-    for method in METHODS:
-        tau, _ = method.solve(ball, *columns)
+    for tau, _ in solved:
         distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
         largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
         error.append(largest / (1.0 - 1.0 / growth) / pixel)
-    return PictureErrors(error, *_count_misses(ball, (columns, truth)), "x", pixel, stroke=0.5)
+    return PictureErrors(error, *_counts(solved, truth), "x", pixel, stroke=0.5)
 
 
 MEASURES: dict[str, Callable[..., PictureErrors]] = {
@@ -220,7 +220,13 @@ def _count_misses(
     `flights` are pairs of states (3, n) and the true times (n,) of the flights from these.
     """
     columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*flights, strict=True))
-    solved = [method.solve(ball, *columns) for method in METHODS]
+    return _counts([method.solve(ball, *columns) for method in METHODS], truth)
+
+
+def _counts(
+    solved: list[tuple[np.ndarray, np.ndarray]], truth: np.ndarray
+) -> tuple[list[int], list[float], int]:
+    """Return the same for the times and evaluations that each method found for flights."""
     missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
     return missed, [float(count.mean()) for _, count in solved], truth.size
 

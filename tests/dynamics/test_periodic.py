@@ -194,6 +194,18 @@ def test_fixed_points_against_the_closed_form(k, g, energy):
                 assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
 
 
+def test_any_ball_has_one_fixed_point_below_pi():
+    random = np.random.default_rng(2)
+    for _ in range(40):
+        k = 10 ** random.uniform(-2, 0)
+        g = 10 ** random.uniform(-4, 0)
+        ball = Ball(k, g)
+        lowest, _ = ball.energy_bounds()
+        energy = lowest * (1 - 10 ** random.uniform(-3, 1.5))
+        theta = symmetric_orbits(ball, energy, 1)["tau"].values[:, 0] / 2
+        assert np.sum(theta < np.pi) == 1, (k, g, energy)
+
+
 def brute_force(ball, energy, period, cells, steps=25):
     """Return symmetric orbits found by Newton's method in the chart from a grid of the section."""
     k, g = ball.k, ball.g

@@ -11,22 +11,12 @@ import pseudorigid
 import study
 from pipeline.declaration import extensions
 
-STUDY_PACKAGES = {"heyoka", "pynamicalsys"}
 EXTENSIONS = [importlib.import_module(f"extensions.{name}") for name in extensions()]
 MODULES = [
     info.name
     for package in (pseudorigid, study, *EXTENSIONS)
     for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 ]
-
-
-def load(name):
-    try:
-        return importlib.import_module(name)
-    except ModuleNotFoundError as error:
-        if error.name in STUDY_PACKAGES:
-            pytest.skip(f"{name} needs {error.name}: ./reproduce study installs it")
-        raise
 
 
 # Examples that take longest; the stages behind them have tests of their own.
@@ -36,4 +26,9 @@ DEAR &= {*MODULES}
 
 @pytest.mark.parametrize("name", [*(n for n in MODULES if n not in DEAR), *slowly(*sorted(DEAR))])
 def test_examples_are_true(name):
-    assert doctest.testmod(load(name), optionflags=doctest.NORMALIZE_WHITESPACE).failed == 0
+    assert (
+        doctest.testmod(
+            importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE
+        ).failed
+        == 0
+    )

@@ -1,4 +1,4 @@
-"""Figures that cannot be made: the run, accept and archive say so and go on with the others."""
+"""Figures that cannot be made: accept and archive say so and go on with the others."""
 
 import pytest
 from project import Tree

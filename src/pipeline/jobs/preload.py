@@ -21,5 +21,7 @@ with suppress(Exception):
     if _DATA:  # the first call of any compiled function initialises numba
         # Without scipy.linalg numba loads no OpenBLAS, with which each fork takes 0.1 s longer.
         sys.modules["scipy.linalg"] = None  # type: ignore[assignment]
-        import_module("numba").njit(lambda: 0)()
-        del sys.modules["scipy.linalg"]  # a job may import it
+        try:
+            import_module("numba").njit(lambda: 0)()
+        finally:
+            del sys.modules["scipy.linalg"]  # a job may import it

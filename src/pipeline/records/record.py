@@ -143,8 +143,7 @@ def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
     """Return the output of a git command, or None if it fails or git is not installed."""
     command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
     with suppress(OSError, subprocess.CalledProcessError):
-        none = subprocess.DEVNULL
-        return subprocess.check_output(command, stdin=none, stderr=none)
+        return subprocess.check_output(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return None
 
 

@@ -85,7 +85,7 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
             position[-1], strain[-1] = next_x, -next_x
         samples.append((time + t, position, strain))
         time += tau
-        if time > duration:
+        if not time <= duration:  # nor where the state is not finite
             break
     data = variables("sample", np.concatenate(samples, axis=1), _SAMPLE_NAMES)
     return xr.Dataset(data | variables("impact", np.transpose(impacts), _IMPACT_NAMES))

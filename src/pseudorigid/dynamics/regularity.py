@@ -32,6 +32,7 @@ WINDING_TOLERANCE = 1e-7
 MIN_CHAOTIC_G = 15.0
 _LEAST_IMPACTS = 2000  # behind a verdict on an orbit of a scene
 _STRIDE = 10  # impacts
+_BLOCK = 2000  # strides whose states are in memory at once
 
 
 def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
@@ -70,15 +71,23 @@ def _growth(ball: Ball, state: np.ndarray, impacts: int) -> float:
     G is taken after each _STRIDE impacts. The two functions of the ball are those with which stages
     compute orbits and their periods, so that a drawing need not compile another loop.
     """
-    before = ball.history(state, impacts)[0, ::_STRIDE, :3].T
-    jacobians = ball.jacobian(before[0], before[1], before[2], _STRIDE)
-    vector = 1.0, 0.0, 0.0
-    total, logarithms = 0.0, []
-    for rows in jacobians.tolist():
-        x, v, w = (sum(a * b for a, b in zip(row, vector, strict=True)) for row in rows)
-        length = abs(x) + abs(v) + abs(w)
-        vector = x / length, v / length, w / length
-        total += log(length)
-        logarithms.append(total)
-    quarter = len(logarithms) // 4
-    return (sum(logarithms[-quarter:]) - sum(logarithms[quarter : 2 * quarter])) / quarter
+    x, v, w, total = 1.0, 0.0, 0.0, 0.0
+    logarithms = np.empty(impacts // _STRIDE)
+    for first in range(0, logarithms.size, _BLOCK):
+        count = min(_BLOCK, logarithms.size - first)
+        orbit = ball.history(state, count * _STRIDE)[0, :, :3].T
+        before, state = orbit[:, ::_STRIDE], orbit[:, -1]
+        jacobians = ball.jacobian(before[0], before[1], before[2], _STRIDE).tolist()
+        for i, (of_x, of_v, of_w) in enumerate(jacobians, first):
+            x, v, w = _product(of_x, x, v, w), _product(of_v, x, v, w), _product(of_w, x, v, w)
+            length = abs(x) + abs(v) + abs(w)
+            x, v, w = x / length, v / length, w / length
+            total += log(length)
+            logarithms[i] = total
+    quarter = logarithms.size // 4
+    return float(np.mean(logarithms[-quarter:]) - np.mean(logarithms[quarter : 2 * quarter]))
+
+
+def _product(row: list[float], x: float, v: float, w: float) -> float:
+    """Return the product of a matrix's row and a vector, in the order written."""
+    return row[0] * x + row[1] * v + row[2] * w

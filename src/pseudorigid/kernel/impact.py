@@ -181,10 +181,13 @@ def jacobians(x, v, w, k, g, impacts, out, root_finder):
             for j in range(3):
                 out[i, m, j] = 1.0 if m == j else 0.0
         for _ in range(impacts):
-            after = step_with_flight(xi, vi, wi, k, g, coefficients, root_finder)
-            (xi, vi, wi), flight, missed = after[:3], after[4:9], missed + after[9]
+            xi, vi, wi, _, sine, cosine, tau_x, tau_s, tau_c, missed_one = step_with_flight(
+                xi, vi, wi, k, g, coefficients, root_finder
+            )
+            missed += missed_one
             for j in range(3):
-                column = out[i, 0, j], out[i, 1, j], out[i, 2, j]
-                column = tangent(*column, k, g, coefficients, xi, wi, *flight)
-                out[i, 0, j], out[i, 1, j], out[i, 2, j] = column
+                out[i, 0, j], out[i, 1, j], out[i, 2, j] = tangent(
+                    out[i, 0, j], out[i, 1, j], out[i, 2, j],
+                    k, g, coefficients, xi, wi, sine, cosine, tau_x, tau_s, tau_c,
+                )  # fmt: skip
     return missed

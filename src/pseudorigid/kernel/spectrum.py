@@ -118,11 +118,13 @@ def exponents_of_orbit(x, v, w, k, g, at, out, root_finder):
     missed, done = 0, 0
     for m in range(at.size):
         while done < at[m]:
-            after = step_with_flight(x, v, w, k, g, coefficients, root_finder)
-            (x, v, w), flight, missed = after[:3], after[4:9], missed + after[9]
-            a, b, c, lengths, sums = push_frame(
-                a, b, c, lengths, sums, k, g, coefficients, x, w, *flight
+            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, missed_one = step_with_flight(
+                x, v, w, k, g, coefficients, root_finder
             )
+            a, b, c, lengths, sums = push_frame(
+                a, b, c, lengths, sums, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c
+            )
+            missed += missed_one
             done += 1
         sums, lengths = with_logarithms(sums, lengths), (1.0, 1.0, 1.0)
         for j in range(3):

@@ -1,7 +1,6 @@
 """./reproduce clean: delete generated files in results/."""
 
 import json
-import os
 import shutil
 import sys
 from contextlib import suppress
@@ -58,9 +57,7 @@ def run(args: Arguments) -> int:
                 file.unlink()
             for folder in folders:
                 shutil.rmtree(folder)
-            for folder in {file.parent for file in files}:
-                with suppress(OSError):  # it is not empty
-                    os.removedirs(folder)
+            _delete_empty_folders(names)
         except OSError as error:
             raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
         print(f"deleted {summary}")
@@ -75,6 +72,14 @@ def _ask(question: str) -> None:
         print(file=sys.stderr)
     if answer.strip().lower() not in ("y", "yes"):
         raise UsageError("nothing was deleted")
+
+
+def _delete_empty_folders(names: list[str]) -> None:
+    """Delete the folders of results/ with these names, and those below, that are empty."""
+    below = [folder for name in names for folder in RESULTS.glob(f"{name}/**/")]
+    for folder in sorted(below, reverse=True):
+        if _is_inside(folder / "file") and not any(folder.iterdir()):
+            folder.rmdir()
 
 
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:

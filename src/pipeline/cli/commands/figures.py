@@ -15,7 +15,8 @@ from ..session import CommandLineError, locked
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
     config, command = args.config, all_commands().get(args.word or "", DEFAULT_COMMAND)
-    group, status, data = command.scenes, 0, list[str]()
+    group, status = command.scenes, 0
+    data: list[str] = []
     if group:
         targets = {group: figures.drawings_of(config, group)}
         data = [path for each in paths.data_only(config.variants, group).values() for path in each]

@@ -15,7 +15,8 @@ from ..arguments import Arguments
 
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
-    config, own = args.config, list[Sequence[str]]()
+    config = args.config
+    own: list[Sequence[str]] = []
     freshness = Freshness(ROOT, build_specs(config))
     for published_set in committed_sets(config):
         _print(published_set.command, [*_published(freshness, published_set)])

@@ -102,7 +102,9 @@ def derive_variant(
         where = (*place, "scenes", scene)
         if scene not in scenes:
             lines.append(f"{dotted(where)}: {unknown('scene', scene, list(scenes))}")
-        elif change.get("picture", picture := scenes[scene]["picture"]) != picture:
+            continue
+        picture = scenes[scene]["picture"]
+        if change.get("picture", picture) != picture:
             words = f"{picture}, which a variant does not change"
             lines.append(refusal((*where, "picture"), change["picture"], words))
     if lines:

@@ -18,12 +18,12 @@ def _declared() -> dict[str, type[Picture]]:
     kinds = {}
     for declaring, figures in drawn_by.items():
         module = importlib.import_module(declaring)
-        function = getattr(module, "DRAWN_BY", f"{figures}.{{}}.draw")
+        template = getattr(module, "DRAWN_BY", f"{figures}.{{}}.draw")
         for name, value in vars(module).items():
             ours = isinstance(value, type) and value.__module__ == module.__name__
             if ours and issubclass(value, Picture):
                 kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
-                value.drawn_by = vars(value).get("drawn_by") or function.format(kind)
+                value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
                 value.reported_by = f"{figures}.reports.{kind}"
                 kinds[kind] = value
     return dict(sorted(kinds.items()))
