@@ -226,7 +226,7 @@ def _count_misses(
 def _counts(
     solved: list[tuple[np.ndarray, np.ndarray]], truth: np.ndarray
 ) -> tuple[list[int], list[float], int]:
-    """Return how many of each method's times are wrong, its evaluations a flight, and the flights."""
+    """Return how many of each method's times are wrong, its mean evaluations, and the flights."""
     missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
     return missed, [float(count.mean()) for _, count in solved], truth.size
 
