@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pseudorigid import Ball, lyapunov_spectrum
-from pseudorigid.dynamics import fixed_point
+from pseudorigid.dynamics import fixed_point, regularity
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.regularity import chaotic_orbits, regular, regular_bound
 from pseudorigid.dynamics.rotation import winding
@@ -39,3 +39,10 @@ def test_orbits_of_a_scene_get_the_verdicts_of_longer_ones(impacts):
     (chaotic,) = np.nonzero(~classified(BALL.start(start, 0.01), 0.01).regular)
     assert chaotic_orbits({"k": BALL.k, "g": BALL.g}, data) == chaotic.tolist()
     assert 5 < len(chaotic) < 35
+
+
+def test_the_growth_does_not_depend_on_the_blocks_in_which_an_orbit_is_followed(monkeypatch):
+    state = np.array(BALL.start(0.5, 0.01))
+    whole = regularity._growth(BALL, state, 3000)
+    monkeypatch.setattr(regularity, "_BLOCK", 7)
+    assert regularity._growth(BALL, state, 3000) == whole

@@ -96,7 +96,7 @@ def test_comments_formatting_and_docstrings_outdate_nothing(done):
     format_ = [sys.executable, "-m", "ruff", "format", "-q", "--isolated", "--line-length", "88"]
     subprocess.run([*format_, str(done.path / "src"), str(done.path / "workflow")], check=True)
     changed = [f for f in python if f.read_text() != (ROOT / f.relative_to(done.path)).read_text()]
-    assert len(changed) > 100
+    assert len(changed) > 0.7 * len(python)  # others need no change
     result = done.run("-n")
     assert (result.returncode, result.stdout) == (0, "nothing to make\n")
     assert "recomputed" not in done.run().stdout
