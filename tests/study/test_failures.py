@@ -1,7 +1,5 @@
 """Failures of methods: shares and counts against those of an independent solver."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from independent_solver import exact_map, judge
@@ -9,7 +7,6 @@ from mpmath import mpf
 
 from study import measured, stages, states
 from study import reference_solver as proved
-from study.enclosure.surface import exact
 from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
@@ -78,10 +75,6 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
     for row in proved.orbit(BALL, state, 40):
         *exact, _ = exact_map(mpf(BALL.k), mpf(BALL.g), *exact)
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
-
-
-def test_a_fraction_of_a_decimal_is_an_exact_number():
-    assert exact("k", "0.5/3") == exact("k", " .5 / 3") == Fraction(1, 6)
 
 
 def test_agreement_is_the_median_of_the_first_separations():

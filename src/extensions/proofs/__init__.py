@@ -1,7 +1,7 @@
 """Proofs in ball arithmetic: theorems with certificates, and correctly rounded orbits.
 
 `search` proposes certificates, and `checkers` decides about them without the searches. Both enclose
-the impact map by `study.enclosure`. `theorems` has the statements, `true_orbits` the orbits of
+the impact map by `enclosure`. `theorems` has the statements, `true_orbits` the orbits of
 exact starts, and `proved_impacts` proves the impacts behind the figures.
 """
 
@@ -9,7 +9,7 @@ import importlib
 from typing import Any
 
 _MODULES = {
-    "Surface": "study.enclosure.surface",
+    "Surface": "extensions.proofs.enclosure.surface",
     "THEOREMS": "extensions.proofs.theorems.statements",
     "search_certificate": "extensions.proofs.theorems.searches",
     "prove_orbit": "extensions.proofs.theorems.requests",

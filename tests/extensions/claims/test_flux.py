@@ -12,8 +12,8 @@ from sections import BALL
 from extensions.claims import turnstile_flux
 from extensions.claims.analyses import actions, polygon
 from extensions.proofs import Surface
+from extensions.proofs.enclosure.jets import Jet
 from pseudorigid import symmetric_orbits, trace_manifold
-from study.enclosure.jets import Jet
 
 ENERGY = 0.01
 

@@ -11,13 +11,12 @@ from flint import arb, ctx
 from independent_solver import exact_map
 from sections import BALL, sea
 
-from extensions.proofs import THEOREMS, Surface
+from extensions.proofs import THEOREMS, Surface, proved_impacts
+from extensions.proofs.enclosure.jets import Jet
+from extensions.proofs.enclosure.surface import exact
 from pseudorigid.dynamics.variables import chart
-from study import reference_solver
-from study.enclosure import flight
-from study.enclosure.flight import Flight, UndecidedError
-from study.enclosure.jets import Jet
-from study.enclosure.surface import exact
+from study import flight, reference_solver
+from study.flight import Flight, UndecidedError
 
 PAPER = Surface("1/5", "1/25", "1/100")
 COVERINGS = ("horseshoe", "entropy", "no-circle", "unstable")
@@ -135,13 +134,17 @@ def test_exact_numbers_are_fractions_decimals_and_text():
         assert exact("k", value) == Fraction(1, 5)
 
 
+def test_a_fraction_of_a_decimal_is_an_exact_number():
+    assert exact("k", "0.5/3") == exact("k", " .5 / 3") == Fraction(1, 6)
+
+
 def test_a_ball_pressed_onto_the_floor_stays_there():
     assert reference_solver.first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
     at_rest = np.array([[-0.25], [0.0], [0.0]])  # x = -g, s = 0 and udot = 0
-    assert reference_solver.impact_errors("1/5", "1/4", at_rest, at_rest, np.zeros(1)) < 1e-300
+    assert proved_impacts.impact_errors("1/5", "1/4", at_rest, at_rest, np.zeros(1)) < 1e-300
     # x = -0.04 as a double is not -1/25: the ball leaves the floor
     lifted = np.array([[-0.04], [0.0], [0.0]])
-    assert reference_solver.impact_errors("1/5", "1/25", lifted, at_rest, np.zeros(1)) > 0.1
+    assert proved_impacts.impact_errors("1/5", "1/25", lifted, at_rest, np.zeros(1)) > 0.1
 
 
 # ---- a broken map proves nothing

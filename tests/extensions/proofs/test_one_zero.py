@@ -12,9 +12,9 @@ from extensions.proofs.checkers import one_zero, periodic
 from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.checkers.fixed_point import energy_at
 from extensions.proofs.checkers.twist import normal_form
+from extensions.proofs.enclosure.jets import Jet, algebra
+from extensions.proofs.enclosure.surface import ball_of
 from extensions.proofs.search.periodic import approximate_points
-from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import ball_of
 
 NAME = "twist-one-zero"
 BALL = Fraction(1, 5), Fraction(1, 25)

@@ -8,7 +8,7 @@ import pytest
 from certificates import numbers, refused, with_field, with_rows
 from flint import acb, arb, ctx
 
-from extensions.proofs import THEOREMS, Surface
+from extensions.proofs import THEOREMS, Surface, proved_impacts
 from extensions.proofs.checkers import (
     circle,
     events,
@@ -21,11 +21,11 @@ from extensions.proofs.checkers import (
 )
 from extensions.proofs.checkers.certificate import NotProvedError, box, holds_throughout
 from extensions.proofs.checkers.hsets import HSet
-from study import reference_solver
-from study.enclosure import flight, jets
-from study.enclosure.flight import Flight
-from study.enclosure.jets import Jet
-from study.enclosure.surface import ball_of
+from extensions.proofs.enclosure import jets
+from extensions.proofs.enclosure.jets import Jet
+from extensions.proofs.enclosure.surface import ball_of
+from study import flight, reference_solver
+from study.flight import Flight
 
 PAPER = Surface("1/5", "1/25", "1/100")
 K, G = Fraction(1, 5), Fraction(1, 25)
@@ -191,12 +191,12 @@ def test_nothing_is_enclosed_outside_a_premise(case):
 def test_an_impact_that_is_no_number_has_no_bound():
     k, g, state = Fraction("0.2"), Fraction("0.04"), (0.1, 0.05, 0.06)
     *after, tau = (
-        float(a) for a in reference_solver._impact(*map(ball_of, (k, g)), *map(arb, state))
+        float(a) for a in reference_solver.impact(*map(ball_of, (k, g)), *map(arb, state))
     )
 
     def bound(*impact):
         columns = np.array([*state, *impact])[:, None]
-        return reference_solver.impact_errors(k, g, columns[:3], columns[3:6], columns[6])
+        return proved_impacts.impact_errors(k, g, columns[:3], columns[3:6], columns[6])
 
     assert bound(*after, tau) < 1e-15
     for place in range(4):

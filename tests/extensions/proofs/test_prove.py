@@ -9,7 +9,7 @@ from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
 from pipeline.cli.session import CommandLineError, UsageError
-from study.enclosure.flight import NotProvedError
+from study.flight import NotProvedError
 
 NAMES = ("fixed-point", "fixed-point-low")
 

@@ -26,12 +26,12 @@ from extensions.proofs.checkers import fixed_point, horseshoe, jump, periodic, t
 from extensions.proofs.checkers.certificate import Finding, NotProvedError
 from extensions.proofs.checkers.hsets import HSet
 from extensions.proofs.checkers.newton import enclose_zero
+from extensions.proofs.enclosure.surface import ball_of
 from extensions.proofs.search import jump as jump_search
 from extensions.proofs.search.fixed_point import propose_elliptic, propose_unique
 from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
 from pseudorigid import Ball, symmetric_orbits
-from study.enclosure.surface import ball_of
 
 TWISTS = [name for name, theorem in THEOREMS.items() if theorem.checker is twist.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]

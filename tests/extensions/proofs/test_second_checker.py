@@ -19,9 +19,9 @@ from second_checker import STATEMENTS, ImpactMap, Interval, NotProvedError, Seri
 from sections import sea
 
 from extensions.proofs import THEOREMS, Surface
+from extensions.proofs.enclosure.jets import Jet
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
-from study.enclosure.jets import Jet
 
 pytestmark = pytest.mark.slow
 

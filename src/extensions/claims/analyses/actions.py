@@ -15,13 +15,13 @@ import numpy as np
 import xarray as xr
 from flint import arb
 
+from extensions.proofs.enclosure.jets import Jet, algebra
+from extensions.proofs.enclosure.surface import Surface
 from extensions.proofs.search.horseshoe import directions
 from extensions.proofs.search.periodic import polished
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart, states_of
-from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import Surface
+from study.flight import NotProvedError
 
 _NEWTON_STEPS = 30  # of the search for a crossing, at most; each doubles the digits
 _SADDLE_STEPS = 9  # of Newton's method for a saddle, from doubles to 20,000 bits

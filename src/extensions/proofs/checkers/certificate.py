@@ -10,8 +10,9 @@ from typing import Any
 
 from flint import arb
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface, ball_of, exact
+from study.flight import NotProvedError
+
+from ..enclosure.surface import Surface, ball_of, exact
 
 Ball = tuple[Fraction, Fraction]  # k and g
 Range = tuple[Fraction, Fraction]  # lower and upper limit

@@ -9,7 +9,7 @@ from math import factorial
 
 from flint import acb, arb
 
-from study.enclosure.flight import NotProvedError
+from study.flight import NotProvedError
 
 ORDER = 5  # of the Taylor polynomials in a cell
 MOST_DIVISORS = 10_000  # of a rotation number, before its partial quotients are ones

@@ -7,9 +7,10 @@ each of its points.
 
 from flint import acb, arb
 
-from study.enclosure.flight import Flight, UndecidedError
-from study.enclosure.jets import Jet, intersection
-from study.enclosure.surface import Surface
+from study.flight import Flight, UndecidedError
+
+from ..enclosure.jets import Jet, intersection
+from ..enclosure.surface import Surface, flight_of_constants
 
 _ATTEMPTS = 8  # at a set that contains its Newton image, each one wider
 _LEAST_RADIUS = arb(2) ** -40  # of a set, before it is made wider
@@ -25,7 +26,7 @@ def unique_root(surface: Surface, x: acb, y: acb, known: acb) -> acb:
     in (a - b) f'(U) and f'(U) does not contain 0. Raises UndecidedError.
     """
     series, centre = surface.flight(*Jet.plane(1, x, y)), (x.mid(), y.mid())
-    box, middle = series.constant(), surface.flight(*centre)
+    box, middle = flight_of_constants(series), surface.flight(*centre)
 
     def newton(inside: acb) -> acb:
         """Return N(U); f(m) is enclosed by the mean value theorem in x and y."""
@@ -50,7 +51,7 @@ def unique_root(surface: Surface, x: acb, y: acb, known: acb) -> acb:
     raise UndecidedError("the flight time may not be analytic in the strip")
 
 
-def point_root(flight: Flight[acb], value: acb) -> acb:
+def point_root(flight: Flight, value: acb) -> acb:
     """Narrow the root of one of the box's points, from the enclosure of all of them."""
     for _ in range(8):
         middle = value.mid()

@@ -13,10 +13,10 @@ from typing import NamedTuple, TypeVar
 
 from flint import acb, arb, ctx
 
-from study.enclosure.flight import NotProvedError, UndecidedError
-from study.enclosure.jets import Jet
-from study.enclosure.surface import Surface, ball_of
+from study.flight import NotProvedError, UndecidedError
 
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Surface, ball_of
 from . import complex_flight, periodic
 from .certificate import Certificate, Finding, Range, Window, lower_bound, naming
 from .circle import Cells, derivative, evaluate, noble, real_values, rotated, transform, values

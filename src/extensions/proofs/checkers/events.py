@@ -10,10 +10,10 @@ from functools import partial
 
 from flint import arb, ctx
 
-from study.enclosure.flight import Flight, NotProvedError, UndecidedError, launch
-from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import Surface
+from study.flight import Flight, NotProvedError, UndecidedError, launch
 
+from ..enclosure.jets import Jet, algebra
+from ..enclosure.surface import Surface, first_root, flight_of_constants
 from .certificate import (
     Certificate,
     Finding,
@@ -122,7 +122,7 @@ def _prove_event(
 
 def _land(flight: Flight, gap: Jet | int = 0) -> tuple[Jet, Jet, Jet]:
     """Return x, xdot, udot at the end of a flight; it begins with a small gap above the floor."""
-    tau = flight.first_root()
+    tau = first_root(flight)
     if isinstance(gap, Jet):  # f(tau) = gap, to first order, around gap = 0
         tau = tau + gap * (1 / flight.slope(tau).constant)
     return flight.end(tau)
@@ -165,7 +165,7 @@ def _strain_rate_at_apex(flight: Flight) -> Jet:
     t = flight.b * (-1 / flight.g)
     if not t.constant > 0:
         raise UndecidedError("a flight may have no apex")
-    _check_clear(flight.constant(), t.constant.upper())
+    _check_clear(flight_of_constants(flight), t.constant.upper())
     return flight.end(t)[2]
 
 

@@ -16,10 +16,10 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet, Real, algebra
-from study.enclosure.surface import Surface, ball_of, fraction_of
+from study.flight import NotProvedError
 
+from ..enclosure.jets import Jet, Real, algebra
+from ..enclosure.surface import Surface, ball_of, fraction_of
 from .certificate import Certificate, Finding, Range, check_stated, check_within, lower_bound
 from .periodic import BITS, CLOSE, Orbit, prove
 from .twist import complex_map, normal_form, resonant_coefficients

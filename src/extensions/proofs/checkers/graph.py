@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from flint import ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface, ball_of
+from study.flight import NotProvedError
 
+from ..enclosure.surface import Surface, ball_of
 from . import hsets
 from .certificate import Certificate, Finding, lower_bound
 from .hsets import HSet

@@ -11,9 +11,9 @@ from math import gcd
 
 from flint import arb, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface, ball_of
+from study.flight import NotProvedError
 
+from ..enclosure.surface import Surface, ball_of
 from . import hsets, periodic
 from .certificate import Certificate, Finding, Range, Window
 from .hsets import HSet

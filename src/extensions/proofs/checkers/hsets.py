@@ -13,10 +13,10 @@ from typing import NamedTuple, TypeVar
 
 from flint import arb
 
-from study.enclosure.flight import NotProvedError, UndecidedError
-from study.enclosure.jets import Jet
-from study.enclosure.surface import Surface, ball_of
+from study.flight import NotProvedError, UndecidedError
 
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Surface, ball_of
 from .certificate import Certificate, lower_bound, naming
 
 UNIT = arb(0, 1)  # the interval from -1 to 1

@@ -10,10 +10,10 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.enclosure.flight import NotProvedError, UndecidedError, flight_from_rim
-from study.enclosure.jets import Jet
-from study.enclosure.surface import Impact, Surface, ball_of
+from study.flight import NotProvedError, UndecidedError, flight_from_rim
 
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Impact, Surface, ball_of
 from . import hsets, periodic
 from .certificate import Certificate, Finding, Window, check_stated, holds_throughout, lower_bound
 from .hsets import HSet

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 
 from flint import arb, arb_mat
 
-from study.enclosure.flight import NotProvedError
+from study.flight import NotProvedError
 
 # Values of the equations, and rows of their derivatives by the unknowns and perhaps by more.
 System = Callable[[Sequence[arb]], tuple[list[arb], list[list[arb]]]]

@@ -19,10 +19,10 @@ from typing import NamedTuple
 
 from flint import arb, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet, algebra
-from study.enclosure.surface import ball_of
+from study.flight import NotProvedError
 
+from ..enclosure.jets import Jet, algebra
+from ..enclosure.surface import ball_of
 from .certificate import Certificate, Finding, Range, lower_bound, naming
 from .fixed_point import energy_at
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Impact, Surface, ball_of
+from study.flight import NotProvedError
 
+from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound, naming
 from .newton import enclose_zero, newton
 

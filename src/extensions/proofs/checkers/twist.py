@@ -24,10 +24,10 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet
-from study.enclosure.surface import Surface
+from study.flight import NotProvedError
 
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Surface
 from . import periodic
 from .certificate import Certificate, Finding, check_stated, lower_bound, naming
 from .periodic import Orbit

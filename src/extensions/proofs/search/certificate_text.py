@@ -6,9 +6,8 @@ from typing import Any, Protocol
 
 from flint import arb
 
-from study.enclosure.surface import Surface
-
 from ..checkers.certificate import Finding
+from ..enclosure.surface import Surface
 
 
 class Theorem(Protocol):

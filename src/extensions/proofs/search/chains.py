@@ -13,8 +13,8 @@ import numpy as np
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart
-from study.enclosure.surface import Surface
 
+from ..enclosure.surface import Surface
 from .periodic import nearest_ball
 
 _EDGE = np.linspace(-1.0, 1.0, 9)

@@ -16,13 +16,13 @@ from scipy.optimize import bisect
 
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.variables import chart, states_of
-from study.enclosure.flight import NotProvedError
-from study.enclosure.jets import Jet
-from study.enclosure.surface import Surface, fraction_of
+from study.flight import NotProvedError
 
 from ..checkers.certificate import Finding
 from ..checkers.circle import derivative, noble, real_values, rotated, transform
 from ..checkers.curve import Curve, normal_vector
+from ..enclosure.jets import Jet
+from ..enclosure.surface import Surface, fraction_of
 from .certificate_text import Theorem, fixed, header, rows
 from .periodic import BITS as CENTRE_BITS
 from .periodic import centre_rows, nearest_ball, points_of, polished

@@ -6,11 +6,10 @@ from math import ceil, sqrt
 
 from flint import arb, ctx
 
-from study.enclosure.surface import Surface, ball_of, fraction_of
-
 from ..checkers.fixed_point import energy_at, trace_at
 from ..checkers.periodic import BITS, enclose
 from ..checkers.twist import complex_map, resonant_coefficients
+from ..enclosure.surface import Surface, ball_of, fraction_of
 from .certificate_text import Theorem, ball_header, bisected, fixed, row
 from .periodic import DIGITS, approximate_points, polished
 

@@ -18,10 +18,10 @@ from scipy.sparse.csgraph import connected_components
 
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface
+from study.flight import NotProvedError
 
 from ..checkers import graph, hsets
+from ..enclosure.surface import Surface
 from .certificate_text import Theorem, header, rows
 from .chains import DoubleMap, Parallelogram, chain
 

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface
+from study.flight import NotProvedError
 
 from ..checkers.certificate import Finding
 from ..checkers.periodic import enclose
+from ..enclosure.surface import Surface
 from .certificate_text import Theorem, header, row, rows
 from .chains import DoubleMap
 from .periodic import points_of, polished

@@ -9,9 +9,8 @@ from fractions import Fraction
 import numpy as np
 from flint import arb, ctx
 
-from study.enclosure.surface import Surface, ball_of
-
 from ..checkers import jump
+from ..enclosure.surface import Surface, ball_of
 from .certificate_text import Theorem, ball_header, header, row, rows
 from .chains import DoubleMap, Parallelogram, chain
 from .horseshoe import directions, mirrors

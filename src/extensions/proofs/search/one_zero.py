@@ -4,11 +4,11 @@ from fractions import Fraction
 
 from flint import ctx
 
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import ball_of
+from study.flight import NotProvedError
 
 from ..checkers.fixed_point import energy_at
 from ..checkers.one_zero import BITS, ZEROS, over_band
+from ..enclosure.surface import ball_of
 from .certificate_text import Theorem, ball_header, bisected, fixed, rows
 
 _WIDTHS = [Fraction(n, 1000) for n in (50, 40, 30, 25, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1)]

@@ -11,9 +11,9 @@ from flint import arb, ctx
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, of_type, states_of
-from study.enclosure.surface import Surface
 
 from ..checkers.periodic import newton_image
+from ..enclosure.surface import Surface
 from .certificate_text import Theorem, header, row, rows
 
 BITS = 160

@@ -8,10 +8,9 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from study.enclosure.surface import Surface
-
 from ..checkers.periodic import enclose
 from ..checkers.twist import complex_map
+from ..enclosure.surface import Surface
 from .certificate_text import Theorem, bisected, decimal, header
 from .periodic import (
     BITS,

@@ -11,11 +11,11 @@ import xarray as xr
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.inputs import number
 from pseudorigid.dynamics.variables import chart, states_of
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Exact, Surface, exact
+from study.flight import NotProvedError
 
 from ..checkers import curve, horseshoe, periodic
 from ..checkers.certificate import Finding
+from ..enclosure.surface import Exact, Surface, exact
 from ..search import curve as curve_search
 from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search

@@ -11,14 +11,14 @@ from flint import arb, ctx
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import AREA, ENERGY, LENGTH, SPEED, described, of_type
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface, ball_of
+from study.flight import NotProvedError
 
 from ..checkers import curve, graph, horseshoe, jump
 from ..checkers.certificate import Finding
 from ..checkers.hsets import HSet
 from ..checkers.periodic import BITS, Point, prove
 from ..checkers.twist import falling_twist, normal_form
+from ..enclosure.surface import Surface, ball_of
 from ..search.periodic import approximate_points
 from ..search.twist import bisect_zero
 from .requests import prove_curve, prove_horseshoe

@@ -14,8 +14,7 @@ import xarray as xr
 
 from pipeline.loading import note_loaded
 from pseudorigid.dynamics import paper
-from study.enclosure.flight import NotProvedError
-from study.enclosure.surface import Surface
+from study.flight import NotProvedError
 
 from ..checkers import (
     curve,
@@ -29,6 +28,7 @@ from ..checkers import (
     twist,
 )
 from ..checkers.certificate import Finding, Range, Window
+from ..enclosure.surface import Surface
 
 BALL = {name: Fraction(str(paper.BALL[name])) for name in "kg"}
 

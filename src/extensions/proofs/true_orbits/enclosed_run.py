@@ -15,8 +15,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from study.enclosure.flight import UndecidedError
-from study.enclosure.surface import Exact, Surface, ball_of, exact
+from study.flight import UndecidedError
+
+from ..enclosure.surface import Exact, Surface, ball_of, exact
 
 FRAME_BITS = 64  # of the frame and the bound, which includes their own roundings
 GUARD_BITS = 40  # bits of a point below its bound

@@ -15,9 +15,9 @@ from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.orbits import ragged_orbits, start_state
 from pseudorigid.dynamics.variables import attributes_of, variables
 from pseudorigid.kernel.arithmetic import log
-from study.enclosure.flight import UndecidedError
-from study.enclosure.surface import Exact, Surface
+from study.flight import UndecidedError
 
+from ..enclosure.surface import Exact, Surface
 from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError, Start
 
 _BYTES_PER_IMPACT = 200  # doubles in the run and the Dataset, and room

@@ -98,7 +98,6 @@ def first_if(*types: type) -> Discriminator:
 Inertia = Annotated[float, allowed("a number with 0 < k <= 1", gt=0, le=1)]
 Gravity = Annotated[float, allowed("a number with 0 < g < k", gt=0)]
 Energy = Annotated[float, allowed("a number with -g^2/(2k) < energy < k/2 - g")]
-Energies = Annotated[list[Energy], allowed("a list of energies", min_length=1, max_length=20)]
 Number = Annotated[float, allowed("a number")]
 Range = Annotated[
     list[Number],
@@ -203,9 +202,6 @@ class Window(Block):
 
 
 Fraction = Annotated[float, allowed("a fraction with -1 < start < 1", gt=-1, lt=1)]
-Between = Annotated[
-    list[Fraction], allowed("two fractions of the section's radius", min_length=2, max_length=2)
-]
 _ON_LINE = "a fraction of the section's radius with -1 < start < 1 (others are off the section)"
 _STARTS = (
     "a list of fractions of the section's radius, each with -1 < start < 1, "

@@ -175,25 +175,6 @@ class OfRecords(OfOrbits):
             yield ("records",), self.records, f"at most impacts = {least}"
 
 
-class OfSea(Scene):
-    """A scene of many orbits of the chaotic sea."""
-
-    between: fields.Between
-    """Part of the symmetry line y = 0 over which the orbits start evenly, in section radii from the
-    section's centre. Choose it inside the chaotic sea."""
-    orbits: int = fields.whole(2, 100_000)
-    """Number of orbits. More of them make the statistics more precise."""
-    impacts: int = fields.whole(100, 10_000_000)
-    """Number of impacts of each orbit."""
-
-    def cross_field_errors(self) -> Iterator[CrossFieldError]:
-        """Check that the starts are in order, and that all impacts fit into memory."""
-        yield from super().cross_field_errors()
-        if not fields.rising(self.between):
-            yield ("between",), self.between, "two increasing fractions"
-        yield from bounded(self, "orbits", "impacts", "impacts in all")
-
-
 class OfPeriodicOrbit(Scene):
     """A scene of one periodic orbit."""
 

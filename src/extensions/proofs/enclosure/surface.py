@@ -9,7 +9,8 @@ from typing import Any, Generic, NamedTuple, overload
 
 from flint import acb, arb, ctx, fmpq
 
-from .flight import Flight, UndecidedError
+from study.flight import Flight, UndecidedError
+
 from .jets import Jet, Real, Value, square_root
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3}|\s*/\s*\d+)?\s*", re.ASCII)
@@ -53,6 +54,33 @@ def fraction_of(value: arb) -> Fraction:
     """Return the midpoint of a ball, which is exact, as a Fraction."""
     mantissa, exponent = value.mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def flight_of_constants(flight: Flight) -> Flight:
+    """Return the flight of the constant terms of a flight of jets."""
+    x, b, c, s = (part.constant for part in (flight.x, flight.b, flight.c, flight.s))
+    return Flight(x, b, c, s, flight.g)
+
+
+def first_root(flight: Flight) -> Any:
+    """Enclose the time of the next impact as `Flight.first_root` does.
+
+    For a flight of jets it is the Taylor series of that root.
+    """
+    if isinstance(flight.x, Jet):
+        return expand(flight, flight_of_constants(flight).first_root())
+    return flight.first_root()
+
+
+def expand(flight: Flight, root: arb | acb) -> Jet:
+    """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
+    time, order = Jet.constant_of(flight.x.algebra, root), 0
+    while order < flight.x.algebra.order:
+        height, slope = flight.height_and_slope(time, *time.sin_cos())
+        height.coefficients[0] = 0 * root
+        time = time - height / slope
+        order = 2 * order + 1
+    return time
 
 
 class Impact(NamedTuple, Generic[Value]):
@@ -159,7 +187,7 @@ class Surface:
         s = self.speed(x, y)
         return (y + k * s) / (1 + k), (s - y) / (1 + k)
 
-    def flight(self, x: Value, y: Value) -> Flight[Value]:
+    def flight(self, x: Value, y: Value) -> Flight:
         """Return the flight after the impact; raises UndecidedError as `speed` does."""
         k, g, _ = self.constants()
         s = self.speed(x, y)
@@ -175,11 +203,11 @@ class Surface:
         At complex points `root` encloses the flight times, which `complex_flight` continues. Raises
         UndecidedError where a point may lie on the rim, or a flight may touch the floor earlier.
         """
-        flight: Flight[Any] = self.flight(x, y)
+        flight = self.flight(x, y)
         if root is None:
-            tau = flight.first_root()
+            tau = first_root(flight)
         else:
-            tau = flight.expand(root) if isinstance(x, Jet) else root
+            tau = expand(flight, root) if isinstance(x, Jet) else root
         x, xdot, udot = flight.end(tau)
         return Impact(x, xdot - self.constants()[0] * udot, tau, xdot + udot)
 

@@ -7,11 +7,9 @@ parabolas that lie above f.
 
 import math
 from dataclasses import dataclass
-from typing import Any, Generic
+from typing import Any
 
 from flint import arb, ctx
-
-from .jets import Jet, Real, Value
 
 _MARCH_BITS = 64  # one machine word: a march needs more only if the ball nearly touches the floor
 # A step is shortened by far more than the rounding of the parabola's root, so that the check in
@@ -32,76 +30,61 @@ class UndecidedError(NotProvedError, ArithmeticError):
 
 
 @dataclass(frozen=True)
-class Flight(Generic[Value]):
+class Flight:
     """Flights after an impact, eq. (26), and their gap f(t), eq. (21).
 
-    x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it.
+    x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it. All but
+    g, and the times, may be any numbers with `sin_cos`: arb, acb, or series of these.
     """
 
-    x: Value
-    b: Value
-    c: Value
-    s: Value
+    x: Any
+    b: Any
+    c: Any
+    s: Any
     g: arb
 
-    def derivatives(self, t: Value) -> tuple[Value, Value, Value, Value]:
+    def derivatives(self, t: Any) -> tuple[Any, Any, Any, Any]:
         """Return f, f', f'' and f''' at t."""
         sine, cosine = t.sin_cos()
         x, c = self.x, self.c
-        height, slope = self._height_and_slope(t, sine, cosine)
+        height, slope = self.height_and_slope(t, sine, cosine)
         return height, slope, self.g + x * cosine - c * sine, -x * sine - c * cosine
 
-    def height(self, t: Value) -> Value:
+    def height(self, t: Any) -> Any:
         """Return f at t."""
-        return self._height_and_slope(t, *t.sin_cos())[0]
+        return self.height_and_slope(t, *t.sin_cos())[0]
 
-    def slope(self, t: Value) -> Value:
+    def slope(self, t: Any) -> Any:
         """Return f' at t."""
-        return self._height_and_slope(t, *t.sin_cos())[1]
+        return self.height_and_slope(t, *t.sin_cos())[1]
 
-    def _height_and_slope(self, t: Value, sine: Value, cosine: Value) -> tuple[Value, Value]:
+    def height_and_slope(self, t: Any, sine: Any, cosine: Any) -> tuple[Any, Any]:
         """Return f and f' at t, from sine and cosine of t."""
         versine = 1 - cosine
         height = t * (self.g * t / 2 - self.s) + self.c * (sine - t) + self.x * versine
         return height, self.g * t - self.s - self.c * versine + self.x * sine
 
-    def end(self, tau: Value) -> tuple[Value, Value, Value]:
+    def end(self, tau: Any) -> tuple[Any, Any, Any]:
         """Return x, xdot and udot at the end of flights of this duration, eq. (28)."""
         sine, cosine = tau.sin_cos()
         x, c = self.x, self.c
         return x * cosine - c * sine, self.b + self.g * tau, x * sine + c * cosine
 
-    def rounded(self: "Flight[arb]") -> "Flight[arb]":
+    def rounded(self) -> "Flight":
         """Return the flights in balls of the context's precision."""
         return Flight(+self.x, +self.b, +self.c, +self.s, +self.g)
 
-    def constant(self: "Flight[Jet]") -> "Flight[Any]":
-        """Return the flights of the constant terms of jets."""
-        return Flight(self.x.constant, self.b.constant, self.c.constant, self.s.constant, self.g)
-
-    def first_root(self: "Flight[Real]") -> Real:
+    def first_root(self) -> arb:
         """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
 
         The ball contains the first root, which is simple, for every choice of parameters in the
-        balls; for jets it is the Taylor series of that root. Raises UndecidedError where an earlier
-        touch of the floor cannot be excluded, s may be zero, or g is not positive.
+        balls (arb). Raises UndecidedError where an earlier touch of the floor cannot be excluded, s
+        may be zero, or g is not positive.
         """
-        if isinstance(self.x, Jet):
-            return self.expand(self.constant().first_root())
         return _refine(self, *_isolate(self))
 
-    def expand(self: "Flight[Jet]", root: Any) -> Jet:
-        """Expand a root in a series: Newton steps on jets, whose constant term solves f = 0."""
-        time, order = Jet.constant_of(self.x.algebra, root), 0
-        while order < self.x.algebra.order:
-            height, slope = self._height_and_slope(time, *time.sin_cos())
-            height.coefficients[0] = 0 * root
-            time = time - height / slope
-            order = 2 * order + 1
-        return time
 
-
-def launch(k: arb, g: arb, x: Real, v: Real, w: Real, s: Real) -> Flight[Real]:
+def launch(k: arb, g: arb, x: Any, v: Any, w: Any, s: Any) -> Flight:
     """Return the flight after an impact at x with the velocities v and w, eq. (25).
 
     s is v + w, which the sum of two balls would round.
@@ -109,7 +92,7 @@ def launch(k: arb, g: arb, x: Real, v: Real, w: Real, s: Real) -> Flight[Real]:
     return Flight(x, v - 2 * k * s / (1 + k), w - 2 * s / (1 + k), s, g)
 
 
-def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight[arb], arb]:
+def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight, arb]:
     """Return flights from points of the rim, s = 0, x = -g - beyond, and their first root.
 
     Raises UndecidedError as `first_root` does, and where not beyond >= 0: there the ball stays on
@@ -124,7 +107,7 @@ def flight_from_rim(g: arb, xdot: arb, beyond: arb) -> tuple[Flight[arb], arb]:
     return flight, _refine(flight, *_isolate(flight, start))
 
 
-def _isolate(flight: Flight[arb], start: arb | None = None) -> tuple[arb, arb]:
+def _isolate(flight: Flight, start: arb | None = None) -> tuple[arb, arb]:
     """Return exact low, high: f < 0 on (0, low], f' > 0 on (low, high) and f(high) > 0.
 
     `start` is a time up to which f < 0 is known.
@@ -142,7 +125,7 @@ def _isolate(flight: Flight[arb], start: arb | None = None) -> tuple[arb, arb]:
         bits = min(2 * bits, most)
 
 
-def _refine(flight: Flight[arb], low: arb, high: arb) -> arb:
+def _refine(flight: Flight, low: arb, high: arb) -> arb:
     """Narrow a root by interval Newton, T = t - f(t)/f'(T), with twice the bits at each level."""
     root = low.union(high)
     levels = [ctx.prec]
@@ -163,7 +146,7 @@ def _refine(flight: Flight[arb], low: arb, high: arb) -> arb:
     return root
 
 
-def _march(flight: Flight[arb], start: arb | None) -> tuple[arb, arb]:
+def _march(flight: Flight, start: arb | None) -> tuple[arb, arb]:
     """Isolate the first root at the context's precision."""
     amplitude = (flight.x * flight.x + flight.c * flight.c).sqrt()
     curvature_bound, jerk_bound = (flight.g + amplitude).upper(), amplitude.upper()
@@ -222,7 +205,7 @@ def _parabola_root(f: float, d: float, m: float) -> float:
     return (root - d) / m if m > 0.0 else math.inf
 
 
-def _first_step(flight: Flight[arb], jerk_bound: arb) -> arb:
+def _first_step(flight: Flight, jerk_bound: arb) -> arb:
     """Return a time up to which f < 0.
 
     f/t <= -s + (g + x) t/2 + A t^2/6; where s = 0 = g + x, f/t^3 <= -c/6 + A t/24.
@@ -244,7 +227,7 @@ def _first_step(flight: Flight[arb], jerk_bound: arb) -> arb:
     return t
 
 
-def _long_flight(flight: Flight[arb], amplitude: arb) -> tuple[arb, arb] | None:
+def _long_flight(flight: Flight, amplitude: arb) -> tuple[arb, arb] | None:
     """Return the interval on which f <= x + A + b t + g t^2/2 < 0, or None."""
     b = -flight.s - flight.c
     height = flight.x + amplitude
