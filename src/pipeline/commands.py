@@ -36,7 +36,7 @@ COMMANDS = {
         "compare speed and accuracy with other methods, in more_figures/study/",
         scenes="study",
         packages="study",
-        details=" Installs the packages of the other methods first (once).",
+        details="Installs the packages of the other methods first (once).",
     ),
     "report": SnakemakeCommand(
         "write one HTML page: figures, numbers beside the paper's, corrections, run times",
@@ -46,13 +46,13 @@ COMMANDS = {
         "check whether everything is as committed, and if not, show what differs",
         switch("--strict", "exit with status 1 for notes too"),
         switch("--committed", "compare committed files alone: nothing has to be computed here"),
-        details=" The layers are config, source, environment, data, drawing and file. The exit "
+        details="The layers are config, source, environment, data, drawing and file. The exit "
         "status is 1 for other bytes, for results that this tree did not make, and for figures of "
         "the paper that were not computed here; other differences are notes.",
     ),
     "accept": Command(
         "make the present figures the committed ones",
-        details=" Includes other published pictures that were made, and prints what changed.",
+        details="Includes other published pictures that were made, and prints what changed.",
     ),
     "clean": Command(
         "delete generated results; committed files stay",
@@ -63,13 +63,13 @@ COMMANDS = {
         "measure speeds and print a table of their ratios",
         module="program",
         packages="study",
-        details=" Installs the packages of the study first (once).",
+        details="Installs the packages of the study first (once).",
     ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
         module="program",
         packages="test",
-        details=" Installs the packages of the tests first (once).",
+        details="Installs the packages of the tests first (once).",
     ),
     "help": Command(
         "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")

@@ -50,7 +50,7 @@ def test_the_pictures_of_a_removed_scene_are_listed(moved):
     document = moved.document()
     del document["scenes"]["fig7"]
     moved.write(document)
-    left = "no scene of config.yaml makes it: delete it, or put its scene back"
+    left = "no scene makes it: delete it, or put its scene back"
     lines = [f"paper_figures/fig7.{kind}: {left}" for kind in ("png", "svg")]
     listed = "lists fig7.png, which config.yaml does not publish: ./reproduce accept takes it out"
     found = verified(moved)

@@ -72,9 +72,7 @@ def test_a_stray_picture_is_named_by_archive_and_by_accept(refused, tmp_path):
     tree, name = refused.copy(tmp_path / "stray"), "FIG2.png"
     accepting(tree)
     (tree.path / "paper_figures" / name).write_bytes(contents(tree)["fig3.png"])
-    words = (
-        f"paper_figures/{name}: no scene of config.yaml makes it: delete it, or put its scene back"
-    )
+    words = f"paper_figures/{name}: no scene makes it: delete it, or put its scene back"
     status, lines = accepting(tree)
     assert (status, lines[1:]) == (0, ["paper_figures: nothing changed", words])
     archive = pytest.importorskip("extensions.publication.archive")

@@ -139,7 +139,7 @@ def test_the_closing_table_and_the_list_say_what_is_committed(edited):
     assert published("fig2.png", "fig8.png") < set(state)
     differs = {file for file in state if state[file] == "differs"}
     assert differs == {f"paper_figures/fig{i}.{kind}" for i in (3, 4, 7) for kind in ("png", "svg")}
-    assert "paper_figures/fig9.png: no scene of config.yaml makes it: delete it, or put" in output
+    assert "paper_figures/fig9.png: no scene makes it: delete it, or put" in output
     listed = edited.run("list").stdout
     row = " +paper_figures/(fig[27]).png +(identical|differs) \\w+ the committed one$"
     assert re.findall(row, listed, re.M) == [("fig2", "identical"), ("fig7", "differs")]

@@ -8,7 +8,7 @@ EXTENSION = Extension(
     stages={
         **{
             name: Stage(f"{_ANALYSES}.{name}.{name}", fields)
-            for name, fields in {
+            for name, fields in {  # stage -> the fields of a scene that it takes
                 "spread": "orbits length blocks regular regular_impacts cells visits",
                 "clusters": "between orbits impacts cuts lags resamples seed",
                 "rotation": "energies starts impacts detail detail_impacts",
@@ -17,15 +17,15 @@ EXTENSION = Extension(
                 "control": "strengths orbits impacts period starts shown drawn resamples seed",
             }.items()
         },
-        "last_curve": Stage(
+        "last_curve": Stage(  # computed by the atlas, drawn here
             "extensions.atlas.last_curve.last_curve", "nobles convergents between impacts drawn"
         ),
     },
     sets={
         "claims": SceneSet(
-            "more_figures/claims",
-            "./reproduce claims",
-            "Statements of the paper",
+            folder="more_figures/claims",
+            command="./reproduce claims",
+            heading="Statements of the paper",
             key="claims",
             texts=("CLAIMS.md", "CLAIMS.json"),
         )
@@ -34,10 +34,10 @@ EXTENSION = Extension(
         "claims": SnakemakeCommand(
             "check every statement of the paper: CLAIMS.md, more_figures/claims/",
             module="extensions.claims.command",
-            details=" Makes missing results first, including the sweeps.",
+            details="Makes missing results first, including the sweeps of the atlas.",
         ),
     },
-    removed={
+    removed={  # options of earlier versions, and what is done instead
         ("claims", "--check"): "all claims are judged",
         ("claims", "--data"): "the data of this tree are judged",
     },

@@ -24,7 +24,7 @@ EXTENSION = Extension(
     commands={
         "families": SnakemakeCommand(
             "follow periodic orbits from birth to end: more_figures/families/",
-            details=" Takes minutes; a killed search continues.",
+            details="Takes minutes; a killed search continues.",
             scenes="families",
         ),
     },

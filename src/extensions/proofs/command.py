@@ -34,12 +34,12 @@ def run(args: Arguments) -> int:
             wanted = figures.drawings_of(args.config, "proofs")
             return figures.make(args.config, "proofs", wanted, args)
         if args.impacts:
-            from .proved_impacts import impacts
+            from .proved_impacts import prove_figures
 
             doing = ["reading the impacts"]
             Heartbeat(lambda: f"reproduce: {doing[0]}").print(f"reproduce: {doing[0]}")
             with interruptible(), one_line():
-                return int(impacts(args.config, partial(doing.__setitem__, 0)))
+                return int(prove_figures(args.config, partial(doing.__setitem__, 0)))
         return _check(args, args.theorem or [*THEOREMS])
 
 

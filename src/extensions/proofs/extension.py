@@ -35,7 +35,7 @@ EXTENSION = Extension(
             switch("--impacts", "prove the impacts behind the figures instead"),
             switch("--pictures", "draw the pictures, in more_figures/proofs/"),
             module="extensions.proofs.command",
-            details=" Checks what changed since it was checked here, and prints a line for each "
+            details="Checks what changed since it was checked here, and prints a line for each "
             "theorem. The exit status is 1 if one is not proved.",
         ),
     },

@@ -1,4 +1,4 @@
-"""./reproduce prove --impacts: every impact behind the figures is the first one."""
+"""./reproduce prove --impacts: no flight behind the figures passes an earlier impact."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -27,27 +27,30 @@ _LARGEST_ERROR = 1e-6  # a larger one is no rounding error: another impact was t
 
 
 class Impacts(NamedTuple):
-    """States x, xdot, udot before and after impacts, (3, n), and the flight times between them."""
+    """States (3, n) just before an impact and just before the next one, and the times between.
+
+    The rows are x, xdot, udot.
+    """
 
     before: np.ndarray
     after: np.ndarray
     tau: np.ndarray
 
 
-def impacts(checked: Config, progress: Callable[[str], None]) -> int:
+def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
     """Prove scene by scene that each impact behind the figures is the first one; print a line each.
 
-    Every impact of portraits and of the orbits in motions is proved. Figures whose data have
-    millions of impacts are sampled, as config.yaml says. `progress` is called with a line that says
-    how many impacts are done. Returns 1 if an impact is not proved.
+    All impacts of portraits, and of the orbits in motions, are proved. Figures whose data have
+    millions are sampled: `prove: impacts` in scenes.yaml says how many. `progress` is called with a
+    line that says how many impacts are done. Returns 1 if an impact is not proved, otherwise 0.
     Raises ValueError if a result is missing.
     """
     artifact_paths = paths.artifact_paths(checked.variants)
     freshness = Freshness(ROOT, build_specs(checked, [PAPER]))
-    status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]
+    status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]  # of each
     for scene, block in checked.scenes.items():
         if why := freshness.refusal(paths.drawn(scene, "png")):
-            print(f"{scene} is left out, cannot exist: {why}")
+            print(f"{scene} is left out, because it cannot exist: {why}")
             continue
         k, g = (Fraction(str(block.as_mapping()["ball"][name])) for name in "kg")
 
@@ -90,6 +93,7 @@ def prove_impacts(
     statement = (
         f"each of {errors.size:,} impacts computed is the first one, to within {_LARGEST_ERROR:g}"
     )
+    # There is no certificate: the third field begins the printed line.
     return Result(name, statement, name, reason, {}, {"worst error": worst})
 
 
@@ -128,11 +132,11 @@ def impact_errors(
 def _impacts_behind(
     scene: Picture, data: Callable[[str], xr.Dataset], sample: int
 ) -> Iterator[tuple[str, Impacts]]:
-    """Yield the name and the impacts of each stage of a scene."""
+    """Yield a name and impacts for each stage of a scene, and for each orbit of exponents."""
     block, stages = scene.as_mapping(), paths.stages(scene)
     ball, energy = Ball(**block["ball"]), block["energy"]
     if {"orbits", "manifolds"} <= stages.keys():
-        sample //= 2
+        sample //= 2  # for each of the two
     if "orbits" in stages:
         its = of_orbits(ball, energy, data("orbits"), block["starts"])
         yield "orbits", Impacts(*_evenly(its, sample)) if "manifolds" in stages else its
@@ -143,6 +147,7 @@ def _impacts_behind(
     if "manifolds" in stages:
         lines = states_of(data("manifolds"))
         lines = lines[:, ~np.isnan(lines[0])]
+        # A point on the rim may lie below it by a rounding, and would be refused.
         lines[2] = np.maximum(lines[2], -lines[1])
         (before,) = _evenly((lines,), sample)
         x, xdot, udot, tau = ball.impact(*before)
@@ -150,7 +155,7 @@ def _impacts_behind(
     if "lyapunov" in stages:
         starts = [start_state(ball, energy, start) for start in block["starts"]]
         for i, start in enumerate(starts):
-            track = orbit(ball, start, sample // len(starts))
+            track = orbit(ball, start, max(1, sample // len(starts)))
             after = states_of(track)
             before = np.concatenate([np.array(start)[:, None], after[:, :-1]], axis=1)
             yield f"orbit {i}", Impacts(before, after, track["tau"].values)
@@ -165,6 +170,7 @@ def of_orbits(ball: Ball, energy: float, orbits: xr.Dataset, starts: list[Any]) 
     before = np.roll(state, 1, axis=1)
     sizes = orbits["row_size"].values
     first = np.cumsum(sizes) - sizes
+    # the first impact of an orbit follows its start
     before[:, first] = np.array([start_state(ball, energy, start) for start in starts]).T
     return Impacts(before, state, orbits["tau"].values)
 

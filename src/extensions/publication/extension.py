@@ -14,18 +14,18 @@ EXTENSION = Extension(
                 {"metavar": "X.Y", "help": "of these packages; by default the present one"},
             ),
             module=f"{_COMMANDS}.archive",
-            details=" The same results give the same bytes. All results must be current.",
+            details="The same results give the same bytes. All results must be current.",
         ),
         "article": Command(
             "set the replication article, results/article.pdf, from current results",
             module=f"{_COMMANDS}.article",
-            details=" Installs the typesetter first (once).",
+            details="Installs the typesetter first (once).",
             needs=_TEXT,
         ),
         "site": SnakemakeCommand(
             "write one folder to mail or serve: report, explorer and article, in results/site/",
             module=f"{_COMMANDS}.site",
-            details=" All published files must be the committed ones. Installs the typesetter "
+            details="All published files must be the committed ones. Installs the typesetter "
             "first (once).",
             needs=_TEXT,
         ),

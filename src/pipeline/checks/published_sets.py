@@ -34,14 +34,14 @@ class PublishedSet(NamedTuple):
     The name of a published file is that of its scene and a suffix.
     """
 
-    group: str  # its name: "paper", "study" or the like
+    group: str  # the name of its set of scenes, such as "paper": a key of config.variants
     folder: str  # of the published files
     results: str  # the folder of the drawings and their data
     command: str  # that makes the files
     text_files: tuple[str, ...]  # other files that the command writes
-    on_request: bool  # whether only a command of its own makes it, and not every run
+    on_request: bool  # whether only its own command makes it; plain ./reproduce makes the paper's
     drawn: dict[str, str]  # name of a published file -> its drawing in results
-    config: dict[str, dict[str, Any]]  # scene -> the config block that decides it
+    config: dict[str, dict[str, Any]]  # scene -> the fields of its block that decide the drawing
     data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
@@ -62,7 +62,7 @@ class PublishedSet(NamedTuple):
         )
 
     def unlisted(self, root: Path) -> list[str]:
-        """Return a line for each picture in the folder that the set does not have."""
+        """Return a line for each picture in the folder that no scene of the set makes."""
         return unlisted_files(root, self.folder, {*self.drawn, *self.measured})
 
 
@@ -116,7 +116,10 @@ def read_sums(root: Path, folder: str) -> dict[str, str]:
 
 
 def committed_state(root: Path, path: str) -> str:
-    """Say how a published file compares with the one in the checksum list of its folder."""
+    """Say how a published file compares with the checksum list of its folder.
+
+    If git says that the list was edited, the words name the list, not "the committed one".
+    """
     folder, _, name = path.rpartition("/")
     digest, sums = file_hash(root / path), read_sums(root, folder)
     if digest is None:
@@ -131,7 +134,7 @@ def committed_state(root: Path, path: str) -> str:
 
 @cache
 def edited_lists(root: Path) -> list[str]:
-    """Return the checksum lists and manifests that differ from the last commit, if git says so."""
+    """Return the checksum lists and manifests that git says differ from the last commit."""
     files = [f"{folder}/{name}" for folder in PUBLISHED.values() for name in (SUMS, MANIFEST)]
     names = git("diff", "--name-only", "--relative", "-z", "HEAD", "--", *files, root=root) or b""
     return names.decode().split("\0")[:-1]
@@ -142,7 +145,7 @@ def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
     files = (root / folder).glob("[!.]*")
     pictures = {path.name for path in files if path.suffix[1:] in paths.SHOWN}
     return [
-        f"{folder}/{name}: no scene of config.yaml makes it: delete it, or put its scene back"
+        f"{folder}/{name}: no scene makes it: delete it, or put its scene back"
         for name in sorted(pictures - set(names))
     ]
 
@@ -150,9 +153,9 @@ def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
 def read_published_text(root: Path, name: str) -> str:
     """Read a checksum list or manifest; raises ChecksumError."""
     try:
-        return str(read_text(root / name))
+        return read_text(root / name)
     except ABSENT:
         raise ChecksumError(f"{name}: missing") from None
-    except ValueError as error:  # another kind of file, or no text
+    except ValueError as error:  # a folder or a device, or bytes that are not UTF-8
         reason = str(error).removeprefix(f"{root / name}: ")
         raise ChecksumError(f"{name}: {reason}") from None

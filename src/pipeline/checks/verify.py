@@ -157,7 +157,7 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
     published_set = published_set.without(refused)
     folder, findings = published_set.folder, Findings(published_set)
     findings.left_out = [
-        f"{name} is left out, cannot exist: {why}" for name, why in refused.items()
+        f"{name} is left out, because it cannot exist: {why}" for name, why in refused.items()
     ]
     findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
     try:

@@ -139,7 +139,7 @@ def _parser(name: str | None) -> _Parser:
     commands = all_commands()
     command = commands.get(name or "", DEFAULT_COMMAND)
     if name:
-        line = f"{command.line[0].upper()}{command.line[1:]}.{command.details}"
+        line = f"{command.line[0].upper()}{command.line[1:]}. {command.details}"
         parser = _Parser(f"./reproduce {name}", description=line, allow_abbrev=False)
         parser.epilog = _SNAKEMAKE if command.runs_snakemake else None
     else:

@@ -1,13 +1,14 @@
 """Symmetric fixed point in closed form, in units where g = 1: lengths in g R.
 
-With theta = tau/2 in (0, pi): v = theta, w = theta/k, x = theta cot(theta)/k, and
+With v, w = xdot, udot just before an impact, tau the time of flight, and theta = tau/2 in (0, pi):
+v = theta, w = theta/k, x = theta cot(theta)/k, and
 
     E         = ((1+k) theta^2 + (1 - theta cot theta)^2 - 1) / (2k)
     trace/2   = (1 + k cos 2 theta)/(1+k)
                 - k (1 - theta cot theta)(2 theta - sin 2 theta) / (theta (1+k)^2)
 
 where the trace is that of the map's Jacobian in the chart (x, y = v - k w). The point is elliptic
-while |trace| < 2. Nearby orbits then wind around it with the rotation number rho, in turns an
+while |trace| < 2. Nearby orbits then wind around it with the rotation number rho, in turns per
 impact, trace = 2 cos(2 pi rho). Times are in 1/omega, k is the Euler inertia, eq. (5), and energies
 e are E/g^2.
 """
@@ -61,13 +62,13 @@ def numbers(k: float, e: float) -> tuple[float, float, float]:
 
 
 def resonance(k: float, turns: int, impacts: int) -> float:
-    """Return the lowest E/g^2 at which the rotation number is turns/impacts <= 1/2."""
+    """Return the E/g^2 at which the rotation number is turns/impacts <= 1/2."""
     resonant_trace = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
     return energy(k, _root(lambda theta: trace(k, theta) > resonant_trace, math.pi))
 
 
 def _root(is_below: Callable[[float], bool], upper: float) -> float:
-    """Return the number in (0, upper) up to which `is_below` holds, bisected to the last bit."""
+    """Return the last double in (0, upper) at which `is_below` holds, by bisection."""
     low, high = 0.0, upper
     while True:
         middle = 0.5 * (low + high)

@@ -60,6 +60,8 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
     points: list[tuple[Any, ...]] = []
     if "point" in getattr(start, "dims", ()):
+        if "row_size" in start:  # tau is the time since the previous impact, not to the next one
+            raise not_allowed("start", start, "one state or one orbit of symmetric_orbits")
         points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
         start = points[0][:3]
     state = ball.on_section(*state_of(start))
@@ -80,19 +82,20 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
         sine, cosine = sincos_each(t)
         position = x + t * (b + 0.5 * ball.g * t)
         strain = c * sine - x * cosine
+        # At impacts strain = -position exactly: neither is computed there.
         position[0], strain[0] = x, -x
         if time + tau <= duration:
             position[-1], strain[-1] = next_x, -next_x
         samples.append((time + t, position, strain))
         time += tau
-        if not time <= duration:  # nor where the state is not finite
+        if not time <= duration:  # also where tau is NaN
             break
     data = variables("sample", np.concatenate(samples, axis=1), _SAMPLE_NAMES)
     return xr.Dataset(data | variables("impact", np.transpose(impacts), _IMPACT_NAMES))
 
 
 def _flights(ball: Ball, x: Any, xdot: Any, udot: Any) -> Iterator[tuple[Any, ...]]:
-    """Yield x, xdot, udot and tau of each flight after a state."""
+    """Yield x, xdot, udot of each impact from a state on, and tau of the flight after it."""
     while True:
         *after, tau = ball.impact(x, xdot, udot)
         yield x, xdot, udot, tau
@@ -104,8 +107,8 @@ def scene_motion(
 ) -> xr.Dataset:
     """Compute the motion of a periodic orbit from an impact on (Figures 3 and 4).
 
-    If the ball's map may miss impacts, the points are no orbit of it, and the first one is followed
-    impact by impact instead.
+    A ball's map that scans for impacts, and may miss some, may leave the points of the orbit. Then
+    the first point is followed impact by impact.
 
     >>> from pseudorigid import Ball, symmetric_orbits
     >>> ball = Ball(k=0.2, g=0.04)

@@ -39,8 +39,9 @@ Vector = tuple[arb, ...]
 class Saddle(NamedTuple):
     """A point of a hyperbolic periodic orbit, and its unstable direction, in the plane (x, y).
 
-    Numbers are rounded to the working precision; the direction has length one. The energy, k and g
-    are taken as the decimals that they print as.
+    Numbers are rounded to flint's working precision. The direction has length one, and points
+    outwards at the orbit's first point; the map carries it to the others. The energy, k and g are
+    taken as the decimals that they print as.
     """
 
     ball: Ball
@@ -60,7 +61,7 @@ def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
     surface, doubles = Surface(k, g, exact_energy), chart(ball.k, *states_of(orbit)).T.tolist()
     points: list[Sequence[arb]] = [*polished(surface, doubles, _SADDLE_STEPS)]
     try:
-        rho, vectors = directions(surface, points, 1)
+        rho, vectors = directions(surface, points, side=1)
     except NotProvedError as error:
         raise ValueError(str(error)) from None
     saddles = []
@@ -75,18 +76,19 @@ def saddles_of(ball: Ball, energy: float, orbit: xr.Dataset) -> list[Saddle]:
 def flight(surface: Surface, x: Jet, y: Jet) -> tuple[Jet, Jet, arb]:
     """Return the image (x, y) of a point with a tangent vector, and the action of its flight.
 
-    Raises UndecidedError, an ArithmeticError, if the precision does not enclose the flight.
+    Raises UndecidedError, an ArithmeticError, if the precision is too low to enclose the flight.
     """
     k, g, _ = surface.constants()
     image = surface.impact(x, y)
     assert isinstance(image.x, Jet) and isinstance(image.y, Jet) and isinstance(image.tau, Jet)
-    depth, y_before, tau = (jet.coefficients[0] for jet in (x, y, image.tau))
-    s = surface.speed(depth, y_before)
-    b, c = (y_before - k * s) / (1 + k), -(y_before + s) / (1 + k)
+    start, tau = surface.flight(x.constant, y.constant), image.tau.constant
+    b, c, position = start.b, start.c, start.x
     sine, cosine = tau.sin_cos()
     mixed = sine * cosine
+    # as `action` of the derivations' symbols, with the terms in another order
     action = tau * (b * b + tau * g * (b + g * tau / 3)) + k * (
-        (depth * depth * (tau - mixed) + c * c * (tau + mixed)) / 2 + depth * c * sine * sine
+        (position * position * (tau - mixed) + c * c * (tau + mixed)) / 2
+        + position * c * sine * sine
     )
     return image.x, image.y, action
 
@@ -131,31 +133,30 @@ class Heteroclinic:
         self.tangent = x.coefficients[1], y.coefficients[1]
 
     def sine(self) -> arb:
-        """Return the sine of the angle from the unstable arc to its mirror image, the stable."""
+        """Return the sine of the angle from the unstable arc to its mirror image, a stable arc."""
         x, y = self.tangent
         return -2 * x * y / (x * x + y * y)
 
-    def action(self, flight: int) -> arb:
-        """Return the action of flight 0 to 2 impacts - 1; from y = 0 on, the reversor gives it."""
-        return self.actions[min(flight, 2 * self.impacts - flight - 1)]
+    def action(self, index: int) -> arb:
+        """Return the action of flight 0 to 2 impacts - 1; the reversor gives those after y = 0."""
+        return self.actions[min(index, 2 * self.impacts - index - 1)]
 
 
 # A crossing of a branch with y = 0: its orbit's initial distance from the saddle, and the impacts
 # from there.
 Crossing = tuple[float, int]
-PrimaryPair = tuple[Heteroclinic, Heteroclinic]  # the orbits at two neighbouring crossings
+PrimaryPair = tuple[Heteroclinic, Heteroclinic]  # the orbits at the first neighbouring crossings
 
 
 def lobe(saddle: Saddle, sign: int, periods_earlier: int) -> tuple[arb, PrimaryPair]:
-    """Return the area between neighbouring crossings of two branches, and the orbits there.
+    """Return the area of the lobe between two neighbouring crossings, and the orbits there.
 
-    The branches are an unstable one and its mirror image. The unstable branch on the side `sign` of
-    a saddle of even period must lead to the mirror image of the saddle, so that it meets y = 0 on
-    the way, and so must its image half a period later. The two orbits start `periods_earlier`
-    periods earlier than at _SCAN_END from the saddle, on the branch's tangent instead of the
-    branch. This changes the area by the cube of their distance from the saddle, an error that the
-    enclosure does not include. Raises ValueError or ArithmeticError as Heteroclinic does, and
-    ValueError if no crossing of the branch with y = 0 is found.
+    The lobe lies between an unstable branch and its mirror image in y = 0. The branch leaves the
+    saddle, of even period, on the side `sign`, and leads to the saddle's mirror image. One crossing
+    with y = 0 is its own, the other that of its image half a period later. Both orbits start on the
+    branch's tangent, `periods_earlier` periods before _SCAN_END. This changes the area by the cube
+    of their distance from the saddle, an error that the enclosure does not include. Raises
+    ValueError if a crossing is not found, and ArithmeticError if the precision is too low.
     """
     first = first_crossing(saddle, sign, 0)
     second = first_crossing(saddle, sign, saddle.period // 2)
@@ -189,7 +190,8 @@ def _lobe_between(
     area = _line_integral(orbit.points[0], other.points[0])
     for index in range(flights):
         area += other.action(index) - orbit.action(index)
-    # both orbits are now near the other saddle, at mirror images of points near their starts
+    # Both orbits are now near the other saddle, at mirror images of points near their starts. The
+    # mirror reverses y and the direction, so that this integral has the sign of the first one.
     begin, end = (each.points[2 * each.impacts - flights] for each in (orbit, other))
     return abs(area + _line_integral(begin, end)), (orbit, other)
 
@@ -200,10 +202,10 @@ def _line_integral(begin: Vector, end: Vector) -> arb:
 
 
 def first_crossing(saddle: Saddle, sign: int, impacts: int) -> Crossing | None:
-    """Find, in doubles, where a branch first meets y = 0 after `impacts` + m periods.
+    """Find, in doubles, where a branch first meets y = 0 after `impacts` and some whole periods.
 
     The crossing's orbit starts in the branch's last fundamental segment within _SCAN_END of the
-    saddle. Returns None if no image of this segment up to m = _MAX_PERIODS - 1 meets y = 0.
+    saddle. Returns None if no image of this segment over _MAX_PERIODS periods meets y = 0.
     """
     ball, parameters = saddle.ball, _scan_parameters(saddle)
     states = _images(saddle, sign, parameters, impacts)
@@ -245,7 +247,7 @@ def _refined(saddle: Saddle, sign: int, parameter: float, impacts: int) -> Cross
     for _ in range(3):
         parameters = low + (high - low) * np.arange(_SCAN_POINTS + 1) / _SCAN_POINTS
         crossings = _crossings(saddle.ball, _images(saddle, sign, parameters, impacts))
-        if not crossings.size:  # a jump of the map, or rounding, decides
+        if not crossings.size:  # the sign change was made by rounding, or by a jump of the map
             break
         low, high = parameters[crossings[0]], parameters[crossings[0] + 1]
     return float(low), impacts

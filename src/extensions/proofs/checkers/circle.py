@@ -1,7 +1,7 @@
-"""Diophantine rotation numbers, and trigonometric polynomials on a strip around the real axis.
+"""Trigonometric polynomials on a strip around the real axis, and noble rotation numbers.
 
-A polynomial is the list of its complex coefficients c_0 ... c_M; c_(-q) is the conjugate of c_q, so
-that it is real on the real axis. The strip of half width rho is |Im t| < rho.
+A polynomial is the sum of c_q exp(2 pi i q t), |q| <= M, and is real on the real axis. It is given
+by the list c_0 ... c_M, as c_(-q) is the conjugate of c_q. The strip is |Im t| < rho.
 """
 
 from collections.abc import Sequence
@@ -12,14 +12,14 @@ from flint import acb, arb
 from study.flight import NotProvedError
 
 ORDER = 5  # of the Taylor polynomials in a cell
-MOST_DIVISORS = 10_000  # of a rotation number, before its partial quotients are ones
+MOST_DENOMINATOR = 10_000  # q_m of a rotation number: the sum S has q_m - 1 terms
 
 
 def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[arb, arb]:
-    """Return omega = [0; quotients, then 1 for ever], and a sum of its small divisors.
+    """Return omega = [0; quotients, 1, 1, ...], and the sum S of its inverse square divisors.
 
-    The sum is that of 1/sin(pi q omega)^2 over 0 < q < q_m, the denominator of the last convergent
-    before the ones. README.md ("The theorem") has what follows for all q.
+    S is the sum of 1/sin(pi q omega)^2 over 0 < q < q_m, where q_m is the denominator of the last
+    convergent before the ones. By S the README of the proofs ("The theorem") bounds longer sums.
     """
     if not repeating:
         raise NotProvedError("the rotation number is rational: no partial quotients repeat")
@@ -30,7 +30,7 @@ def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[ar
     before, denominator = 0, 1
     for a in quotients:
         before, denominator = denominator, a * denominator + before
-    if denominator > MOST_DIVISORS:
+    if denominator > MOST_DENOMINATOR:
         raise NotProvedError("the rotation number's partial quotients are too large")
     value = (1 + arb(5).sqrt()) / 2
     for a in reversed(quotients):
@@ -39,20 +39,22 @@ def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[ar
     return 1 / value, sum((1 / sine**2 for sine in sines), arb(0))
 
 
-def derivative(waves: list[acb]) -> list[acb]:
+def derivative(coefficients: list[acb]) -> list[acb]:
     """Return the coefficients of a polynomial's derivative."""
-    return [c * acb(0, 2 * q * arb.pi()) for q, c in enumerate(waves)]
+    return [c * acb(0, 2 * q * arb.pi()) for q, c in enumerate(coefficients)]
 
 
-def rotated(waves: list[acb], omega: arb) -> list[acb]:
-    """Return the coefficients of K(t + omega)."""
-    return [c * (acb(2 * q * omega)).exp_pi_i() for q, c in enumerate(waves)]
+def rotated(coefficients: list[acb], omega: arb) -> list[acb]:
+    """Return the coefficients of the polynomial at t + omega, as a function of t."""
+    return [c * (acb(2 * q * omega)).exp_pi_i() for q, c in enumerate(coefficients)]
 
 
-def values(waves: list[acb], count: int, offset: arb | int = 0, height: arb | int = 0) -> list[acb]:
+def values(
+    coefficients: list[acb], count: int, offset: arb | int = 0, height: arb | int = 0
+) -> list[acb]:
     """Return the values at t = (j + offset)/count + i height, j = 0 ... count - 1."""
-    folded = [acb(0)] * count
-    for q, c in enumerate(waves):
+    folded = [acb(0)] * count  # coefficients whose q agree modulo count have the same values
+    for q, c in enumerate(coefficients):
         shift = (acb(2 * q * arb(offset) / count)).exp_pi_i()
         decay = (-2 * q * arb(height) * arb.pi()).exp()
         folded[q % count] += c * shift * decay
@@ -61,44 +63,44 @@ def values(waves: list[acb], count: int, offset: arb | int = 0, height: arb | in
     return [a * count for a in acb.dft(folded, inverse=True)]
 
 
-def real_values(waves: list[acb], count: int, offset: arb | int = 0) -> list[arb]:
+def real_values(coefficients: list[acb], count: int, offset: arb | int = 0) -> list[arb]:
     """Return the real values at t = (j + offset)/count."""
-    return [a.real for a in values(waves, count, offset)]
+    return [a.real for a in values(coefficients, count, offset)]
 
 
 def transform(points: list[arb], most: int) -> list[acb]:
-    """Return the discrete Fourier coefficients 0 ... most of real values on a grid."""
+    """Return c_0 ... c_most of the polynomial that has these values on the grid j/n."""
     return [a / len(points) for a in acb.dft(points)[: most + 1]]
 
 
 class Cells:
-    """The values of a polynomial on the cells of a row of a strip, by Taylor's theorem.
+    """Enclosures of a polynomial on a row of rectangles in the strip, by Taylor's theorem.
 
-    Cell j is the rectangle around t_j = (j + 1/2)/count + i height with half the width `wide`, by
-    default 1/(2 count), and half the height `half`, which may be 0.
+    Cell j has the centre (j + 1/2)/count + i height, the half width `half_width`, by default
+    1/(2 count), and the half height `half_height`; if this is 0, the cell is a segment.
     """
 
     def __init__(
         self,
-        waves: list[acb],
+        coefficients: list[acb],
         count: int,
         height: arb | int = 0,
-        half: arb | int = 0,
-        wide: arb | None = None,
+        half_height: arb | int = 0,
+        half_width: arb | None = None,
     ):
-        height, half = arb(height), arb(half)
-        wide = arb(1) / (2 * count) if wide is None else wide
-        real = bool(height == 0 and half == 0)
-        self.box = acb(arb(0, wide.upper()), arb(0) if real else arb(0, half.upper()))
-        reach = (wide * wide + half * half).sqrt()
-        terms, self._columns = waves, []
+        height, half_height = arb(height), arb(half_height)
+        half_width = arb(1) / (2 * count) if half_width is None else half_width
+        real = bool(height == 0 and half_height == 0)
+        self.box = acb(arb(0, half_width.upper()), arb(0) if real else arb(0, half_height.upper()))
+        reach = (half_width * half_width + half_height * half_height).sqrt()
+        terms, self._columns = coefficients, []
         for order in range(ORDER + 1):
             row = values(terms, count, arb(0.5), height)
             self._columns.append([a / factorial(order) for a in row])
             terms = derivative(terms)
-        size = arb(0)
+        size = arb(0)  # of the derivative of order ORDER + 1, which `terms` is now
         for q, c in enumerate(terms):
-            size += 2 * abs(c) * (2 * q * arb.pi() * (abs(height) + half)).exp()
+            size += 2 * abs(c) * (2 * q * arb.pi() * (abs(height) + half_height)).exp()
         rest = (size * reach ** (ORDER + 1) / factorial(ORDER + 1)).upper()
         self.rest = acb(arb(0, rest), arb(0) if real else arb(0, rest))
 

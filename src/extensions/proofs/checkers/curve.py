@@ -492,7 +492,7 @@ def _polygon(curve: Curve, centre: Point, columns: int) -> list[list[float]]:
     to be less than half a turn, and the polygon turns once.
     """
     wide = arb(1) / (2 * columns)
-    x_cells, y_cells = (Cells(row, columns, wide=wide * 1.25) for row in curve)
+    x_cells, y_cells = (Cells(row, columns, half_width=wide * 1.25) for row in curve)
     left, right = (
         [(_inflated(x, NEAR), _inflated(y, NEAR)) for x, y in _points(curve, columns, offset)]
         for offset in (arb(-0.125), arb(0.125))

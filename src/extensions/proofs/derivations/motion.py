@@ -1,9 +1,13 @@
-"""Flight, map, energy and bounds: equations (26)-(31) of the paper."""
+"""Flight, map, energy and bounds: equations (6), (8), (22) and (26)-(31) of the paper.
+
+v, w are xdot, udot just before an impact, and b, c just after it. Each derivation returns a
+Formula: whether the equation holds as printed (None if none is printed), whether it holds corrected
+(None without a correction), and a number. `zero` says whether all its arguments vanish.
+"""
 
 import sympy as sp
 
-from .symbols import PAPER, Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero
-from .symbols import E as LEVEL
+from .symbols import PAPER, E, Formula, T, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero
 
 
 def flights() -> Formula:
@@ -40,7 +44,7 @@ def flight_after_impact() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
 
 
 def map_residuals(sign: int) -> tuple[tuple[sp.Symbol, ...], tuple[sp.Expr, ...]]:
-    """Return x1, v1, w1 and (28) as residuals in them, with this sign in its first line."""
+    """Return x1, v1, w1 and (28) as residuals in them, with `sign` before 2k/(1+k) w in line 1."""
     x1, v1, w1 = sp.symbols("x1 v1 w1", real=True)
     first = (1 - k) / (1 + k) * v + sign * 2 * k / (1 + k) * w
     angle = (v1 - (1 - k) / (1 + k) * v + 2 * k / (1 + k) * w) / g
@@ -56,7 +60,7 @@ def impact_map() -> Formula:
     """Derive (28), with the other sign in its first line."""
     position, speed, strain, rate = flight_after_impact()
     holds = []
-    for sign in (1, -1):
+    for sign in (1, -1):  # as printed, and corrected
         (x1, v1, w1), lines = map_residuals(sign)
         # the first line is about the centre, the others about the strain, u = -x at an impact
         pairs = zip(lines, (position, -strain, -strain), strict=True)
@@ -75,59 +79,63 @@ def conserved_energy() -> Formula:
 
 
 def _end_of_section(sign: int) -> sp.Expr:
-    """Largest or smallest x on an energy surface, by the sign."""
-    return g / k + sign * sp.sqrt(2 * LEVEL / k + g**2 / k**2)
+    """Return the largest (sign 1) or the smallest (sign -1) x on an energy surface."""
+    return g / k + sign * sp.sqrt(2 * E / k + g**2 / k**2)
 
 
 def bound() -> Formula:
-    """Check that (31) keeps x below 1 if g < k, and not if g > k; value: at k = 0.2, g = 0.04.
+    """Check that (31) keeps x below 1: as printed for every g, corrected for g < k.
 
-    The product (30) is negative between x = 2 g/k - 1 and x = 1, not for all x < 1.
+    The value is k/2 - g at k = 0.2, g = 0.04. The product (30) is negative between x = 2 g/k - 1
+    and x = 1, not for all x < 1.
     """
     potential = k * x**2 / 2 - g * x
     limit = k / 2 - g
     largest = _end_of_section(1)
     follows = zero(
         potential - limit - k / 2 * (x - 1) * (x + 1 - 2 * g / k),
-        potential.subs(x, largest) - LEVEL,
+        potential.subs(x, largest) - E,
     )
     excess = sp.symbols("excess", positive=True)
-    at_limit = largest.subs(LEVEL, limit)
-    below = sp.simplify(at_limit.subs(k, g + excess)) == 1
-    above = sp.simplify(at_limit.subs(g, k + excess)) == 1
-    return Formula(follows and below and above, follows and below, float(limit.subs(PAPER)))
+    at_limit = largest.subs(E, limit)
+    if_g_below_k = sp.simplify(at_limit.subs(k, g + excess)) == 1
+    if_g_above_k = sp.simplify(at_limit.subs(g, k + excess)) == 1
+    corrected = follows and if_g_below_k
+    return Formula(corrected and if_g_above_k, corrected, float(limit.subs(PAPER)))
 
 
 def bound_in_flight() -> Formula:
-    """Derive (6) in flight as well: the amplitude of u is at most the largest x at an impact."""
-    square = sp.solve(energy(x, b, c) - LEVEL, c)[0] ** 2 + x**2
+    """Derive (6), u > -1, in flight: the amplitude of u is at most the largest x at an impact."""
+    square = sp.solve(energy(x, b, c) - E, c)[0] ** 2 + x**2
     strain, largest = flight(x, b, c, T)[1], _end_of_section(1)
     holds = zero(
-        square - (2 * (LEVEL + g * x) - b**2) / k,
-        2 * (LEVEL + g * largest) / k - largest**2,
+        square - (2 * (E + g * x) - b**2) / k,
+        2 * (E + g * largest) / k - largest**2,
         strain**2 + strain.diff(T) ** 2 - (x**2 + c**2),
     )
-    return Formula(holds and bool(sp.diff(2 * (LEVEL + g * x) / k, x) > 0))
+    return Formula(holds and bool(sp.diff(2 * (E + g * x) / k, x) > 0))
 
 
 def smooth() -> Formula:
     """Derive the energy up to which no flight can touch the floor; value: at k = 0.2, g = 0.04.
 
-    A touch, f = f' = 0, is on the rim, and f'' = g + x <= 0 there.
+    At a touch the gap f = x + u has f = f' = 0: a state on the rim, where f'' = g + x <= 0. At this
+    energy the smallest x is -g.
     """
-    energies = sp.solve(_end_of_section(-1) + g, LEVEL)
+    energies = sp.solve(_end_of_section(-1) + g, E)
     threshold = g**2 * (1 + k / 2)
     holds = len(energies) == 1 and zero(energies[0] - threshold)
     return Formula(None, holds, float(threshold.subs(PAPER)))
 
 
 def contact_speed() -> Formula:
-    """Check (8) and (22): f' >= 0 where the gap closes, and f' = 0 is possible.
+    """Check (8) and (22): the contact speed is positive as printed, not negative corrected.
 
-    The gap x + u is negative before, so its slope at zero is not negative. The rim v + w = 0 has
-    states of every energy above the lowest, so that equality occurs: a grazing impact.
+    The gap x + u is negative before an impact, so its slope at zero, the contact speed, is not
+    negative. It is 0 at a grazing impact: the rim v + w = 0 has states of every energy above the
+    lowest.
     """
-    speed = sp.solve(energy(x, v, -v) - LEVEL, v)
-    inside = PAPER | {x: 0, LEVEL: sp.Rational(1, 100)}
+    speed = sp.solve(energy(x, v, -v) - E, v)
+    inside = PAPER | {x: 0, E: sp.Rational(1, 100)}
     grazing = any(s.subs(inside).is_real and s.subs(inside) != 0 for s in speed)
     return Formula(not grazing, grazing)

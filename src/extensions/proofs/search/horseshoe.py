@@ -171,7 +171,10 @@ def mirrors(saddles: Sequence[Vector]) -> list[int]:
 def directions(
     surface: Surface, saddles: Sequence[Vector], side: int
 ) -> tuple[arb, list[list[arb]]]:
-    """Return rho, and the unstable directions, stretched by rho from one to the next."""
+    """Return rho, the n-th root of the multiplier, and the unstable directions of n saddles.
+
+    The first is outwards if `side` is 1, inwards if -1. The map takes each to rho times the next.
+    """
     orbit = enclose(surface, saddles)
     half, (a, b) = orbit.trace / 2, orbit.matrix.table()[0]
     multiplier = half + (half * half - 1).sqrt()

@@ -1,4 +1,4 @@
-"""./reproduce clean: delete generated files in results/."""
+"""./reproduce clean: delete generated files in results/, and .snakemake."""
 
 import json
 import shutil
@@ -16,7 +16,8 @@ from ..arguments import Arguments, hint
 from ..session import CommandLineError, UsageError, locked
 
 RESULTS = ROOT / "results"
-# Files that commands and jobs write besides results and their records.
+# Files that commands and jobs write besides results and their records. Files named .part are those
+# of killed processes, or finished parts of unfinished datasets.
 _OTHER_FILES = (
     "*/differences/*.png",
     "*/logs/*.log",
@@ -32,23 +33,26 @@ _OTHER_FILES = (
 
 
 def run(args: Arguments) -> int:
-    """Delete generated files in some folders of results/, or in all and in .snakemake."""
-    present = sorted(f.name for f in RESULTS.glob("*/") if _is_inside(f / "file"))
+    """Delete the generated files of the named folders of results/.
+
+    Without names, those of all folders are deleted, and .snakemake too.
+    """
+    existing = sorted(f.name for f in RESULTS.glob("*/") if _has_no_links(f))
     for name in args.folder:
-        if name not in present:
-            meant = hint(name, present) or f": there are {', '.join(present) or 'none'}"
+        if name not in existing:
+            meant = hint(name, existing) or f": there are {', '.join(existing) or 'none'}"
             raise CommandLineError(f"no folder results/{name}{meant}")
-    names = args.folder or present
+    names = args.folder or existing
     with locked():
         files = _generated_files(args, names)
-        own = ROOT / ".snakemake"
-        folders = [own] if not args.folder and own.is_dir() and not own.is_symlink() else []
+        cache = ROOT / ".snakemake"
+        folders = [cache] if not args.folder and cache.is_dir() and not cache.is_symlink() else []
         if not files and not folders:
             print("nothing to delete")
             return 0
         size = sum(file.lstat().st_size for file in files) / 1e6
-        single = [str(file.relative_to(ROOT)) for file in files if file.parent == RESULTS]
-        where = [f"results/{name}" for name in names] + single + [f.name for f in folders]
+        top_files = [str(file.relative_to(ROOT)) for file in files if file.parent == RESULTS]
+        where = [f"results/{name}" for name in names] + top_files + [f.name for f in folders]
         summary = f"{len(files)} files, {size:.1f} MB, in {', '.join(where)}"
         if not args.yes:
             _ask(f"delete {summary}? [y/N] ")
@@ -78,7 +82,7 @@ def _delete_empty_folders(names: list[str]) -> None:
     """Delete the folders of results/ with these names, and those below, that are empty."""
     below = [folder for name in names for folder in RESULTS.glob(f"{name}/**/")]
     for folder in sorted(below, reverse=True):
-        if _is_inside(folder / "file") and not any(folder.iterdir()):
+        if _has_no_links(folder) and not any(folder.iterdir()):
             folder.rmdir()
 
 
@@ -90,7 +94,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
         specs = build_specs(args.config)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
-        # A record may be forged: its path is only compared with the two possible ones.
+        # A forged record may name any file: only these two are accepted.
         folder, name = record.parents[1], record.stem
         with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             result = ROOT / json.loads(read_text(record))["output"]["file"]
@@ -100,7 +104,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
         file
         for file in sorted(candidates)
         if file.is_file()
-        and _is_inside(file)
+        and _has_no_links(file.parent)
         and str(file.relative_to(ROOT)) not in committed
         and (
             file.relative_to(RESULTS).parts[0] in names
@@ -109,6 +113,6 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     ]
 
 
-def _is_inside(file: Path) -> bool:
-    """Return whether no link in a file's path leads elsewhere."""
-    return file.parent.resolve() == ROOT.resolve() / file.parent.relative_to(ROOT)
+def _has_no_links(folder: Path) -> bool:
+    """Return whether a folder of the project lies where its path says, without symbolic links."""
+    return folder.resolve() == ROOT.resolve() / folder.relative_to(ROOT)

@@ -1,6 +1,7 @@
 """Axis limits and ticks from data, and refusal of axes that show none of the data.
 
-Matplotlib's locators use logarithms of the C library; the arithmetic here is exact.
+Matplotlib's locators use the C library's logarithm, whose last bit varies between machines. Here
+fractions, IEEE arithmetic and compiled logarithms decide, with the same bits everywhere.
 """
 
 import math
@@ -16,13 +17,14 @@ from numpy.typing import ArrayLike
 from ..canvas import style
 from .panel import Axis, log10
 
-# Limits are refused if they are wider than the data by these factors. The abscissa of a line may be
-# wide because a run may be a short trial of a longer one, and its ordinate because it may be flat.
+# Limits are refused if they are wider than the data's largest modulus by these factors. The
+# abscissa of a line may be wide because a run may be a short trial of a longer one, and its
+# ordinate because it may be flat.
 _WIDEST_DOTS, _WIDEST_ABSCISSA, _WIDEST_ORDINATE = 1e3, 1e4, 1e6
-_NARROWEST = 1e-12  # of the size of the data
-_LONGEST = 7  # characters of a tick label that fit at the left of a chart
-_FEW = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
-_MOST = 9  # decades with a tick each; beyond that every second, third, ... has one
+_NARROWEST = 1e-12  # of that modulus
+_LONGEST_LABEL = 7  # characters of a tick label that fit at the left of a chart
+_FEW_DECADES = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
+_MOST_DECADES = 9  # decades with a tick each; beyond that every second, third, ... has one
 
 
 def of_data(
@@ -31,7 +33,8 @@ def of_data(
     """Return an axis, limits and ticks, with round limits around arrays that may have NaN.
 
     `margin` is the part of the axis without ticks at either end, for axes that meet at a corner;
-    `room` the space between data and limits in spans of the data; `most` the number of steps.
+    `room` is the space between data and limits in spans of the data, and `most` the largest number
+    of steps.
     """
     low = min(float(np.nanmin(part)) for part in values)
     high = max(float(np.nanmax(part)) for part in values)
@@ -40,7 +43,7 @@ def of_data(
         low, high = low - (size or 1.0), high + (size or 1.0)
     low, high = low - room * (high - low), high + room * (high - low)
     step = _step((high - low) / most)
-    fine = step / 5  # limits are whole numbers of it
+    fine = step / 5  # the unit of limits; every fifth one is a tick
     start, end = _as_written(low) // fine, -(-_as_written(high) // fine)
     first, last = start + margin * (end - start), end - margin * (end - start)
     ticks = range(-int(-first // 5), int(last // 5) + 1)
@@ -51,10 +54,10 @@ def of_data(
 
 
 def linear(low: float, high: float, count: float, name: str = "") -> Axis:
-    """Return an axis with round ticks; what long labels have in common is in the name."""
+    """Return an axis with round ticks. If labels are long, their common part moves to the name."""
     low, high = float(low), float(high)
     values = ticks(low, high, count) if count else []
-    if all(len(style.number(value)) <= _LONGEST for value in values):
+    if all(len(style.number(value)) <= _LONGEST_LABEL for value in values):
         return Axis((low, high), values, name)
     power = int(f"{(high - low) / count:e}".partition("e")[2])
     unit = Fraction(10) ** power
@@ -76,11 +79,11 @@ def around(
     if not high > low:
         low, high = low - 0.01, high + 0.01
     span = high - low
-    return linear(low - room * span, high + (above or room) * span, count, name)
+    return linear(low - room * span, high + (room if above is None else above) * span, count, name)
 
 
 def ticks(low: float, high: float, count: float) -> list[float]:
-    """Return about `count` round numbers from low to high, more if there would be less than two."""
+    """Return about `count` round numbers from low to high, more if they would be fewer than two."""
     step = _step((high - low) / count * (1.0 + 1e-9))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     if first >= last:
@@ -89,29 +92,30 @@ def ticks(low: float, high: float, count: float) -> list[float]:
 
 
 def decades(limits: Sequence[float], name: str = "") -> Axis:
-    """Return a logarithmic axis with ticks at every n-th whole power of ten.
+    """Return a logarithmic axis; `limits` are the logarithms to base ten of its ends.
 
-    If there is not even one decade between two ticks, they are at multiples of the powers.
+    Ticks are at every n-th whole power of ten, or, if at most one of these lies between the limits,
+    at multiples of the powers.
     """
     low, high = limits
     if math.floor(high + 1e-9) <= math.ceil(low - 1e-9):
-        digits = (1, 2, 5) if high - low > _FEW else (1, 1.5, 2, 3, 4, 5, 6, 8)
+        digits = (1, 2, 5) if high - low > _FEW_DECADES else (1, 1.5, 2, 3, 4, 5, 6, 8)
         powers = range(math.floor(low), math.floor(high) + 1)
         values = [
             float(Fraction(10) ** power * Fraction(digit)) for power in powers for digit in digits
         ]
         at = {float(log10(value)[0]): style.number(value) for value in values}
         at = {log: label for log, label in at.items() if low <= log <= high}
-        return Axis(limits, list(at), name, True, labels=list(at.values()))
-    every = 1 + int(high - low) // _MOST
+        return Axis(limits, list(at), name, decades=True, labels=list(at.values()))
+    every = 1 + int(high - low) // _MOST_DECADES
     first = math.ceil(low / every - 1e-9) * every
-    return Axis(limits, range(first, math.floor(high + 1e-9) + 1, every), name, True)
+    return Axis(limits, range(first, math.floor(high + 1e-9) + 1, every), name, decades=True)
 
 
 def complete(scene: dict[str, Any], **axes: Callable[[], Any]) -> dict[str, Any]:
     """Return the scene with all named axes, calling `axes[name]()` for those that it lacks.
 
-    A mapping scene["completed"], if there is one, is filled with the axes.
+    A caller that wants to know the axes gives an empty mapping scene["completed"].
     """
     own = scene.get("axes", {})
     whole = {name: own[name] if name in own else make() for name, make in axes.items()}
@@ -144,12 +148,13 @@ def _as_written(value: float) -> Fraction:
 
 
 def refuse_empty(axes: dict[str, Any], values: dict[str, Any], joined: bool = False) -> None:
-    """Raise ValueError, one line, if axes show none of the data or shrink them to a spot.
+    """Raise ValueError, in one line, if axes show none of the data or are too wide or too narrow.
 
     `values` has an array, all of one shape, for each name. If lines join consecutive values
     (`joined`), the first name is the abscissa, and the data may be flat along the others.
     """
     visible: list[np.ndarray] = []
+    abscissa = next(iter(values))
     for name, value in values.items():
         low, high = axes[name]["limits"]
         known = value[np.isfinite(value)]
@@ -157,7 +162,9 @@ def refuse_empty(axes: dict[str, Any], values: dict[str, Any], joined: bool = Fa
             raise ValueError(f"axes.{name}: there is nothing to be drawn")
         least, most = float(known.min()), float(known.max())
         size = max(abs(least), abs(most))
-        widest = (_WIDEST_ORDINATE if visible else _WIDEST_ABSCISSA) if joined else _WIDEST_DOTS
+        widest = _WIDEST_DOTS
+        if joined:
+            widest = _WIDEST_ABSCISSA if name == abscissa else _WIDEST_ORDINATE
         half = 0.5 * high - 0.5 * low  # the whole may overflow
         reasons = {
             "all data lie beyond them": high < least or most < low,
