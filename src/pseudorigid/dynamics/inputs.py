@@ -73,7 +73,10 @@ def one_of(name: str, value: Any, words: Sequence[str]) -> None:
 
 
 def state_of(state: Any) -> tuple[Any, ...]:
-    """Return x, xdot and udot of a state (x, xdot, udot), or of the last states of a Dataset."""
+    """Return x, xdot and udot of a state (x, xdot, udot), or of a Dataset.
+
+    Of a Dataset they are those of the last state of each orbit.
+    """
     if hasattr(state, "data_vars"):
         return _last_state(state)
     try:
@@ -97,9 +100,10 @@ def _converted(value: Any) -> np.ndarray:
     """Convert to an array of doubles; raise TypeError or OverflowError if that is impossible."""
     if hasattr(value, "__array__") and not np.ma.isMaskedArray(value):
         value = np.asarray(value)
+    # As objects bools, None and whole numbers beyond 64 bits are still seen one by one.
     elif isinstance(value, (list, tuple)) and not any(map(np.ma.isMaskedArray, value)):
         value = np.array(value, dtype=object)
-    elif not np.ma.isMaskedArray(value):
+    elif not np.ma.isMaskedArray(value):  # a scalar, or a list that has masked arrays
         value = np.ma.array(value, dtype=object)
     data = np.ma.getdata(value)
     if data.dtype.kind == "O":
@@ -119,7 +123,7 @@ def _double(element: Any) -> float:
     """Convert one element of an array of objects."""
     if np.ma.is_masked(element):
         return math.nan
-    if getattr(element, "shape", None) == ():
+    if getattr(element, "shape", None) == ():  # an array without dimensions
         return float(_converted(element))
     if isinstance(element, bool) or not isinstance(element, (Real, Decimal)):
         raise TypeError
@@ -133,6 +137,7 @@ def _last_state(data: xr.Dataset) -> tuple[Any, ...]:
     """Return x, xdot and udot of the last state of each orbit in a Dataset."""
     if missing := [name for name in _STATE if name not in data]:
         raise ValueError(f"state: a Dataset without {', '.join(missing)}")
+    # All orbits lie along "point", one after the other; row_size counts the points of each.
     if "row_size" in data and data["row_size"].attrs.get("sample_dimension") == "point":
         counts = np.atleast_1d(data["row_size"].values)
         complete = data["x"].dims == ("point",) and counts.sum() == data.sizes["point"]

@@ -28,7 +28,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
         Number of impacts, at least 1.
     records : int
         Number of equal parts of the orbit after which the exponents so far are recorded, at least
-        1.
+        1. If it exceeds `impacts`, the exponents are recorded after each impact.
 
     Returns
     -------
@@ -68,14 +68,15 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     except (MemoryError, ValueError):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
-    def exponents_of_piece(x: np.ndarray, v: np.ndarray, w: np.ndarray, out: np.ndarray) -> int:
-        parts: Sequence[Any] = range(x.size)
+    def exponents_of_piece(x: np.ndarray, v: np.ndarray, w: np.ndarray, piece: np.ndarray) -> int:
+        """Write the exponents of some orbits, and return how many impacts a scan missed."""
+        parts: Sequence[Any] = range(x.size)  # one orbit each, or slices of several
         compute = spectrum.exponents_of_orbit
-        if x.size >= MIN_ORBITS_FOR_LANES:  # fewer are not worth the time to compile this
+        if x.size >= MIN_ORBITS_FOR_LANES:  # fewer are faster one after the other
             parts = [slice(i, i + GROUP) for i in range(0, x.size, GROUP)]
             compute = spectrum.exponents_of_group
         k, g, scan = ball.k, ball.g, ball.map.scan
-        return sum(compute(x[i], v[i], w[i], k, g, at, out[i], scan) for i in parts)
+        return sum(compute(x[i], v[i], w[i], k, g, at, piece[i], scan) for i in parts)
 
     missed = in_threads(exponents_of_piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
@@ -90,8 +91,8 @@ def scene_exponents(
 ) -> xr.Dataset:
     """Compute the Lyapunov exponents of the orbits of a scene, and their convergence (Figure 7).
 
-    Starts are as in `orbits.start_state`. `impacts` is the number of all orbits, or a list; at the
-    records of other orbits `exponent`, as from `lyapunov_spectrum`, is NaN.
+    Starts are as in `orbits.start_state`. `impacts` is one number for all orbits, or one for each.
+    Then each orbit has records of its own, and `exponent` is NaN at those of the others.
 
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
@@ -103,7 +104,7 @@ def scene_exponents(
     if len(set(counts)) > 1:
         pairs = zip(states, counts, strict=True)
         spectra = [lyapunov_spectrum(ball, state[:, None], n, records) for state, n in pairs]
-        spectrum = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
+        result = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
-        spectrum = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
-    return spectrum.assign(start_variables(starts, states))
+        result = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
+    return result.assign(start_variables(starts, states))

@@ -1,4 +1,6 @@
-"""Methods in this package's arithmetic, whose results have the same bytes on every machine.
+"""Methods in pseudorigid's arithmetic that count their evaluations of the gap.
+
+Their results have the same bytes on every machine.
 
 There are three kinds of method:
 
@@ -15,24 +17,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from pseudorigid.dynamics.ball import Ball, State
-from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients
-from pseudorigid.kernel.impact import MOST_SCAN_STEPS, scan
+from pseudorigid.kernel.impact import MOST_SCAN_STEPS, rebound, scan
+from pseudorigid.kernel.impact import step as certified_step
 
 from . import Flights, Method
 
 MARCH, SCAN, ENGINE = 0, 1, 2
 Settings = tuple[int, float, float]  # kind, step and tolerance in time units
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
-Numbers = tuple[float, float, float]  # x, xdot and udot just before an impact
-NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations
+ScalarState = tuple[float, float, float]  # x, xdot and udot just before an impact
+NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations of the gap
 
 
 @jit
 def _engine(x: float, b: float, c: float, g: float, step: float) -> NextImpact:
-    """Return the end of a flight that begins at x with the velocities b and c."""
+    """Step a flight from x with velocities b, c until overlap; NaN after MOST_SCAN_STEPS steps."""
     position, strain, v, w = x, -x, b, c
     count = 0
     while True:
@@ -43,7 +45,7 @@ def _engine(x: float, b: float, c: float, g: float, step: float) -> NextImpact:
         strain += step * w
         if position + strain >= 0.0 and v + w >= 0.0:
             return count * step, position, v, w, count
-        if not count < MOST_SCAN_STEPS:
+        if count >= MOST_SCAN_STEPS:
             return math.nan, position, v, w, count
 
 
@@ -53,9 +55,9 @@ def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: fl
     kind, step, tolerance = settings
     k, g, coefficients = ball
     if kind == MARCH:
-        p, v, q, tau, count, _ = kernel.step(x, v, w, k, g, coefficients, None)
-        return tau, p, v, q, count
-    b, c, _ = kernel.rebound(v, w, k, coefficients)
+        x, v, w, tau, count, _ = certified_step(x, v, w, k, g, coefficients, None)
+        return tau, x, v, w, count
+    b, c, _ = rebound(v, w, k, coefficients)
     if kind == ENGINE:
         return _engine(x, b, c, g, step)
     tau, count = scan(x, b, c, g, step, tolerance)
@@ -74,7 +76,7 @@ def _flights(
 
 
 @jit
-def _orbit(settings: Settings, ball: Parameters, state: Numbers, out: np.ndarray) -> int:
+def _orbit(settings: Settings, ball: Parameters, state: ScalarState, out: np.ndarray) -> int:
     """Write x, xdot, udot and tau of the impacts of an orbit; return its evaluations."""
     x, v, w = state
     total = 0

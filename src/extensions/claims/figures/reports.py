@@ -1,6 +1,7 @@
 """What each kind of picture reports: quantity -> value as text, measured in its datasets.
 
-A function has the name of a kind and takes the scene's block and the datasets by their stages.
+A function has the name of a kind. It is called with the scene's block and, as keywords, with the
+datasets of all stages of the kind, also those that it does not need.
 """
 
 from typing import Any
@@ -14,13 +15,14 @@ def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> d
     """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
     from ..analyses.spread import in_sea
 
+    # over the blocks of each orbit the mean, of which the largest exponent
     largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
     error = largest.std(ddof=1) / largest.size**0.5
     return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
 
 
 def clusters(block: dict[str, Any], clusters: xr.Dataset) -> dict[str, str]:
-    """Give the mean time from one cluster to the next, for each cut."""
+    """Give the mean time from one cluster to the next, for each flight time that parts them."""
     return {"time between clusters": listing(clusters, "{:.2f} cut at {:g}", "period", "cut")}
 
 
@@ -31,7 +33,7 @@ def rotation(block: dict[str, Any], rotation: xr.Dataset) -> dict[str, str]:
 
 
 def jumps(block: dict[str, Any], jumps: xr.Dataset, orbits: xr.Dataset) -> dict[str, str]:
-    """Give the length of the curve in (x, y) at each energy."""
+    """Give the length of the curve in (x, y) where the map jumps, at each energy."""
     return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}
 
 
@@ -44,23 +46,23 @@ def flux(block: dict[str, Any], flux: xr.Dataset) -> dict[str, str]:
         if f"missing_{side}" in flux.attrs
     }
     for side in with_area["side"].values[with_area["region"].isnull().values]:
-        missing[f"no {side} region"] = "a jump of the map cuts its edge"
+        missing[f"no {side} region"] = "a jump of the map cuts the region's edge"
     return {"lobes": listing(with_area, "{} {:.10g}", "side", "area")} | missing
 
 
 def last_curve(block: dict[str, Any], last_curve: xr.Dataset) -> dict[str, str]:
-    """Give the residue of each number's last convergent, and its period."""
+    """Give residue and period of the last convergent of each noble rotation number."""
     last = last_curve.isel(convergent=-1)
     return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}
 
 
 def control(block: dict[str, Any], control: xr.Dataset) -> dict[str, str]:
-    """Give the regular share of each map at the strength that is drawn."""
+    """Give the regular share of each changed map at the strength drawn, and of the impact map."""
     share = control["class_share"].sel({"class": "regular"}).isel(length=-1)
     rows = share.sel(strength=block["shown"], method="nearest").values.tolist()
     texts = [
         f"{name} {value:.3f}"
         for name, value in zip(control["map"].values.tolist(), rows, strict=True)
     ]
-    none = float(share.isel(map=0, strength=0))
-    return {"regular share": f"{', '.join(texts)}; impact map {none:.3f}"}
+    unchanged = float(share.isel(map=0, strength=0))  # at strength 0 each map is the impact map
+    return {"regular share": f"{', '.join(texts)}; impact map {unchanged:.3f}"}

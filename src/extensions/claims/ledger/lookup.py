@@ -10,7 +10,10 @@ from .outcomes import CORRECTED, FALSE, PROVED, Outcome
 
 
 def formula(algebra: xr.Dataset, *names: str) -> tuple[bool, bool]:
-    """Return whether formulas of the derivations all hold as printed, and when corrected."""
+    """Return whether all formulas hold as printed, and whether all hold as printed or corrected.
+
+    One that the paper does not print (printed is -1) counts as `corrected` does, in both.
+    """
     rows = algebra.sel(formula=list(names))
     printed, corrected = rows["printed"].values, rows["corrected"].values
     holds = (printed == 1) | ((printed == -1) & (corrected == 1))
@@ -18,7 +21,7 @@ def formula(algebra: xr.Dataset, *names: str) -> tuple[bool, bool]:
 
 
 def derived(algebra: xr.Dataset, *names: str) -> Outcome:
-    """Return the outcome for formulas that computer algebra settles, with all formulas' numbers."""
+    """Return the outcome for formulas that computer algebra settles, with the numbers of all."""
     holds, mended = formula(algebra, *names)
     return Outcome(PROVED if holds else CORRECTED if mended else FALSE, numbers_of(algebra))
 
@@ -37,16 +40,15 @@ def bounds_of(theorem: str) -> Mapping[str, Any]:
 
 
 def energy_of(theorem: str) -> float:
-    """Return the energy of a theorem, or the lower bound of the one that its statement encloses."""
+    """Return a theorem's energy; if it encloses an energy, the lower end of the enclosure."""
     bounds = bounds_of(theorem)
     return float(bounds["surface"].energy if "surface" in bounds else bounds["energies"][0])
 
 
 def enclosed(proved: Mapping[str, bool]) -> list[dict[str, Any]]:
-    """Return what the invariant curves among the proved theorems enclose, one row for each.
+    """Return a row for each proved theorem that bounds the area inside invariant curves.
 
-    `share` is a lower bound, of the section, that the theorem states for the disc inside one curve;
-    `period` is the number of such discs.
+    `share` is the least share of the section inside one curve, and `period` the number of curves.
     """
     bounds = [bounds_of(name) for name, known in proved.items() if known]
     return [
@@ -61,8 +63,9 @@ def entropy_bound(proved: Mapping[str, bool]) -> dict[str, Any]:
     return {"entropy": proved["entropy"], "entropy_bound": float(bounds_of("entropy")["entropy"])}
 
 
-def regular_share(sweep: xr.Dataset, row: int, energy: float) -> dict[str, float]:
-    """Return the regular share of a sweep's row, and its interval, at the nearest E/g^2."""
-    cell = sweep.isel(k=row).sel(energy=energy, method="nearest")
+def regular_share(sweep: xr.Dataset, row: int, scaled_energy: float) -> dict[str, float]:
+    """Return share, low, high, k and energy of the cell of a sweep's row nearest to an E/g^2."""
+    cell = sweep.isel(k=row).sel(energy=scaled_energy, method="nearest")
     names = {"regular": "share", "regular_low": "low", "regular_high": "high"}
-    return {names.get(n, n): float(cell[n]) for n in (*names, "k", "energy")}
+    names |= {"k": "k", "energy": "energy"}
+    return {name: float(cell[variable]) for variable, name in names.items()}

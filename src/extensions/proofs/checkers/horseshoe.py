@@ -2,7 +2,7 @@
 
 Sets S_0 ... S_(n-1) at the saddles cover each other in turn. A chain M_-K ... M_K leaves from S_a
 and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. README.md ("Horseshoe") has the
-theorems, and what follows for the orbits of P.
+theorems, and what follows for the orbits of the impact map P.
 """
 
 from fractions import Fraction
@@ -33,13 +33,13 @@ def check(
     window: Window | None = None,
     crossing: Range | None = None,
 ) -> Finding:
-    """Prove a certificate's horseshoe on an orbit of a prime period, with a point in the window.
+    """Prove a certificate's horseshoe on an orbit of a least period, with a point in the window.
 
-    The orbit must be the only one within the radius of the centres of the S. M_0 must lie between
-    the x of the crossing, which tells one connection from another, and the entropy, in nats per
-    impact, be above the given one. The margins are the least over all relations. The parts are
-    saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and loop
-    (impacts).
+    The orbit must be the only one within `radius` of the centres of the sets S. `crossing` is an
+    interval of x that must hold M_0: it tells this connection from others. The entropy, in nats per
+    impact, must be above `entropy`. In the Finding, margins are the least over all coverings, and
+    parts are saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and
+    loop (impacts).
     """
     certificate = Certificate(text, "horseshoe", surface)
     orbit = periodic.prove_saddles(certificate, surface, period, radius, window)
@@ -50,19 +50,21 @@ def check(
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
         ]
-        stated = certificate.numbers("margins", 2)
+        stated = certificate.numbers("margins", 2)  # beyond the exit edges, and room
         if len(stated) != len(edges):
             raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
         if (least := min(map(min, stated))) < 0:
             raise NotProvedError(f"a margin of the certificate is {float(least):g}, below 0")
         margins, cone, angle = _relations(surface, edges, chain, stated)
-        middle = chain[len(chain) // 2]
+        middle = chain[len(chain) // 2]  # visits to it tell the orbits of different paths apart
         for hset in (*saddles, *chain):
             if hset is not middle and not middle.is_disjoint(hset):
                 raise NotProvedError(f"M_0 is not proved to be disjoint from {hset.name}")
         x = middle.box(hsets.UNIT, hsets.UNIT)[0]
         if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
             raise NotProvedError("the connection does not pass y = 0 where the statement says")
+        # A loop runs through the chain, and on around the saddles to where it began. If the lengths
+        # of both loops have no common divisor, the shift is mixing.
         loop = len(chain) + 1 + (leaves - enters) % period
         if gcd(period, loop) != 1:
             raise NotProvedError(f"loops of {period} and {loop} impacts do not mix")
@@ -109,12 +111,12 @@ def _relations(
     slope, middle = hsets.UNIT, chain[len(chain) // 2]
     for (source, target), least in zip(edges, stated, strict=True):
         margin, cone_margin, local = hsets.prove_hyperbolic(surface, source, target)
-        if not all(arb(p) >= ball_of(m) for p, m in zip(margin, least, strict=True)):
+        if not all(arb(a) >= ball_of(b) for a, b in zip(margin, least, strict=True)):
             raise NotProvedError(f"{source.name} covers {target.name}, but by less than is stated")
         margins.append(margin)
         cone = min(cone, cone_margin)
         if source is chain[0]:
-            slope = hsets.UNIT
+            slope = hsets.UNIT  # by the cones |dq/dp| <= 1 here, whatever came before
         (a, b), (c, d) = local.hull()
         slope = (c + d * slope) / (a + b * slope)  # dq/dp of the unstable manifold
         if target is middle:
@@ -130,7 +132,7 @@ def _crossing_angle(middle: HSet, slope: arb) -> arb:
 
 
 def _entropy(period: int, loop: int) -> arb:
-    """Enclose ln x, x^-period + x^-loop = 1, by bisection; both exponents are at least 1."""
+    """Enclose ln x, where x^-period + x^-loop = 1, by bisection; period and loop are at least 1."""
     low, high = arb(0), arb(1)
     for _ in range(60):
         middle = ((low + high) / 2).mid()

@@ -8,7 +8,8 @@ from pseudorigid.kernel import formulas
 
 # Dimensional: radius, mass, inertia, stiffness EV0, gravity, time.
 R, M, E0, EV0, GRAVITY, T = sp.symbols("R m E_0 E_V gamma t", positive=True)
-# Dimensionless.
+# Dimensionless: inertia, gravity, time of flight; position x, velocities xdot and udot just before
+# (v, w) and just after (b, c) an impact, and energy.
 k, g, tau = sp.symbols("k g tau", positive=True)
 x, v, w, b, c, E = sp.symbols("x v w b c E", real=True)
 PAPER = {k: sp.Rational(1, 5), g: sp.Rational(1, 25)}
@@ -18,7 +19,7 @@ class Formula(NamedTuple):
     """The result of deriving one formula."""
 
     printed: bool | None  # whether it holds as printed; None if the paper prints none
-    corrected: bool | None = None  # whether the corrected one holds; None without a correction
+    corrected: bool | None = None  # whether the corrected or unprinted one holds, if there is one
     value: float = float("nan")  # a number that comes with it
 
 
@@ -29,7 +30,8 @@ def zero(*expressions: sp.Expr) -> bool:
 
 def rebound(v: sp.Expr, w: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Velocities b, c after an impact, by the code's own law on symbols."""
-    b, c, *_ = formulas.rebound(v, w, k, (2 / (1 + k), 0))
+    coefficient = 2 / (1 + k), 0  # as a sum of two parts; this one is exact
+    b, c, *_ = formulas.rebound(v, w, k, coefficient)
     return b, c
 
 

@@ -3,7 +3,8 @@
 Lines along the expanding side of each set are mapped forwards. Wherever their images cross a set
 from edge to edge there is a connection, which leads from a strip of the one to the other. Of
 connections whose strips overlap, those are chosen that give the largest growth, and the ones that
-the checker does not accept are left out.
+the checker does not accept are left out. A set is centre + p u + q s, |p|, |q| <= 1, with u its
+expanding and s its contracting side.
 """
 
 from bisect import bisect_left
@@ -30,10 +31,11 @@ _LINE_POINTS = 2001  # along a line through a set
 _FEWEST_POINTS = 12  # of a line's points in a strip
 _ROOM = 0.98  # largest |q| of an image in its target
 _STEP = 1.5  # largest step in p from one point of a line's image to the next
-_WIDENINGS = 6  # of a strip by a twelfth, until all lines land beyond the target's edges
+_WIDENINGS = 6  # of a strip, by a twelfth each, to make its lines end beyond the target's edges
 _CENTRE_DIGITS, _SIDE_DIGITS, _STRIP_DIGITS = 9, 4, 5
 _MARGIN = 0.03  # of the coverings along a chain
-_HIGHEST = 1.0  # entropy above any of this map
+_HIGHEST = 1.0  # end of the bisection; the map's entropy is lower
+_ITERATIONS = 40  # of the weights, at each entropy
 _ENTROPY_ERROR = 1e-4  # of the largest growth that is found
 
 
@@ -51,15 +53,16 @@ class Growth(NamedTuple):
     """The largest entropy of crossings whose strips are disjoint."""
 
     entropy: float
-    weights: np.ndarray  # of the sets, which prove it
-    chosen: list[int]  # names of the crossings
+    weights: np.ndarray  # of the sets; the checker decides whether they prove the growth
+    chosen: list[int]  # numbers of the crossings
 
 
 def propose(theorem: Theorem, periods: Sequence[int], size: float, impacts: int) -> str:
-    """Return a certificate of a graph with the largest growth that is found.
+    """Return a certificate of the graph whose number of paths grows fastest, as far as is found.
 
     There are sets at the points of the symmetric saddles of these periods. `size` is the square
-    root of a quarter of a set's area, in (x, y), and `impacts` the most of a connection.
+    root of a quarter of a set's area in (x, y), and `impacts` the largest number of impacts of a
+    connection.
     """
     surface = theorem.bounds["surface"]
     double_map = DoubleMap(surface)
@@ -68,19 +71,19 @@ def propose(theorem: Theorem, periods: Sequence[int], size: float, impacts: int)
     chains: dict[int, list[str]] = {}
     while True:
         chosen = _largest_growth(candidates, len(sets)).chosen
-        new = [name for name in chosen if name not in chains]
+        new = [number for number in chosen if number not in chains]
         if not new:
             break
-        for name in new:
-            proved = _proved(surface, double_map, sets, candidates[name])
+        for number in new:
+            proved = _proved(surface, double_map, sets, candidates[number])
             if proved is None:
-                del candidates[name]
+                del candidates[number]
             else:
-                candidates[name], chains[name] = proved
-    candidates = {name: candidates[name] for name in chosen}
+                candidates[number], chains[number] = proved
+    candidates = {number: candidates[number] for number in chosen}
     kept, crossings, growth = _best_component(candidates, len(sets))
-    names = sorted(crossings, key=lambda name: (crossings[name].source, crossings[name].low))
-    connections = [(crossings[name], chains[name]) for name in names]
+    numbers = sorted(crossings, key=lambda it: (crossings[it].source, crossings[it].low))
+    connections = [(crossings[number], chains[number]) for number in numbers]
     return _text(surface, {i: sets[i] for i in kept}, connections, growth)
 
 
@@ -116,12 +119,12 @@ def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -
     found = []
     line, edges = np.linspace(-1.0, 1.0, _LINE_POINTS), np.array([-1.0, 0.0, 1.0])
     p, q = np.tile(line, edges.size), np.repeat(edges, line.size)
-    for source, of in enumerate(sets):
-        points = of.points(p, q)
+    for source, source_set in enumerate(sets):
+        points = source_set.points(p, q)
         for count in range(1, impacts + 1):
             points = double_map.step(points)
-            for target, to in enumerate(sets):
-                image = to.coordinates(points).reshape(2, edges.size, line.size)
+            for target, target_set in enumerate(sets):
+                image = target_set.coordinates(points).reshape(2, edges.size, line.size)
                 found += [
                     Crossing(source, target, count, line[i], line[j]) for i, j in _runs(*image)
                 ]
@@ -129,14 +132,15 @@ def _crossings(double_map: DoubleMap, sets: list[Parallelogram], impacts: int) -
 
 
 def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
-    """Return the first and last points of the parts of lines that cross |p|, |q| < 1.
+    """Return the ends of the parts of three lines that cross |p| < 1 within |q| < 1.
 
-    Lines must have no jump in these parts.
+    p and q have a row for each of the source's lines q = -1, 0, 1. Parts with a jump are left out.
     """
     inside = np.abs(p[1]) < 1.0
     changes = np.flatnonzero(np.diff(inside))
     begins, ends = changes[~inside[changes]], changes[inside[changes]] + 1
-    pairs = zip(begins, ends[int(inside[0]) :], strict=False)  # the last part may have no end
+    # An end without a beginning is dropped, and so is a beginning without an end.
+    pairs = zip(begins, ends[int(inside[0]) :], strict=False)
     wide = [_widened(p, low, high) for low, high in pairs if high - low > _FEWEST_POINTS]
     return [
         (low, high)
@@ -146,7 +150,7 @@ def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
 
 
 def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
-    """Widen a part of lines until all of them begin and end beyond |p| = 1; None if none does."""
+    """Widen a part of lines until all of them begin and end beyond |p| = 1; None if that fails."""
     step, sign = max(1, (high - low) // 12), np.sign(p[1, high] - p[1, low])
     for _ in range(_WIDENINGS):
         if low < 0 or high >= p.shape[1]:
@@ -159,15 +163,19 @@ def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
 
 
 def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
-    """Find the largest growth by bisection of the entropy."""
+    """Find the largest entropy at which the weights of the sets still grow, by bisection.
+
+    Each iteration replaces a set's weight by the largest sum, over disjoint strips, of exp(-entropy
+    impacts) times the target's weight.
+    """
     low, high = 0.0, _HIGHEST
     weights = np.ones(count)
     best, strips = Growth(low, weights, []), _strips(crossings, count)
     while high - low > _ENTROPY_ERROR:
         entropy = (low + high) / 2.0
-        for _ in range(40):
+        for _ in range(_ITERATIONS):
             sums, chosen = _choose(strips, weights, entropy)
-            sums = (sums + weights) / 2.0
+            sums = (sums + weights) / 2.0  # cycles of one length would oscillate
             factor = sums.max()
             weights = np.maximum(sums / factor, 1e-12)
         if factor > 1.0:
@@ -178,19 +186,22 @@ def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
 
 
 def _strips(crossings: dict[int, Crossing], count: int) -> list[list[tuple[int, int, Crossing]]]:
-    """Return name, number of strips below, and crossing of each set's strips, by upper ends."""
+    """Return (number, strips wholly below, crossing) of each set's strips, by upper ends."""
     strips: list[list[tuple[int, int, Crossing]]] = [[] for _ in range(count)]
-    for name, it in sorted(crossings.items(), key=lambda pair: (pair[1].high, pair[0])):
+    for number, it in sorted(crossings.items(), key=lambda pair: (pair[1].high, pair[0])):
         here = strips[it.source]
         limit = it.low - 10.0**-_STRIP_DIGITS
-        here.append((name, bisect_left(here, limit, key=lambda strip: strip[2].high), it))
+        here.append((number, bisect_left(here, limit, key=lambda strip: strip[2].high), it))
     return strips
 
 
 def _choose(
     strips: list[list[tuple[int, int, Crossing]]], weights: np.ndarray, entropy: float
 ) -> tuple[np.ndarray, list[int]]:
-    """Choose disjoint strips of the largest sum in each set: return the sums, and the names."""
+    """Choose disjoint strips of the largest sum in each set: return the sums, and the numbers.
+
+    This is weighted interval scheduling.
+    """
     sums, chosen = np.zeros(weights.size), []
     values, discount = weights.tolist(), np.exp(-entropy)
     for source, here in enumerate(strips):
@@ -200,10 +211,10 @@ def _choose(
             taken.append(with_it > best[-1])
             best.append(max(with_it, best[-1]))
         sums[source], n = best[-1], len(here)
-        while n:
-            name, below, _ = here[n - 1]
+        while n:  # back through the choices
+            number, below, _ = here[n - 1]
             if taken[n - 1]:
-                chosen.append(name)
+                chosen.append(number)
             n = below if taken[n - 1] else n - 1
     return sums, chosen
 
@@ -253,9 +264,9 @@ def _best_component(
         joined[it.source, it.target] = 1.0
     _, component = connected_components(joined, connection="strong")
     parts: dict[int, dict[int, Crossing]] = {}
-    for name, it in crossings.items():
+    for number, it in crossings.items():
         if component[it.source] == component[it.target]:
-            parts.setdefault(component[it.source], {})[name] = it
+            parts.setdefault(component[it.source], {})[number] = it
     growths = {label: _largest_growth(part, count) for label, part in parts.items()}
     label = max(growths, key=lambda it: growths[it].entropy)
     return np.flatnonzero(component == label).tolist(), parts[label], growths[label]

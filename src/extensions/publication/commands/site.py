@@ -18,7 +18,7 @@ SITE = "results/site"
 _BESIDE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
 # A web server shows this page for the folder itself.
 _INDEX = Path(__file__).with_name("site_index.html")
-# In the explorer, which also exists alone and then has no links.
+# These links are put into the explorer, which has none where it stands alone.
 _LINKS = (
     '<nav><a href="report.html">Report</a> · <a href="article.html">Article</a></nav>\n</header>'
 )
@@ -32,10 +32,10 @@ def run(args: Arguments) -> int:
         if status or args.makes_nothing:
             return status
         with one_line("site: "):
-            archive.refuse_unpublished(ROOT, args.config)  # before the download
+            archive.refuse_unpublished(ROOT, args.config)  # before packages are downloaded
             _refuse_others(ROOT / SITE)
     add_packages("article")
-    part = ROOT / SITE.replace("site", f".site.{os.getpid()}.part")
+    part = (ROOT / SITE).with_name(f".site.{os.getpid()}.part")
     with locked(), interruptible(), one_line("site: "):
         try:
             _write(part, args)
@@ -50,11 +50,11 @@ def run(args: Arguments) -> int:
 
 
 def _refuse_others(folder: Path) -> None:
-    """Raise ValueError for a file that this command did not write: it would be deleted."""
+    """Raise ValueError for a file that this command cannot have written: it would be deleted."""
     own = [*folder.glob("*.html"), folder / "article.pdf", *(folder / PAPER).glob("*.nc")]
     others = [file for file in sorted(folder.rglob("*")) if file.is_file() and file not in own]
     if others:
-        raise ValueError(f"{others[0]} is not of this command: move it away")
+        raise ValueError(f"{others[0]} was not written by this command: move it away")
 
 
 def _write(folder: Path, args: Arguments) -> None:
@@ -81,9 +81,14 @@ def _write(folder: Path, args: Arguments) -> None:
 
 
 def _replace(part: Path, folder: Path) -> None:
-    """Put a new folder in the place of an old one, which is deleted."""
+    """Put a new folder in the place of an old one, which is deleted, or else put back."""
     old = part.with_name(part.name + ".old")
     if folder.exists():
         folder.rename(old)
-    part.rename(folder)
+    try:
+        part.rename(folder)
+    except BaseException:
+        if old.exists():
+            old.rename(folder)
+        raise
     shutil.rmtree(old, ignore_errors=True)

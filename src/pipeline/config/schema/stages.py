@@ -1,4 +1,4 @@
-"""The stages: the function of each, its inputs, and the fields that decide its data."""
+"""The stages of the core and of extensions: function, inputs, fields that decide the data."""
 
 from collections.abc import Iterable, Mapping
 
@@ -33,8 +33,8 @@ STAGES = {
 }
 for _extension in extensions().values():
     STAGES |= _extension.stages
-# method -> stage -> the function that computes it
-METHODS = {
+# method of an extension -> stage -> the function that computes it
+METHODS_OF_EXTENSIONS = {
     method: functions
     for extension in extensions().values()
     for method, functions in extension.exact.items()
@@ -43,19 +43,26 @@ METHODS = {
 
 def function_of(stage: str, scene: Picture) -> str:
     """Return the function that computes a stage of a scene."""
-    of_method = (functions[stage] for functions in _of_method(scene) if stage in functions)
+    of_method = (
+        functions[stage] for functions in _functions_of_method(scene) if stage in functions
+    )
     return next(of_method, STAGES[stage].function)
 
 
 def takes_method(stage: str, scene: Picture) -> bool:
-    """Return whether a scene's `method` decides the data of a stage."""
-    return STAGES[stage].follows and all(stage in functions for functions in _of_method(scene))
+    """Return whether a scene's `method` decides the data of a stage.
+
+    A scan decides all stages that use a method; a method of an extension only those that it has.
+    """
+    return STAGES[stage].follows and all(
+        stage in functions for functions in _functions_of_method(scene)
+    )
 
 
-def _of_method(scene: Picture) -> list[Mapping[str, str]]:
-    """Return the functions of stages that a scene's `method` brings, none if it has no own ones."""
+def _functions_of_method(scene: Picture) -> list[Mapping[str, str]]:
+    """Return stage -> function of a scene's method if an extension has it, otherwise nothing."""
     keys = scene.method.model_fields_set if isinstance(scene, Scene) and scene.method else ()
-    return [METHODS[key] for key in keys if key in METHODS]
+    return [METHODS_OF_EXTENSIONS[key] for key in keys if key in METHODS_OF_EXTENSIONS]
 
 
 def upstream(stages: Iterable[str]) -> list[str]:
