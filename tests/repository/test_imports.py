@@ -12,6 +12,7 @@ import grimp
 import pytest
 import yaml
 from project import ROOT, SHIPPED, run
+from test_style import pins
 
 from pipeline.commands import COMMANDS
 from pipeline.config.schema.fields import BallBlock
@@ -222,18 +223,13 @@ def packages_of(source):
                 yield PACKAGES.get(name, name)
 
 
-def pins(name):
-    """The packages of requirements/NAME.txt."""
-    text = (ROOT / "requirements" / f"{name}.txt").read_text()
-    return set(re.findall(r"^([\w.-]+)==", text.lower(), re.MULTILINE))
-
-
 SOURCES = {str(f.relative_to(ROOT)): f.read_text() for f in (ROOT / "src").rglob("*.py")}
 
 
 def test_every_imported_package_is_in_the_lock_of_the_commands_that_reach_it():
     for file, source in SOURCES.items():
-        known = pins("lock") | (pins(ADDED[file]) if file in ADDED else set())
+        locks = ["lock", ADDED[file]] if file in ADDED else ["lock"]
+        known = {name for lock in locks for name in pins(f"requirements/{lock}.txt")}
         assert {name.lower() for name in packages_of(source)} <= known, file
 
 

@@ -29,22 +29,14 @@ OTHERS = {
 }  # fmt: skip
 HOSTILE = """
 axes.facecolor: red
-figure.dpi: 37
-savefig.dpi: 41
 savefig.bbox: tight
-savefig.facecolor: blue
-savefig.transparent: True
 font.family: monospace
 font.size: 23
 lines.antialiased: False
-lines.linewidth: 7
-lines.scale_dashes: False
 mathtext.fontset: cm
 path.simplify: True
-svg.fonttype: none
 svg.hashsalt: other
 pdf.compression: 9
-text.antialiased: False
 text.hinting: none
 text.usetex: True
 """
