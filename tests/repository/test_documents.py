@@ -14,7 +14,7 @@ from pipeline.config import reference
 from pipeline.declaration import extensions
 
 DOCUMENTS = sorted(
-    str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
+    str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
 )
 # Folders of the repository; results and .venv are left out.
 FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
@@ -77,14 +77,6 @@ def test_named_files_exist(document):
         made = name.startswith("results/") or name.endswith(".nc") or "NAME" in name
         if not made and not is_absent(name):
             assert any(fnmatch(f"/{file}", f"*/{name}") for file in FILES), word
-
-
-def test_the_python_of_the_readme():
-    (block,) = (text for text in blocks("README.md") if text.startswith("from pseudorigid import"))
-    names = {}
-    exec(block, names)
-    assert f"its multiplier is {float(names['hyperbolic']['multiplier']):.4f}" in block
-    assert names["hyperbolic"]["type"].item() == "hyperbolic"
 
 
 def test_the_variant_of_the_readme():

@@ -1,24 +1,21 @@
-"""Emulated processors give the same bytes: the probe of the matrix and all published figures.
+"""Emulated processors give the bytes of all published figures of the paper.
 
     ./reproduce test -m emulated    # takes minutes
 
 The tests need Debian's qemu-user. For aarch64 they also need apt with its packages
 (dpkg --add-architecture arm64, apt-get update), from which a Python 3.11 is unpacked, and the
 package index, for wheels with the versions and hashes in requirements/lock.txt. Nothing is
-installed. ZLIB_NG names a libz.so.1 of zlib-ng, built with --zlib-compat (Debian has no package of
-it), which replaces the system's. A test whose requirements are missing is skipped with the reason.
+installed. A test whose requirements are missing is skipped with the reason.
 """
 
 import json
 import os
 import shutil
-import subprocess
 import sys
 import zipfile
 
 import pytest
 from project import ROOT, run
-from test_matrix import CONTROLS, probe
 
 from pipeline.checks.published_sets import read_sums
 
@@ -73,33 +70,9 @@ def aarch64(tmp_path_factory):
     return command, {"PYTHONPATH": f"{ROOT / 'src'}{os.pathsep}{folder / 'site'}"}
 
 
-@pytest.fixture(scope="module")
-def zlib_ng():
-    """This processor, with zlib-ng in the place of the system's zlib."""
-    library = os.environ.get("ZLIB_NG")
-    if not library:
-        pytest.skip("ZLIB_NG does not name a libz.so.1 of zlib-ng")
-    command = [sys.executable, "-c", "import zlib; print(zlib.ZLIB_RUNTIME_VERSION)"]
-    preloaded = {"LD_PRELOAD": library}
-    version = subprocess.check_output(command, env=os.environ | preloaded, text=True)
-    assert "zlib-ng" in version
-    return [sys.executable], preloaded
-
-
-@pytest.fixture(scope="module", params=["nehalem", "aarch64", "zlib_ng"])
+@pytest.fixture(scope="module", params=["nehalem", "aarch64"])
 def machine(request):
     return request.getfixturevalue(request.param)
-
-
-def test_the_same_bytes(machine, tmp_path):
-    python, environment = machine
-    caches = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    found = probe(tmp_path / "emulated", "everything", caches | environment, python=python)
-    expected = probe(tmp_path / "native", "everything", {})
-    assert {name for name in expected if found[name] != expected[name]} <= CONTROLS
-    if "Nehalem" in python:
-        assert not {"AVX", "FMA3", "X86_V3"} & set(found["simd"])
-        assert found["library"] != expected["library"]
 
 
 def test_the_published_figures(machine, tmp_path):

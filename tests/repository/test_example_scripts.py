@@ -26,12 +26,6 @@ def save_orbits_of_figure_2(folder):
     artifacts.save(data, folder / "results" / "paper" / "orbits_fig2.nc", {})
 
 
-def test_the_page_shows_each_script_and_its_picture():
-    page = (FOLDER / "README.md").read_text(encoding="utf-8")
-    assert sorted(re.findall(r"\((\w+)\.png\) \| \[\1\.py\]\(\1\.py\) ", page)) == SCRIPTS
-    assert len(SCRIPTS) == 8 and sorted(file.stem for file in FOLDER.glob("*.png")) == SCRIPTS
-
-
 DEAR = "bifurcation", "scan"  # they take seconds
 
 

@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from cycles import motion_of
 from project import shipped
 
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
-from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.paper import BALL as PAPER_BALL
 from pseudorigid.dynamics.paper import EXPONENT, FIGURES, WINDOW
 from pseudorigid.dynamics.variables import of_type
@@ -32,17 +30,9 @@ def test_the_ball_and_the_energies_are_the_paper_s():
 
 @pytest.mark.parametrize("scene", ["fig2", "fig8"])
 def test_the_portraits_have_as_many_starts_and_points(scene):
-    block, starts, points = SCENES[scene], FIGURES[scene]["starts"], FIGURES[scene]["points"]
-    assert len(block["starts"]) == len(block["impacts"]) == starts
-    assert sum(block["impacts"]) == pytest.approx(points, rel=0.02)
-    found = scene_orbits(BALL, block["energy"], block["starts"], block["impacts"])
-    assert found.sizes == {"point": sum(block["impacts"]), "orbit": starts}
-    energy = BALL.energy(*(found[name].values for name in ("x", "xdot", "udot")))
-    assert np.max(np.abs(energy - block["energy"])) < 1e-14
-    # every point is inside the axes
-    for name in ("x", "xdot", "udot"):
-        low, high = block["axes"][name]["limits"]
-        assert np.all((found[name].values >= low) & (found[name].values <= high))
+    block, printed = SCENES[scene], FIGURES[scene]
+    assert len(block["starts"]) == len(block["impacts"]) == printed["starts"]
+    assert sum(block["impacts"]) == pytest.approx(printed["points"], rel=0.02)
 
 
 def test_the_hyperbolic_point_is_in_the_window_of_figure_6():
@@ -61,17 +51,6 @@ def test_the_multipliers():
     multiplier = float(the_orbit("fig6")["multiplier"])
     assert round(multiplier, 4) == 2.0417
     assert round(1 / multiplier, 4) == 0.4898
-
-
-@pytest.mark.parametrize("scene", ["fig3", "fig4"])
-def test_figures_3_and_4_show_a_whole_orbit(scene):
-    one, duration = the_orbit(scene), SCENES[scene]["duration"]
-    assert float(one["total_time"]) < duration
-    found = motion_of(BALL, one, duration)
-    position, strain = found["position"].values, found["strain"].values
-    low, high = SCENES[scene]["axes"]["displacement"]["limits"]
-    assert low < np.min(-position)
-    assert np.max(strain) < high
 
 
 def test_the_exponents_of_figure_7():
