@@ -1,6 +1,5 @@
 """The kernel as WebAssembly gives the bits of the one that numba compiles, in real browsers."""
 
-import hashlib
 import math
 
 import numpy as np
@@ -111,7 +110,7 @@ def test_rest_and_what_is_no_state(browser):
     assert_same_steps(browser, rows)
 
 
-@pytest.mark.parametrize("fraction", [-0.23519, 0.165702, CHAOTIC, 0.6, 0.65, 0.999])
+@pytest.mark.parametrize("fraction", [-0.23519, CHAOTIC, 0.999])
 def test_the_exponent_at_any_number_of_impacts(browser, fraction):
     start = BALL.start(fraction, ENERGY)
     theirs = browser.run(
@@ -194,12 +193,6 @@ def test_the_derivative_in_the_chart(browser):
         theirs = browser.run(script, *start, 3)
         ours = np.ravel(BALL.chart_jacobian(*start, 3))
         assert np.allclose(theirs, ours, rtol=1e-11, atol=1e-11)
-
-
-def test_the_hash(browser):
-    texts = [[i % 251 for i in range(n)] for n in (0, 1, 55, 56, 63, 64, 65, 119, 120, 1000)]
-    script = "return args[0].map(text => pseudorigid.sha256(Uint8Array.from(text)))"
-    assert browser.run(script, texts) == [hashlib.sha256(bytes(t)).hexdigest() for t in texts]
 
 
 # Calls with a bad argument, and the beginning of the message.

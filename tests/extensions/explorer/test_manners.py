@@ -169,16 +169,3 @@ def test_a_double_click_starts_one_orbit(person):
     count = len(person.starts())
     person.dispatch("pointerdown pointerup pointerdown pointerup", 0.5, 0.5)
     assert len(person.starts()) == count + 1
-
-
-def test_the_length_shown_is_the_one_drawn(person):
-    person.open("flux")
-    wait_for(lambda: "24 branches" in person.text("branch-note"))
-    lengths = {
-        part.split(",")[-2]: part.split(",")[-1] for part in person.state()["branches"].split(";")
-    }
-    assert lengths == {"outer": "1.4", "inner": "1"}
-    assert person.value("branch-length") == lengths[person.value("branch-side")]
-    person.set("branch-length", "0.7")
-    person.run("document.getElementById('branch-form').requestSubmit()")
-    assert person.state()["branches"].endswith("outer,0.7")
