@@ -59,17 +59,17 @@ def section_rows(k, g, count, energies):
 
 
 def test_a_million_impacts_of_a_chaotic_orbit(browser):
-    """All of the first ones, and the last, which tells all others since bits that differ grow."""
+    """The first ones, whose hash has a block of padding, and the last, which tells all others."""
     start = BALL.start(CHAOTIC, ENERGY)
     ours = orbit(BALL, start, 1_000_000)
     theirs = browser.run(
         """const orbit = Object.entries(pseudorigid.history(0.2, 0.04, ...args, 1e6));
-        const hash = values => pseudorigid.sha256(pseudorigid.bytesOf(values.slice(0, 1e5)));
+        const hash = values => pseudorigid.sha256(pseudorigid.bytesOf(values.slice(0, 99999)));
         return orbit.map(([name, values]) => [name, hash(values), values.at(-1)]);""",
         *start,
     )
     columns = ((name, ours[name].values) for name in data.STATE)
-    assert theirs == [[name, digest(values[:100_000]), values[-1]] for name, values in columns]
+    assert theirs == [[name, digest(values[:99_999]), values[-1]] for name, values in columns]
 
 
 def test_starts_over_the_section_also_of_other_balls_and_energies(browser):
