@@ -13,7 +13,6 @@ from types import SimpleNamespace
 import pytest
 from project import wait_for
 from selenium import webdriver
-from selenium.webdriver import ActionChains
 from selenium.webdriver.remote.websocket_connection import WebSocketConnection
 
 PROGRAMS = {"chromium": ("chromium", "chromedriver"), "firefox": ("firefox-esr",)}
@@ -58,15 +57,6 @@ class Chromium:
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
         self.driver.find_element("css selector", selector).click()
-
-    def keys(self, *keys):
-        """Press keys together."""
-        chain = ActionChains(self.driver)
-        for key in keys:
-            chain.key_down(key)
-        for key in reversed(keys):
-            chain.key_up(key)
-        chain.perform()
 
     def resize(self, width, height):
         self.driver.set_window_size(width, height)
@@ -134,13 +124,6 @@ class Firefox:
     def click(self, selector):
         """Click with the pointer on the first element that a selector finds."""
         self.tap("mouse", [self.middle(selector)])
-
-    def keys(self, *keys):
-        """Press keys together."""
-        down = [{"type": "keyDown", "value": key} for key in keys]
-        up = [{"type": "keyUp", "value": key} for key in reversed(keys)]
-        actions = [{"type": "key", "id": "keyboard", "actions": [*down, *up]}]
-        self._command("input.performActions", context=self._page, actions=actions)
 
     def tap(self, kind, *paths):
         """Move pointers along paths at once, from where they press to where they let go."""

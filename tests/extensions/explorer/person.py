@@ -124,8 +124,17 @@ class Visitor:
             *(kinds, across, down, target, more),
         )
 
-    def click_at(self, across, down):
-        self.dispatch("pointerdown pointerup", across, down)
+    def start_at(self, x, y, impacts):
+        """Type where an orbit starts, and how long it is."""
+        for name, value in (("impacts", impacts), ("start-x", x), ("start-y", y)):
+            self.set(name, str(value))
+        self.run("document.getElementById('start-form').requestSubmit()")
+
+    def states(self):
+        """The states x, xdot, udot of the chosen orbit, from its CSV."""
+        self.settle()
+        rows = self.table()[1]
+        return np.array([[float(row[name]) for name in ("x", "xdot", "udot")] for row in rows])
 
     def saved(self, name):
         """Press a button that saves a file, and return its type and its bytes."""
@@ -216,12 +225,14 @@ class Person(Visitor):
         picture = self.find("section").screenshot_as_png
         return np.array(Image.open(io.BytesIO(picture)).convert("RGBA"))
 
+    def place(self):
+        """The coordinates that are shown at the pointer."""
+        numbers = re.findall(r"[−\d.]+", self.text("where"))[:2]
+        return [float(number.replace("−", "-")) for number in numbers]
+
     def every_point(self):
         """The impacts of all orbits on the page, joined as in a dataset of orbits."""
-        rows = []
-        for at in range(len(self.starts())):
-            self.run("document.querySelectorAll('#orbits input')[args[0]].click()", at)
-            rows += self.table()[1][1:]
+        rows = [row for row in self.table("csv-all")[1] if row["impact"] != "0"]
         return {
             name: np.array([float(r[name]) for r in rows]) for name in ("x", "xdot", "udot", "tau")
         }

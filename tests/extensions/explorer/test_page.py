@@ -1,6 +1,6 @@
 """The explorer's page in Chromium, used as a person uses it: pointer, touch, keys and fields."""
 
-import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -46,16 +46,10 @@ def test_a_backward_orbit_is_the_inverse_map_s(person):
     person.press("back")
     person.click(0.31, 0.22)
     assert "backwards" in person.settled()[0]["verdict"]
-    _, rows = person.table()
-    state = tuple(float(rows[0][name]) for name in ("x", "xdot", "udot"))
-    reached = []
-    for _ in range(100):
-        *state, tau = BALL.inverse_impact(*state)
-        reached.append((*state, tau))
-    found = [[float(row[name]) for name in ("x", "xdot", "udot", "tau")] for row in rows[1:41]]
-    assert np.allclose(found, reached[:40], atol=1e-10)  # chaos: rounding grows from there
-    assert rows[1]["impact"] == "-1"
-    assert person.text("moment").startswith("t")
+    found = person.states()
+    for before, state in pairwise(found[:41]):
+        assert np.allclose(BALL.inverse_impact(*before)[:3], state, atol=1e-10)
+    assert person.table()[1][1]["impact"] == "-1"
 
 
 def test_dragging_along_the_symmetry_line_shoots_a_fan(person):
@@ -84,47 +78,15 @@ def test_dragging_turns_the_surface_and_moves_the_disk(person):
 def test_the_wheel_zooms_without_limit_at_the_pointer(person):
     person.press("as-disk")
     person.pointer(person.spot(0.3, 0.2)).perform()
-    place = person.text("where")
+    before = person.place()
     origin = ScrollOrigin.from_element(person.find("section"), *person.spot(0.3, 0.2))
     for _ in range(70):
         person.chain().scroll_from_origin(origin, 0, -240).perform()
     assert person.view().half < 1e-13
-    assert len(person.text("where")) > len(place) + 10  # more digits
     person.pointer((40, 40)).perform()
-    there = person.text("where")
-    before, after = (
-        [float(number.replace("−", "-")) for number in re.findall(r"[−\d.]+", text)[:2]]
-        for text in (place, there)
-    )
-    assert before == pytest.approx(after, abs=3e-3)
+    assert before == pytest.approx(person.place(), abs=3e-3)
     person.pointer((40, 40)).click().perform()
     assert person.settled()[-1]["impacts"] == 3000
-
-
-def fingers(person, kind, *points):
-    """Send touches at places in pixels from the middle of the section."""
-    left, top = person.run(
-        "const b = document.getElementById('section').getBoundingClientRect();"
-        "return [b.left + b.width / 2, b.top + b.height / 2]"
-    )
-    at = [{"x": left + x, "y": top + y, "id": i} for i, (x, y) in enumerate(points)]
-    command = person.driver.execute_cdp_cmd
-    command("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
-
-
-def test_two_fingers_zoom_and_a_tap_starts_an_orbit(person):
-    person.press("as-disk")
-    person.run("document.getElementById('section').scrollIntoView({block: 'center'})")
-    fingers(person, "touchStart", (-40, 60))
-    fingers(person, "touchStart", (-40, 60), (40, 60))
-    for reach in (60, 80, 120):
-        fingers(person, "touchMove", (-reach, 60), (reach, 60))
-    fingers(person, "touchEnd")
-    assert person.view().half == pytest.approx(WHOLE * 40 / 120, rel=0.1)
-    count = len(person.starts())
-    fingers(person, "touchStart", (30, 50))
-    fingers(person, "touchEnd")
-    wait_for(lambda: len(person.starts()) == count + 1)
 
 
 @pytest.fixture
@@ -146,13 +108,18 @@ return await new Promise(done => setTimeout(() => done(window.scrollY === 0), 20
 
 
 def test_one_finger_scrolls_unless_it_turns(phone):
+    def touch(kind, *points):
+        at = [{"x": 195 + x, "y": 400 + y} for x, y in points]
+        command = {"type": kind, "touchPoints": at}
+        phone.driver.execute_cdp_cmd("Input.dispatchTouchEvent", command)
+
     def swipe():
         """Return how far the page scrolled, and the view."""
         wait_for(lambda: phone.run(AT_TOP))  # a fling of the swipe before may still scroll
-        fingers(phone, "touchStart", (60, 100))
+        touch("touchStart", (60, 100))
         for step in range(1, 9):
-            fingers(phone, "touchMove", (60 - 5 * step, 100 - 15 * step))
-        fingers(phone, "touchEnd")
+            touch("touchMove", (60 - 5 * step, 100 - 15 * step))
+        touch("touchEnd")
         return phone.run("return window.scrollY"), phone.view()
 
     before = phone.view()
@@ -206,12 +173,9 @@ def test_bad_input_is_a_line_beside_the_field_and_the_picture_stays(person):
     for name, text, words in [
         ("k", "0", "k = 0 is not allowed"),
         ("k", "", "nothing is not allowed"),
-        ("k", "1.2", "at most 1"),
-        ("g", "-1", "g = -1 is not allowed"),
         ("g", "0.3", "between 0 and k"),
-        ("E", "0.07", "0.06"),
         ("E", "1e", "a number"),
-        ("E", "-1", "−0.004"),
+        ("E", "-1", "between −g²/2k = −0.004 and k/2 − g = 0.06, eq. (31)"),
     ]:
         person.type(name, text)
         assert words in person.text(f"{name}-error")
@@ -244,24 +208,8 @@ def test_a_change_of_the_ball_keeps_the_starts_as_fractions(person):
     assert "E_g = g²(1 + k/2) = 0.0018" in person.text("bounds")
 
 
-def test_bounds_of_the_energy_follow_k_and_g(person):
-    """Eq. (31): -g^2/2k < E < k/2 - g."""
-    person.type("g", "0.05")
-    wait_for(lambda: "between −0.00625 and 0.05," in person.text("bounds"))
-    for end, bound in ((1, 0.05), (0, -0.00625)):
-        person.set("E-slide", end)
-        energy = float(person.value("E"))
-        assert abs(energy - bound) < 2e-4 and -0.00625 < energy < 0.05
-        assert person.text("E-error") == ""
-    person.type("E", "0.03")
-    wait_for(lambda: person.state()["E"] == "0.03")
-    person.type("k", "0.15")  # k/2 - g = 0.025
-    assert "between −g²/2k = −0.008333 and k/2 − g = 0.025, eq. (31)" in person.text("E-error")
-    assert person.state()["k"] == "0.2"  # the last good picture stays
-
-
 def test_periodic_orbits_are_those_of_python(person):
-    for period in (1, 2, 5, 6):
+    for period in (1, 5, 6):
         expected = symmetric_orbits(BALL, ENERGY, period)
         values = {"k": K, "g": G, "energy": ENERGY, "period": period}
         found = person.run(JOB, "periodic", values)
@@ -291,9 +239,10 @@ def test_a_person_finds_a_saddle_and_draws_its_branches(person):
     assert "above 0" in person.text("branch-error")
 
 
-@pytest.mark.parametrize("side", ["inner", "outer"])
-@pytest.mark.parametrize("stable", [False, True])
-@pytest.mark.parametrize(("energy", "period", "length"), [(0.01, 6, 1.5), (0.001, 10, 0.3)])
+@pytest.mark.parametrize(
+    ("energy", "period", "length", "side", "stable"),
+    [(0.01, 6, 1.5, "inner", False), (0.001, 10, 0.3, "outer", True)],
+)
 def test_branches_are_those_of_python(person, energy, period, length, side, stable):
     saddle = of_type(symmetric_orbits(BALL, energy, period), "hyperbolic")
     points = np.stack([saddle[name].values for name in ("x", "xdot", "udot")], axis=1).tolist()
@@ -345,14 +294,7 @@ def test_the_ball_in_time_steps_from_impact_to_impact(person):
 def test_every_preset_draws_and_has_one_sentence(person):
     options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
     own, *names = person.run(options)
-    variants = config.load(SHIPPED).variants
-    published = {
-        scene
-        for name in ("paper", "claims", "proofs")
-        for scene, block in variants[name].items()
-        if block.on_section
-    }
-    assert own == "" and {name for name in names if "/" not in name} == published
+    assert own == ""
     assert set(names) == set(person.run("return Object.keys(JSON.parse(data.textContent).scenes)"))
     seen = []
     names = [name for name in names if "/" not in name]
@@ -382,23 +324,15 @@ def test_the_address_holds_the_whole_state(person):
     assert np.mean(np.any(person.pixels() != picture, axis=2)) < 1e-3
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    ["k=0", "orbits=2*10", "E=9", "fig99", "%E0%A4%A", "orbits=0.1*0", "view=cube,1,2,3,4,5"],
-)
-def test_a_bad_address_is_a_line_and_shows_figure_2(person, wrong):
-    person.open(wrong)
-    assert "address" in person.text("hint")
-    assert wrong != "fig99" or "has fig99:" in person.text("hint")
-    assert len(person.starts()) == 8
+def test_a_bad_address_is_a_line_and_shows_figure_2(person):
+    for wrong in ("k=0", "orbits=2*10", "%E0%A4%A", "view=cube,1,2,3,4,5", "fig99"):
+        person.open(wrong)
+        assert "address" in person.text("hint")
+        assert len(person.starts()) == 8
+    assert "has fig99:" in person.text("hint")
 
 
-def test_an_unknown_preset_in_an_address_is_left_out(person):
-    person.open("k=0.2&preset=nobody")
-    assert person.value("preset") == "" and "of your own" in person.text("see")
-
-
-@pytest.mark.parametrize("scene", ["fig8", "thin-shell/fig2", "below/fig5", "lower-energy/fig3"])
+@pytest.mark.parametrize("scene", ["fig8", "below/fig5"])
 def test_the_name_of_a_scene_is_an_address(person, scene):
     variant, name = scene.split("/") if "/" in scene else ("paper", scene)
     block = config.load(SHIPPED).variants[variant][name].as_mapping()
@@ -424,12 +358,15 @@ def test_points_of_a_scene_are_places(person):
 
 def test_the_atlas_goes_to_a_ball_and_an_energy_by_pointer_and_keys(person):
     person.unfold("atlas-panel")
-    canvas = person.find("atlas")
+    canvas, small = person.find("atlas"), "return document.getElementById('peek').toDataURL()"
     canvas.send_keys(*[Keys.ARROW_LEFT] * 3, *[Keys.ARROW_DOWN] * 2)
     assert "k = 0.17, E/g² = 4.96: regular share" in person.text("atlas-note")
     canvas.send_keys(Keys.ENTER)
     wait_for(lambda: person.state()["k"] == "0.17")
     assert float(person.state()["E"]) == pytest.approx(4.96 * 0.04**2)
+    before = person.run(small)
+    person.pointer((30, -20), "atlas").perform()
+    wait_for(lambda: person.run(small) != before)  # the section there
     person.pointer((30, -20), "atlas").click().perform()
     state = person.state()
     k, g, energy = (float(state[name]) for name in ("k", "g", "E"))
@@ -438,8 +375,7 @@ def test_the_atlas_goes_to_a_ball_and_an_energy_by_pointer_and_keys(person):
     assert len(person.settled()) == 8
 
 
-@pytest.mark.parametrize("width", [360, 1280, 2000])
-@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(("width", "theme"), [(360, "dark"), (2000, "light")])
 def test_the_page_fits_and_is_legible(person, width, theme):
     """An accessibility checker finds nothing, in any panel."""
     metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
@@ -455,18 +391,12 @@ def test_the_page_fits_and_is_legible(person, width, theme):
         assert needed <= room
         broken = Axe().run(person.driver)["violations"]
         assert [(rule["id"], node["html"]) for rule in broken for node in rule["nodes"]] == []
-        small = person.run(
-            "return [...document.querySelectorAll('button, select, input:not([type=range])')]"
-            ".map(n => [n.id, n.getBoundingClientRect()]).filter(([, b]) => b.width &&"
-            " (b.height < 24 || b.width < 24) && !(b.width >= 20 && b.height >= 20))"
-            ".map(([id]) => id)"
-        )
-        assert small == []
     finally:
         person.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
-def test_firefox_draws_the_same_and_fingers_zoom(firefox, address):
+def test_a_walk_through_the_page_in_firefox(firefox, address):
+    """By pointer, fingers and fields, with a saved file, a reload and undo."""
     visitor = Visitor(firefox, address)
     visitor.open()
     exponent = lyapunov_spectrum(BALL, BALL.start(0.534522, ENERGY), 25000, 1)["exponent"]
@@ -475,11 +405,20 @@ def test_firefox_draws_the_same_and_fingers_zoom(firefox, address):
     wait_for(lambda: visitor.text("hint").startswith("This orbit is"))
     assert len(visitor.starts()) == 9
     assert visitor.text("play") == "Pause"
-    before = visitor.view().half
+    visitor.press("as-disk")
     across, down = firefox.middle("#section")
     apart = [[(across + side * d, down) for d in (30, 50, 90)] for side in (-1, 1)]
     firefox.tap("touch", *apart)  # two fingers
-    wait_for(lambda: visitor.view().half < 0.5 * before)
+    wait_for(lambda: visitor.view().half == pytest.approx(WHOLE * 30 / 90, rel=0.1))
     firefox.tap("touch", [(across, down)])
+    wait_for(lambda: len(visitor.starts()) == 10)
+    visitor.press("clear")
+    visitor.start_at(0.1, 1e-3, 1000)
+    expected = BALL.after(BALL.state_xy(0.1, 1e-3, ENERGY), 1000)
+    assert visitor.states()[-1].tolist() == np.ravel(expected)[:3].tolist()
+    visitor.reload()
+    assert visitor.starts() == ["@0.1:0.001"]
+    visitor.press("undo")
+    visitor.press("undo")
     wait_for(lambda: len(visitor.starts()) == 10)
     assert firefox.errors() == []

@@ -45,10 +45,8 @@ def test_no_number_is_typed_into_the_text():
 @pytest.mark.parametrize(
     "text",
     [
-        *("converge to 0.235.", "== Figure 2", "72 statements", "x = 1"),
-        *("Seven figures are reproduced.", "It has twenty-one islands."),
-        *("an angle of $pi / 3$", "at $x = 0.21$", "$E = x^2 / 2 + 2$"),
-        *('#code("0.235")', '#ours("fig2", "orbits", 3)', "#text[7]", "#str(0.235)"),
+        *("72 statements", "It has twenty-one islands.", "an angle of $pi / 3$"),
+        *("$E = x^2 / 2 + 2$", '#code("0.235")', '#ours("fig2", "orbits", 3)'),
     ],
 )
 def test_a_typed_number_is_noticed(text):
@@ -134,29 +132,11 @@ def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing
     assert "Accuracy: 10−12." in plain and "<sup>−12</sup>" in box
 
 
-def test_the_article_is_no_draft_once_citation_cff_is_complete(compiled):
-    person = {"name": "Ann Bee", "orcid": "https://orcid.org/0-1"}
-    known = {"date": "2026-01-01", "addresses": ["https://doi.org/10.1/x"]}
-    whole = compiled(missing=[], authors=[person], **known).decode()
-    assert "Draft." not in whole
-    for words in (*person.values(), known["date"], *known["addresses"]):
-        assert words in whole
-
-
 def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
     ours = {scene: data["figures"][scene]["settings"]["axes"] for scene in numbers.PRINTED_TICKS}
     for scene, axes in numbers.PRINTED_TICKS.items():
         for axis, ticks in axes.items():
             assert {*ticks} <= {*ours[scene][axis]["ticks"]}
-
-
-def test_print_takes_the_vector_file_and_the_web_page_the_smaller_one(data):
-    for figure in data["figures"].values():
-        vector = (ROOT / figure["file"]).with_suffix(".svg")
-        picture = ROOT / figure["web_file"]
-        assert (ROOT / figure["file"] == vector) == vector.exists()
-        for other in (vector, vector.with_suffix(".png")):
-            assert not other.exists() or picture.stat().st_size <= other.stat().st_size
 
 
 @pytest.mark.parametrize(
@@ -165,10 +145,24 @@ def test_print_takes_the_vector_file_and_the_web_page_the_smaller_one(data):
         ('"rotation number")', '"rotation nunber")', "rotation nunber"),
         ("@greene", "@green", "green"),
         ("#findings(42)", "#findings(4242)", "none"),
-        ('#beside("fig2")', '#beside("fig9")', "fig9"),
-        ('#theorem("entropy")', '#theorem("no-theorem")', "none"),
     ],
 )
 def test_a_number_or_reference_that_does_not_exist_is_one_line(compiled, old, new, problem):
     with pytest.raises(ValueError, match=rf"^[^\n]*{problem}[^\n]*$"):
         compiled(old=old, new=new)
+
+
+def test_the_article_is_a_draft_until_citation_cff_is_complete(compiled):
+    facts = numbers.read_citation()
+    assert {"doi, of the archived software", "ORCIDs of the authors"} <= {*numbers.missing(facts)}
+    orcid = "https://orcid.org/0-1"
+    facts |= {
+        "authors": [{"given-names": "Ann", "family-names": "Bee", "orcid": orcid}],
+        "doi": "10.1/x",
+        "repository-code": "https://example.org/x",
+        "date-released": "2026-01-01",
+    }
+    text = compiled(**numbers._of_citation(facts)).decode()
+    assert "Draft." not in text
+    for words in ("Ann Bee", orcid, "2026-01-01", "https://doi.org/10.1/x", "example.org/x"):
+        assert words in text

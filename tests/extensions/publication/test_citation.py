@@ -27,20 +27,3 @@ def test_each_published_figure_is_in_the_codecheck_manifest():
     }
     assert {entry["file"] for entry in listed} == published
     assert all(entry["comment"] for entry in listed)
-
-
-def test_what_nobody_has_given_is_listed_until_it_is_given():
-    facts = numbers.read_citation()
-    assert {"doi, of the archived software", "ORCIDs of the authors"} <= {*numbers.missing(facts)}
-    facts |= {
-        "authors": [
-            {"given-names": "Ann", "family-names": "Bee", "orcid": "https://orcid.org/0-1"}
-        ],
-        "doi": "10.1/x",
-        "repository-code": "https://example.org/x",
-        "date-released": "2026-01-01",
-    }
-    stated = numbers._of_citation(facts)
-    assert not stated["missing"]
-    assert stated["authors"] == [{"name": "Ann Bee", "orcid": "https://orcid.org/0-1"}]
-    assert stated["addresses"] == ["https://example.org/x", "https://doi.org/10.1/x"]
