@@ -35,7 +35,7 @@ def test_a_file_that_the_command_did_not_write_is_refused(tmp_path, name):
     write(tmp_path, "report.html", "article.pdf", "paper/orbits_fig2.nc")
     site._refuse_others(tmp_path)
     write(tmp_path, name)
-    with pytest.raises(ValueError, match=re.escape(f"{name} is not of this command")):
+    with pytest.raises(ValueError, match=re.escape(f"{name} was not written by this command")):
         site._refuse_others(tmp_path)
 
 
