@@ -150,7 +150,7 @@ def test_a_coordinate_that_is_not_finite_gives_nan_only_there(case):
 @pytest.mark.parametrize("call", FUNCTIONS_OF_STATES)
 def test_each_element_has_the_bits_of_the_scalar_call(call):
     """The arrays are read-only, and in order of columns, strided, and to be broadcast."""
-    x = np.asfortranarray(np.linspace(-0.3, 0.3, 12).reshape(3, 4))[::-1]
+    x = np.asfortranarray(np.linspace(-0.3, 0.3, 12).reshape(3, 4))
     state = x, np.array(0.1), np.linspace(0.1, 0.3, 8)[::2]
     for array in state:
         array.flags.writeable = False

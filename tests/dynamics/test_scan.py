@@ -52,6 +52,8 @@ def test_exponents_belong_to_the_scanned_orbit():
     orbits = scanned(step=0.5)
     orbit(orbits, SEA, 2000)
     assert (ball.map.impacts, ball.map.missed) == (2000, orbits.map.missed)
+    many = lyapunov_spectrum(ball, BALL.start([0.534522] * 40, 0.01), 2000, records=1)
+    assert np.array_equal(many.exponent.values[-1], [found] * 40)
     exact = lyapunov_spectrum(BALL, SEA, 2000, records=1).exponent.values[-1]
     assert 1e-6 < np.max(np.abs(found - exact)) < 0.1  # chaotic orbits part after 100 impacts
 
