@@ -11,8 +11,6 @@ import numpy as np
 import pandas
 import pytest
 import xarray as xr
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.ensemble import ImpactMap
@@ -75,6 +73,7 @@ COORDINATES = [case for function in FUNCTIONS_OF_STATES for case in cases(functi
 COORDINATES += cases(BALL.state, x=0.125, xdot=0.25, energy=0.5)
 COORDINATES += cases(BALL.state_xy, x=0.125, y=0.25, energy=0.5)
 COORDINATES += cases(BALL.start, fraction=0.25, energy=0.5)
+COORDINATES += cases(lambda energy: BALL.section(energy)[1], energy=0.5)
 NUMBERS = [
     *cases(Ball, k=0.25, g=0.5),
     *cases(lambda step, tolerance: ImpactMap((step, tolerance)), step=0.25, tolerance=0.5),
@@ -90,16 +89,11 @@ COUNTS = [
     *cases(partial(symmetric_orbits, BALL, 0.25), period=1),
     *cases(trace, saddle=3),
 ]
-INVALID_NUMBERS = (
-    True, np.True_, "0.25", b"1", np.str_("1"), None, 0.25 + 0j, np.complex64(1), {}, {0.25},
-    object(), datetime.date(2020, 1, 1), np.datetime64("2020"), np.timedelta64(1, "ns"),
-    np.array("0.25"), np.array(True), np.array(None), 10**400, -(10**5000), Decimal("1e400"),
-    Decimal("sNaN"), Fraction(10**400), xr.DataArray(True), SADDLE, pandas.NA, lambda: 1.0,
-)  # fmt: skip
-INVALID_ARRAYS = (
-    [True, 0.25], ["0.25", 0.25], [None, 0.25], [0.25, 1j], [[1], [1, 2]], [10**400], [{}],
-    np.array([0.25, 1j]), np.array(["0.25"]), np.array([True]), pandas.Series(["a"]),
-    np.array([np.timedelta64(1, "ns")]), np.array([0.25, None]), np.zeros(2, dtype="f8, f8"),
+INVALID = (
+    True, "0.25", b"1", None, 0.25 + 0j, {}, datetime.date(2020, 1, 1), np.timedelta64(1, "ns"),
+    np.array(True), 10**400, -(10**5000), Decimal("sNaN"), Fraction(10**400), xr.DataArray(True),
+    SADDLE, pandas.NA, lambda: 1.0, [True, 0.25], ["0.25", 0.25], [0.25, 1j], [[1], [1, 2]],
+    np.array(["0.25"]), pandas.Series(["a"]), np.array([0.25, None]), np.zeros(2, dtype="f8, f8"),
 )  # fmt: skip
 
 
@@ -113,7 +107,7 @@ OUT_OF_RANGE = {"saddle": [6], "energy": [], "k": [0.0, 1.0000001], "bend": [0.0
 
 @pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
 def test_other_values_are_rejected_in_one_line(case):
-    bad = [*INVALID_NUMBERS, *INVALID_ARRAYS]
+    bad = [*INVALID]
     if case not in COORDINATES:  # one finite number within a range
         bad += [np.nan, np.inf, -np.inf, np.ma.masked, Decimal("NaN")]
         bad += [[], [case.value], np.array([case.value] * 2), *OUT_OF_RANGE.get(case.name, [0.0])]
@@ -127,10 +121,8 @@ def test_other_values_are_rejected_in_one_line(case):
 @pytest.mark.parametrize("case", [*COORDINATES, *NUMBERS, *COUNTS])
 def test_the_type_of_a_number_is_irrelevant(case):
     value = case.value
-    kinds = [np.float64, np.float32, np.float16, np.longdouble, Decimal, Fraction, np.array]
-    kinds += [xr.DataArray, lambda v: np.array(Fraction(v)), np.ma.array, float]
-    kinds += [int, np.int8, np.int64, np.array] if value == int(value) else []
-    kinds += [np.uint8] if value == int(value) and value > 0 else []
+    kinds = [np.float64, np.float16, np.longdouble, Decimal, Fraction, np.array, xr.DataArray]
+    kinds += [int, np.int8] if value == int(value) else []
     for kind in kinds:
         assert same(case.results(kind(value)), case.results(value)), kind
 
@@ -140,10 +132,9 @@ def test_a_coordinate_that_is_not_finite_gives_nan_only_there(case):
     value = case.value
     expected = [np.asarray(a).ravel() for a in case.results(value)]
     arrays = [[value, bad, value] for bad in (np.nan, np.inf, -np.inf, np.ma.masked)]
-    arrays += [tuple(arrays[0]), np.array(arrays[0]), np.float32(arrays[0])]
-    arrays += [np.ma.array([value, 9.0, value], mask=[0, 1, 0]), pandas.Series(arrays[0])]
-    arrays += [xr.DataArray(arrays[0], dims="any"), [Decimal(value), np.nan, Fraction(value)]]
-    arrays += [[value, Decimal("Infinity"), np.array(value)]]
+    arrays += [tuple(arrays[0]), np.float32(arrays[0]), pandas.Series(arrays[0])]
+    arrays += [np.ma.array([value, 9.0, value], mask=[0, 1, 0]), xr.DataArray(arrays[0])]
+    arrays += [[Decimal(value), Decimal("Infinity"), Fraction(value)]]
     for array in arrays:
         for found, one in zip(case.results(array), expected, strict=True):
             orbits = np.moveaxis(np.asarray(found), np.shape(found).index(3), 0)
@@ -156,21 +147,11 @@ def test_a_coordinate_that_is_not_finite_gives_nan_only_there(case):
             assert np.isnan(found).all()
 
 
-LAYOUTS = {
-    "broadcast": None,
-    "plain": np.asarray,
-    "strided": lambda a: np.repeat(a, 2, axis=1)[:, ::2],
-    "fortran": np.asfortranarray,
-    "reversed": lambda a: a[:, ::-1],
-}
-
-
-@pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("call", FUNCTIONS_OF_STATES)
-def test_each_element_has_the_bits_of_the_scalar_call(call, layout):
-    state = [np.linspace(-0.3, 0.3, 3)[:, None], np.array(0.1), np.linspace(0.1, 0.3, 4)]
-    if make := LAYOUTS[layout]:
-        state = [make(np.array(a)) for a in np.broadcast_arrays(*state)]
+def test_each_element_has_the_bits_of_the_scalar_call(call):
+    """The arrays are read-only, and in order of columns, strided, and to be broadcast."""
+    x = np.asfortranarray(np.linspace(-0.3, 0.3, 12).reshape(3, 4))
+    state = x, np.array(0.1), np.linspace(0.1, 0.3, 8)[::2]
     for array in state:
         array.flags.writeable = False
     found = values_of(call(*state))
@@ -191,28 +172,6 @@ def test_states_that_do_not_fit_together_or_the_section_are_rejected(call):
                 call(0.1, 0.1, udot)
 
 
-@pytest.mark.parametrize("case", COORDINATES)
-def test_empty_arrays_give_empty_results(case):
-    for empty in ([], np.empty((0, 2)), xr.DataArray(np.empty(0))):
-        assert all(np.size(found) == 0 for found in case.results(empty))
-
-
-@settings(derandomize=True, deadline=None)
-@given(st.integers(-(2**80), 2**80))
-def test_integers_are_rounded_to_the_nearest_double(n):
-    assert BALL.energy(n, 0, 0) == BALL.energy(float(n), 0.0, 0.0)
-    assert BALL.energy([n], 0, 0)[0] == BALL.energy(float(n), 0.0, 0.0)
-
-
-def test_the_section_takes_energies():
-    centre, radius = BALL.section([0.5, np.nan, 0.25])
-    assert centre == BALL.section(0.5)[0]
-    assert [radius[0], radius[2]] == [BALL.section(0.5)[1], BALL.section(0.25)[1]]
-    assert np.isnan(radius[1])
-    with pytest.raises(ValueError, match=r"^energy = -5\.0 is not allowed: finite, at least"):
-        BALL.start(0.5, [0.5, -5.0])
-
-
 @pytest.mark.filterwarnings("error")
 def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array():
     long, usual = (0.0, 0.0, 1e6), BALL.start(0.5, 0.5)
@@ -228,34 +187,18 @@ def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array
         assert np.isfinite(x.isel(orbit=1)).all()
 
 
-def test_overflow_and_the_rim_cause_no_warning():
-    for size in (1e200, 1e308):
-        assert BALL.energy(size, size, size) == np.inf
-        for call in (BALL.reflect, BALL.impact, BALL.inverse_impact, BALL.jacobian):
-            call([size], size, size)
-        for call in (BALL.state, BALL.state_xy):
-            with pytest.raises(ValueError, match=r"^no state with this x, "):
-                call(size, size, 1.0)
-    with pytest.raises(ValueError, match=r"^energy = 1e\+308 is not allowed: finite"):
-        BALL.section(1e308)
-    assert np.isnan(BALL.chart_jacobian(0.1, -0.1, 0.1)).all()
-
-
 @pytest.mark.parametrize(
     ("name", "function", "allowed", "values"),
     [
-        ("keep", lambda keep: orbit(BALL, BALL.start(0.5, 0.5), 3, keep), "'all' or 'last'",
-         ("some", None, ["all"], np.array(["all", "last"]))),
-        ("side", lambda side: trace(side=side), "'inner' or 'outer'",
-         ("left", None, np.array(["inner", "outer"]))),
-        ("stable", lambda stable: trace(stable=stable), "True or False",
-         ("no", 1, None, np.array([True, False]))),
+        ("keep", partial(orbit, BALL, START, 3), "'all' or 'last'", ("some", None, ["all"])),
+        ("side", lambda side: trace(side=side), "'inner' or 'outer'", ("left", np.ones(2))),
+        ("stable", lambda stable: trace(stable=stable), "True or False", ("no", 1, np.ones(2))),
         ("window", lambda window: trace(window=window), r"\(x_low, ",
          (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1]))),
-        ("orbit", lambda orbit: trace_manifold(BALL, 0.01, orbit), "a Dataset with x",
-         (None, 3, SADDLE.drop_vars("udot"), "orbit")),
-        ("scan", ImpactMap, r"None, or \(step", (3, (0.1,), (0.1, 0.2, 0.3))),
-        ("map", lambda map: Ball(0.2, 0.04, map), "an ImpactMap", (None, 3, (0.1, 1e-6))),
+        ("orbit", partial(trace_manifold, BALL, 0.01), "a Dataset with x",
+         (None, "orbit", SADDLE.drop_vars("udot"))),
+        ("scan", ImpactMap, r"None, or \(step", (3, (0.1,))),
+        ("map", partial(Ball, 0.2, 0.04), "an ImpactMap", (None, (0.1, 1e-6))),
     ],
 )  # fmt: skip
 def test_other_words_and_objects_are_rejected(name, function, allowed, values):
@@ -264,7 +207,7 @@ def test_other_words_and_objects_are_rejected(name, function, allowed, values):
             function(value)
 
 
-@pytest.mark.parametrize("start", [0.5, [0.5], [0.5, -0.25, 0.75], [[0.5, -0.25]]])
+@pytest.mark.parametrize("start", [0.5, [0.5, -0.25, 0.75], [[0.5, -0.25]]])
 def test_an_orbit_continues_from_a_dataset(start):
     """It has the bits of the whole orbit, for any order of dims."""
     state = BALL.start(start, 0.01)
@@ -279,29 +222,20 @@ def test_an_orbit_continues_from_a_dataset(start):
 
 def test_an_orbit_continues_from_a_periodic_orbit_and_a_scene():
     ball = Ball(0.2, 0.04)
-    six = symmetric_orbits(ball, 0.01, 6)
-    again = orbit(ball, six.isel(orbit=1), 6)  # from the last point on
-    assert np.allclose(again["x"], six["x"][1], atol=1e-13)
-    assert orbit(ball, six, 2)["x"].dims == ("impact", "orbit")
-    point = six.isel(orbit=1, point=2)
-    state = [float(point[name]) for name in STATE]
-    assert orbit(ball, point, 3).equals(orbit(ball, state, 3))
+    again = orbit(ball, SADDLE, 6)  # from the last point on
+    assert np.allclose(again["x"], SADDLE["x"], atol=1e-13)
     scene = scene_orbits(ball, 0.01, [0.5, -0.2], [3, 2])
     whole = orbit(ball, ball.start([0.5, -0.2], 0.01), 9)["x"].values
     rest = orbit(ball, scene, 4)["x"].values
     assert np.array_equal(rest, np.stack([whole[3:7, 0], whole[2:6, 1]], axis=1))
 
 
+SHORT_SCENE = scene_orbits(BALL, 0.01, [0.5, -0.2], [3, 2]).isel(point=slice(0, 3))
+
+
 @pytest.mark.parametrize(
-    "state",
-    [
-        SADDLE.drop_vars("udot"),
-        SADDLE.isel(point=slice(0, 0)),
-        scene_orbits(BALL, 0.01, [0.5, -0.2], [3, 2]).isel(point=slice(0, 3)),
-        SADDLE.assign(x=SADDLE["x"].expand_dims(orbit=2)),
-        None, 3, (0.1, 0.2), (0.1, 0.2, 0.3, 0.4), {}, "ab",
-    ],
-)  # fmt: skip
+    "state", [SADDLE.drop_vars("udot"), SADDLE.isel(point=[]), SHORT_SCENE, None, (0.1, 0.2), "ab"]
+)
 def test_invalid_states_are_rejected_in_one_line(state):
     for call in (orbit, lyapunov_spectrum):
         with pytest.raises(ValueError, match=r"^state(:| = .* is not allowed)") as error:

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
@@ -11,7 +10,6 @@ from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.kinds import reports
-from pseudorigid.figures.kinds.exponents import draw
 from pseudorigid.kernel import spectrum
 
 
@@ -84,26 +82,6 @@ def test_the_largest_exponent_is_the_largest_by_value():
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
     line = datasets.exponents(found, found, ("one", "other"))[1]
     assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
-
-
-def test_the_inset_of_the_picture_has_the_largest_exponents():
-    values = np.array([[[-0.5, 0.52, 0.0]], [[-0.5, 0.49, 0.0]], [[-0.5, 0.5, 0.0]]])
-    data = xr.Dataset({"exponent": (("impact", "orbit", "index"), values)})
-    data = data.assign_coords(impact=[10, 20, 30])
-    figure = draw({"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}, data)
-    heights = [line.get_ydata() for line in figure.artists if hasattr(line, "get_ydata")]
-    # The straight lines of the other exponents are drawn by their ends only.
-    own, inset = (np.ptp(height) for height in heights if len(height) == 3)
-    assert inset > 5.0 * own
-
-
-def test_no_largest_exponent_is_minus_zero():
-    found = scene_exponents(BALL, -0.00399999999999999, [0.3], 1000, 2)
-    last = found["exponent"].values[-1, 0]
-    assert last[0] < 0.0 < last.max() < 5e-5
-    numbers = reports.exponents({}, found)
-    assert numbers["largest exponent"] == "0.0000"
-    assert "-0.0000" not in numbers["all three of an orbit, at the end"]
 
 
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):

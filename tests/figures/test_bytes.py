@@ -1,14 +1,11 @@
 """Pictures have the same bytes for everyone, and hold what was drawn: only lines are simplified."""
 
-import os
 import re
 import shutil
-import sys
 from io import BytesIO
 
 import numpy as np
 import pytest
-from project import ROOT, run
 from samples import KINDS, draw, drawn
 
 from pseudorigid.figures.canvas import style
@@ -59,30 +56,6 @@ def test_fonts_of_the_system_are_not_used(tmp_path):
         del manager.ttflist[0]
         manager.addfont(own)  # clears the cached path of the copy
         manager.ttflist.pop()
-
-
-def test_drawing_leaves_matplotlib_as_it_was():
-    import matplotlib
-    from matplotlib import font_manager
-
-    all_fonts = font_manager.fontManager.ttflist
-    with matplotlib.rc_context({"font.size": 31, "path.simplify": True}):
-        before = dict(matplotlib.rcParams)
-        pixels(draw("motion"))
-        assert dict(matplotlib.rcParams) == before
-    assert font_manager.fontManager.ttflist is all_fonts
-
-
-def test_a_drawing_imports_only_what_it_uses():
-    names = "pyplot", "numba", "scipy", "netCDF4", "backend_pdf"
-    code = (
-        "import sys\n"
-        f"from pseudorigid.figures.kinds import {', '.join(KINDS)}\n"
-        "from pseudorigid.figures.canvas import render\n"
-        f"print([m for m in sys.modules for name in {names} if name in m.split('.')])"
-    )
-    result = run(sys.executable, "-c", code, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
-    assert result.stdout == "[]\n", result.stderr
 
 
 def test_thousands_of_dots_in_an_svg_are_one_path_of_the_same_dots():

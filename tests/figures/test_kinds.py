@@ -3,19 +3,7 @@
 import numpy as np
 import pytest
 from keys import texts
-from samples import (
-    ATTRS,
-    FLAT,
-    SCENES,
-    drawn,
-    exponents,
-    manifolds,
-    module,
-    motion,
-    orbits,
-    periodic,
-    states,
-)
+from samples import ATTRS, FLAT, SCENES, drawn, exponents, manifolds, module, motion, states
 from slowly import slowly
 
 from pseudorigid import Ball
@@ -23,7 +11,6 @@ from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import rows, states_of
 from pseudorigid.figures.axes import box, view
 from pseudorigid.figures.canvas import sheet, style
-from pseudorigid.figures.canvas.render import pixels
 
 
 def test_curves_of_a_motion_touch_at_the_impacts_and_never_cross():
@@ -96,18 +83,6 @@ def test_the_surface_hides_what_a_dense_cloud_of_it_covers(azimuth):
     assert np.sum(before[~seen] > 0.1) > 5
 
 
-def test_no_pane_or_axis_shines_through_the_surface():
-    picture = box.Box(SCENES["portrait"])
-    x, y, z = states(200_000, 8).values()
-    inner = (abs(x) < 0.1) & (abs(y - 0.2 * z) < 0.05)  # the main island, all of it visible
-    island = set(
-        zip(*np.floor(np.array(picture.view([x, y, z]))[:, inner]).astype(int), strict=True)
-    )
-    image = pixels(picture.figure)[::-1]
-    assert all((image[up, across] == 255).all() for across, up in island)
-    assert len(island) > 10_000
-
-
 def test_impacts_graze_on_the_rim_which_ends_the_outline():
     picture = box.Box(SCENES["portrait"])
     x, y, z = picture.surface.rim()
@@ -137,26 +112,6 @@ def test_ends_have_open_dots_and_jumps_squares():
     assert marks == {"o": seen[ends].sum(), "s": seen[jumps].sum()}
     assert in_key == bool(seen[jumps].any())
     assert ("jump" in texts(figure)) == bool(seen[jumps].any())
-
-
-def folded(turn_back):
-    """Return a branch that goes out along a line in the surface and may come back beside it."""
-    data = manifolds().isel(vertex=slice(60))
-    s = np.linspace(0.0, 1.0, 30)
-    y = np.concatenate([s, 1.0 - s if turn_back else 1.0 + s]) * 0.05
-    k, g, radius = 0.2, 0.04, np.sqrt(2 * 0.01 + 0.04**2 / 0.2)
-    x = np.full(60, g / k) + np.where(turn_back, np.linspace(0, 2e-3, 60), 0.0)
-    s = np.sqrt((radius**2 - k * (x - g / k) ** 2 - y**2 / (1 + k)) * (1 + k) / k)
-    state = {"x": x, "xdot": (y + k * s) / (1 + k), "udot": (s - y) / (1 + k)}
-    data = data.assign({name: ("vertex", value) for name, value in state.items()})
-    return data.isel(branch=[0]).assign(row_size=("branch", [60]))
-
-
-@pytest.mark.parametrize("turn_back", [True, False])
-def test_a_sharp_fold_has_a_dot_and_a_straight_line_none(turn_back):
-    figure = module("tangle").draw(SCENES["tangle"], orbits(), folded(turn_back), periodic())
-    dots = [a for a in figure.artists if a.get_marker() == "o" and a.get_markersize() == 2.0]
-    assert sum(len(a.get_xdata()) for a in dots) == 2 * turn_back  # one is the key's
 
 
 def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():

@@ -6,7 +6,6 @@ import xarray as xr
 from keys import texts
 from legible import assert_text_is_whole_and_apart
 
-from pseudorigid.figures.axes import panel
 from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
@@ -16,11 +15,8 @@ def scene(states, cost):
     return {"states": ("uniform", "grazing")[states], "cost": cost}
 
 
-def named(families=FAMILIES, names=None):
-    return {
-        "name": ("method", np.array(names or families, dtype=object)),
-        "family": ("method", np.array(families, dtype=object)),
-    }
+def named():
+    return {name: ("method", np.array(FAMILIES, dtype=object)) for name in ("name", "family")}
 
 
 def marks(figure, family):
@@ -79,21 +75,22 @@ def test_work_is_drawn_where_its_numbers_are(cost, base):
     assert not np.array_equal(drawn(states=0), before)
 
 
-def test_failing_shares_are_heights():
-    def drawn(near, touch):
-        exponents = {"distance": ("distance", [0, 6, 12]), "depth": ("depth", [2, 8, 14])}
-        near, touch = (("method", "side", "distance"), near), (("method", "side", "depth"), touch)
-        data = xr.Dataset(named() | exponents | {"near": near, "touch": touch})
-        return marks(study.edges({}, data), FAMILIES[0])
+def failing(near, touch):
+    """Return shares of failures, (method, side, distance from grazing or from a touch)."""
+    exponents = {"distance": ("distance", [0, 6, 12]), "depth": ("depth", [2, 8, 14])}
+    near, touch = (("method", "side", "distance"), near), (("method", "side", "depth"), touch)
+    return xr.Dataset(named() | exponents | {"near": near, "touch": touch})
 
+
+def test_failing_shares_are_heights():
     few = np.full((2, 2, 3), 0.1)  # no panel has room for the key
-    before = drawn(few, few)
+    before = marks(study.edges({}, failing(few, few)), FAMILIES[0])
     for row in range(2):
         for side, place in np.ndindex(2, 3):
             for share in (0.5, 1.0):
                 shares = [few.copy(), few.copy()]
                 shares[row][0, side, place] = share
-                off = moved(before, drawn(*shares))
+                off = moved(before, marks(study.edges({}, failing(*shares)), FAMILIES[0]))
                 assert off[off != 0] == pytest.approx([(share - 0.1) * 360], abs=0.2)
     assert before[0, 0] > before[1, 0] > before[2, 0]  # nearer to grazing is further left
 
@@ -105,20 +102,6 @@ def test_zeros_are_drawn_at_an_end_named_zero():
     assert texts(zeros).count("0") >= 2
 
 
-def test_the_logarithm_of_axes():
-    assert panel.log10([1e-12, 1.0, 1e3]) == pytest.approx([-12, 0, 3], abs=1e-14)
-    assert np.isnan(panel.log10([0.0, -1.0])).all()
-
-
-def test_scans_that_differ_in_their_step_have_one_entry():
-    names = ["scan 0.5, 1e-12", "scan 0.1, 1e-12", "scan 0.01, 1e-12", "scan 0.1, 1e-06"]
-    families = [f"{name.partition(',')[0]} + bisection" for name in names] + ["time stepping"]
-    apart = {"apart": (("method", "impact"), np.full((5, 3), 1e-9)), "impact": [1, 2, 3]}
-    figure = study.separation({}, xr.Dataset(named(families, [*names, "engine 1e-03"]) | apart))
-    scans = ["scan 0.5 to 0.01, $10^{-12}$", "scan 0.1, $10^{-6}$"]
-    assert texts(figure)[-3:] == [*scans, "time stepping, $10^{-3}$"]
-
-
 @pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
 def test_the_worst_right_root_is_hollow_and_named_if_it_is_drawn(wrong, drawn):
     figure = study.work(scene(1, "evaluations"), work_data(100.0, wrong=wrong))
@@ -128,28 +111,10 @@ def test_the_worst_right_root_is_hollow_and_named_if_it_is_drawn(wrong, drawn):
     assert bool(hollow) == drawn
 
 
-def test_the_key_stands_in_a_panel_without_failures_or_below_all():
-    def drawn(least):
-        exponents = {"distance": ("distance", [0, 6]), "depth": ("depth", [2, 8])}
-        failing = {name: (("method", "side", dim), np.full((2, 2, 2), least))
-                   for name, dim in (("near", "distance"), ("touch", "depth"))}  # fmt: skip
-        failing["touch"][1][:, 1] = 0.0
-        figure = study.edges({}, xr.Dataset(named() | exponents | failing))
-        assert_text_is_whole_and_apart(figure, slack=4)  # letters stand close to labels
-        (text,) = (text for text in figure.texts if text.get_text() == "certified march")
-        return text.get_position()
-
-    assert drawn(0.5)[0] > drawn(0.0)[0]  # at the right, in the last panel; at the left
-
-
-@pytest.mark.parametrize(
-    ("name", "family", "text"),
-    [
-        ("scan 0.1, 1e-12", "scan 0.1 + bisection", "scan 0.1"),
-        ("brentq 0.1, 1e-12", "scan 0.1 + brentq", "scan 0.1 + brentq"),
-        ("heyoka any, 1e-15", "heyoka, any direction", "heyoka, any"),
-    ],
-)
-def test_a_method_has_one_name_in_all_charts(name, family, text):
-    assert study._printed(family, family) == text
-    assert study._printed(name, family) == f"{text}, $10^{{-{name[-2:]}}}$"
+@pytest.mark.parametrize("least", [0.5, 0.0])
+def test_the_key_covers_no_text_in_a_panel_without_failures_or_below_all(least):
+    shares = np.full((2, 2, 3), least)
+    some = shares.copy()
+    some[:, 1] = 0.0
+    figure = study.edges({}, failing(shares, some))
+    assert_text_is_whole_and_apart(figure, slack=4)  # letters stand close to labels

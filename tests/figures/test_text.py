@@ -7,7 +7,6 @@ from slowly import slowly
 
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.figures.axes import panel
 from pseudorigid.figures.canvas import style
 
 
@@ -62,17 +61,3 @@ def test_a_long_setting_and_short_axes_leave_the_text_of_a_box_apart(ball, energ
     scene = {"energy": energy, "ball": {"k": ball.k, "g": ball.g}, "view": VIEW}
     data = scene_orbits(ball, energy, [-0.3, 0.2, 0.7], 300)
     assert_text_is_whole_and_apart(module("portrait").draw(scene, data))
-
-
-def test_labels_of_ticks():
-    assert style.number(-0.2) == "\N{MINUS SIGN}0.2"
-    assert style.number(160000, 5) == "1.6"
-
-
-@pytest.mark.parametrize(
-    ("at", "shift", "side", "place"),
-    [(50, 3, "left", (53, "left")), (80, 3, "left", (77, "right")), (20, -3, "top", (23, "bottom")),
-     (20, -3, "right", (23, "left")), (50, 3, "center", (53, "center"))],
-)  # fmt: skip
-def test_a_note_is_on_the_other_side_if_only_that_fits(at, shift, side, place):
-    assert panel._beside(at, shift, side, 20, 0, 100) == place

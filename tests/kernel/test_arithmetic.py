@@ -166,15 +166,5 @@ def test_frozen_bits_depend_on_each_constant(function):
         assert bits(interpreted(name, steps), function) != plain, name
 
 
-def test_interpreted_functions_have_the_compiled_bits():
-    t = np.concatenate([frozen_arguments()[::400], angles(np.random.default_rng(5))[::40]])
-    scope = interpreted()
-    with np.errstate(all="ignore"):
-        pairs = np.array([scope["sincos"](a) for a in t.tolist()])
-        assert digest(*pairs.T) == digest(*arithmetic.sincos_each(t))
-        t = np.abs(t)
-        assert digest([scope["log"](a) for a in t.tolist()]) == digest(log_each(t))
-
-
 SINCOS = "7ae097ee27006f39fbd63f882ae782737249f33a0e389e160140e5392db14291"
 LOG = "5bab1f155c86bdcb0e3a8bb57f2a490b22e3a3bdbe9973a2ccbca08774cc959b"

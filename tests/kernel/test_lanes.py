@@ -32,7 +32,7 @@ def orbit_by_orbit(states, ball, impacts):
     return history, vectors
 
 
-def in_chunks(states, ball, impacts, root_finder=None):
+def in_chunks(states, ball, impacts):
     """Return the last states (3, n) and tangent vectors (3, n), computed in chunks."""
     ends, vectors = np.array(states), vectors_of(states)
     coefficients = impact.impact_coefficients(ball.k)
@@ -41,7 +41,7 @@ def in_chunks(states, ball, impacts, root_finder=None):
         for done in range(0, impacts, tangents.CHUNK):
             count = min(tangents.CHUNK, impacts - done)
             tangents.advance_chunk(
-                *(row[group] for row in ends), ball.k, ball.g, count, *buffers, root_finder
+                *(row[group] for row in ends), ball.k, ball.g, count, *buffers, None
             )
             for row, i in np.ndindex(count, ends[0, group].size):
                 vectors[:, first + i] = tangents.push_tangent(
@@ -129,17 +129,3 @@ def test_threads_do_not_matter(threads, monkeypatch):
         assert np.array_equal(BALL.history(alone, 400)[0], out[i])
         alone = lyapunov_spectrum(BALL, alone, 400, 3)["exponent"].values
         assert np.array_equal(alone, spectra[:, i])
-
-
-def test_no_impacts_leave_the_states():
-    assert np.array_equal(BALL.after(sea(40), 0)[:3], sea(40))
-
-
-def test_vectors_with_the_scan():
-    states, scan, steps = sea(20), (0.1, 1e-12), np.array(sea(20))
-    ends, found = in_chunks(states, BALL, 10, scan)
-    impact.steps(*steps, BALL.k, BALL.g, 10, np.empty(20), np.empty((20, 0, 4)), scan)
-    assert np.array_equal(ends, steps)
-    _, exact = in_chunks(states, BALL, 10)
-    assert not np.array_equal(found, exact)
-    assert found == pytest.approx(exact, rel=1e-4)
