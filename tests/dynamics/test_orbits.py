@@ -121,6 +121,11 @@ def test_motion_is_the_flight_of_equation_26():
     assert np.max(np.abs(found["strain"].values[first] - expected)) < 1e-15
 
 
+def test_a_motion_of_impacts_whose_times_lie_before_them_is_refused():
+    with pytest.raises(ValueError, match="one state or one orbit of symmetric_orbits"):
+        motion(BALL, scene_orbits(BALL, 0.01, [0.6], [5]), 10.0)
+
+
 def test_the_motion_from_a_state_that_is_not_finite_is_nan():
     found = motion(BALL, (np.nan, 0.1, 0.3), 10.0)
     assert found.sizes["impact"] == 1
