@@ -73,7 +73,7 @@ def test_a_killed_search_continues_and_gives_the_same_dataset(tmp_path):
 
     def killed(share, text):
         shares.append(share)
-        if share > 0.3:
+        if share > 0.42:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
