@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-import xarray as xr
 from sections import BALL
 
 from extensions.claims.analyses.sea import section_points
@@ -52,14 +51,6 @@ def test_blocks_add_up_to_the_exponents_of_the_whole(spreading):
     assert stretches(spreading, 10_000).size == 4 * sea.sum()
 
 
-def test_exponents_of_regular_orbits_fall_like_ln_n_over_n(spreading):
-    n = spreading["length"].values[6:]
-    largest = spreading["regular_exponent"].values[6:, :, 0]
-    bound = 1.5 * np.log(n) / n
-    assert np.all(np.abs(largest) < bound[:, None])
-    assert np.all(stretches(spreading, 40_000) > 0.2)
-
-
 def test_counts_of_cells_are_those_of_each_orbit(spreading):
     any_, all_, least = (spreading[f"entered_{name}"].values for name in ("any", "all", "least"))
     assert np.all(all_ <= least) and np.all(least <= any_)
@@ -87,10 +78,3 @@ def cells_of(path):
 def test_sections_without_chaos_and_uneven_blocks_are_refused(energy, length, message):
     with pytest.raises(ValueError, match=message):
         spread(BALL, energy, 1, length, 4, [0.1], 4, 4, 4)
-
-
-def test_the_largest_exponent_of_a_stretch_is_the_largest_by_value():
-    chaotic = np.array([[1.2, 1.0, 0.8], [1.0, 1.3, 0.7]])
-    blocks = xr.Dataset({"exponent": (("block", "orbit", "index"), chaotic[None])})
-    long = stretches(blocks.assign_attrs(block_impacts=100), 100)
-    assert np.array_equal(long, [1.2, 1.3])
