@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 from documents import complaint, good
-from project import SHIPPED
 
-from extensions.atlas import kinds
 from pipeline import config
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
@@ -30,13 +28,6 @@ def test_axes_are_the_decimals_they_are_meant_to_be():
     assert (many[1], many[-2]) == (0.116606, 34.3037)
     ratios = np.array(many[1:]) / np.array(many[:-1])
     assert ratios.max() / ratios.min() < 1 + 2e-5
-
-
-def test_the_shipped_sweeps_hold_the_papers_cases():
-    sweeps = {n: s.as_mapping() for n, s in config.load(SHIPPED).variants["atlas"].items()}
-    assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
-    assert sweeps["line"]["k"] == [0.2]
-    assert sum(len(part["cells"]) for part in kinds.parts(sweeps["plane"])) == 160 * 160
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 from sections import BALL
 
 from extensions.claims.analyses.sea import section_points
@@ -78,3 +79,10 @@ def cells_of(path):
 def test_sections_without_chaos_and_uneven_blocks_are_refused(energy, length, message):
     with pytest.raises(ValueError, match=message):
         spread(BALL, energy, 1, length, 4, [0.1], 4, 4, 4)
+
+
+def test_the_largest_exponent_of_a_stretch_is_the_largest_by_value():
+    chaotic = np.array([[1.2, 1.0, 0.8], [1.0, 1.3, 0.7]])
+    blocks = xr.Dataset({"exponent": (("block", "orbit", "index"), chaotic[None])})
+    long = stretches(blocks.assign_attrs(block_impacts=100), 100)
+    assert np.array_equal(long, [1.2, 1.3])
