@@ -31,8 +31,8 @@ def searched(ball, low, high, longest, levels):
 
 @cache
 def up_to_period_six():
-    """Periods up to 6 over the paper's whole range of energies."""
-    return searched(PAPER, -0.00399, 0.0599, 6, 40)
+    """Periods up to 6 over two thirds of the paper's energies."""
+    return searched(PAPER, -0.00399, 0.0399, 6, 20)
 
 
 def crossings(family, p):

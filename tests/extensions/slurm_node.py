@@ -7,7 +7,6 @@ root.
 import os
 import secrets
 import shutil
-import signal
 import socket
 import subprocess
 import tempfile
@@ -90,7 +89,7 @@ class Cluster:
             wait_for((self.folder / "munge.socket").exists, 10)
             self.start("slurmctld", "-D")
             for node in NODES:
-                self.start_node(node)
+                self.start("slurmd", "-D", "-N", node, name=node)
             wait_for(lambda: self.states() == dict.fromkeys(NODES, "idle"), 30)
         except BaseException:
             self.__exit__()
@@ -105,9 +104,6 @@ class Cluster:
             self.stop(name)
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start_node(self, node):
-        self.start("slurmd", "-D", "-N", node, name=node)
-
     def start(self, program, *arguments, name=None):
         """Start a daemon in a session of its own."""
         name = name or program
@@ -120,9 +116,9 @@ class Cluster:
                 start_new_session=True,
             )
 
-    def stop(self, name, number=signal.SIGTERM):
+    def stop(self, name):
         process = self.running.pop(name)
-        process.send_signal(number)
+        process.terminate()
         try:
             process.wait(10)
         except subprocess.TimeoutExpired:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from independent_solver import periodic_point
 from sections import BALL
-from slowly import slowly
 
 from extensions.atlas import last_curve
 from pseudorigid import Ball
@@ -35,11 +34,10 @@ def test_residues_on_either_side_of_breakup():
     )
 
 
-@pytest.mark.parametrize(("turns", "period"), [(4, 23), *slowly((19, 113))])
-def test_a_residue_is_that_of_newtons_method_in_sixty_digits(turns, period):
-    orbit = last_curve.OrbitSearch(BALL, ENERGY, (-0.2, -0.0325639)).orbit(turns, period)
+def test_a_residue_is_that_of_newtons_method_in_sixty_digits():
+    orbit = last_curve.OrbitSearch(BALL, ENERGY, (-0.2, -0.0325639)).orbit(4, 23)
     start = BALL.start(orbit.start, ENERGY)
-    (x, v, w), product = periodic_point(BALL, ENERGY, start, period)
+    (x, v, w), product = periodic_point(BALL, ENERGY, start, 23)
     assert abs(float(v - w * BALL.k)) < 1e-10 and abs(float(x) - start[0]) < 1e-9
     residue = float((3 - product[0, 0] - product[1, 1] - product[2, 2]) / 4)
     assert orbit.residue == pytest.approx(residue, rel=1e-3)
@@ -47,9 +45,8 @@ def test_a_residue_is_that_of_newtons_method_in_sixty_digits(turns, period):
 
 @pytest.mark.parametrize(
     ("ball", "energy", "between"),
-    [(BALL, 0.005, (-0.2, 0.3)), (BALL, 0.011, (-0.2, 0.1)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2)),
-     (Ball(0.1, 0.02), 0.002, (0.1, 0.9))],
-)  # fmt: skip
+    [(BALL, 0.005, (-0.2, 0.3)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2))],
+)
 def test_nobles_are_chosen_on_either_side_of_the_last_curve(ball, energy, between):
     """Residues fall for the inner number and not for the outer one."""
     found = last_curve.last_curve(ball, energy, 4, between, 4000, 10)

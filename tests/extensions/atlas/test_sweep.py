@@ -7,7 +7,6 @@ import signal
 
 import pytest
 from project import fresh_tree, of_scenes, wait_for
-from runs import rows
 
 import snakemake_logger_plugin_reproduce as parts
 from extensions.atlas import cell, command
@@ -79,26 +78,6 @@ def times(tree):
 
 
 @pytest.mark.slow
-def test_damaged_files_alone_are_made_again(tree):
-    tree.make_here("results/atlas/sweep_small.nc")
-    before, content = times(tree), hashes(tree)
-    assert len(before) == 4
-    assert rows(tree.succeed("sweep", "small")) == {"results/atlas/sweep_small.nc": "current"}
-    assert times(tree) == before
-    folder = tree.path / "results" / "atlas"
-    damaged = ["sweep_small.nc", sorted(folder.glob("sweep_small.*.nc"))[1].name]
-    for name in damaged:
-        (folder / name).write_bytes((folder / name).read_bytes()[:3000])
-    out = tree.succeed("sweep")
-    for name in damaged:
-        assert f"results/atlas/{name}: changed after it was made: made again" in out
-    assert "small: 3 of 3 blocks" in out
-    assert rows(out) == {"results/atlas/sweep_small.nc": "recomputed"}
-    assert hashes(tree) == content
-    assert {name for name in before if times(tree)[name] != before[name]} == set(damaged)
-
-
-@pytest.mark.slow
 def test_blocks_of_another_size_or_grid_are_never_mixed_in(tree):
     tree.succeed("sweep", "-c", "1")
     before = hashes(tree)["sweep_small.nc"]
@@ -134,10 +113,11 @@ def test_a_killed_sweep_goes_on_to_the_same_bytes(tree):
 @pytest.mark.slow
 def test_the_atlas_is_drawn_and_published(tree):
     line = SMALL | {"k": [0.2], "g": 0.04, "block": 3}
-    plane = SMALL | {"k": [0.19, 0.21]}
-    tree.write(tree.document() | {"sweeps": {"small": plane, "one": line | {"formats": BOTH}}})
+    chains = {"picture": "chains", "over": "small", "chains": [6]}
+    sweeps = {"small": SMALL | {"k": [0.19, 0.21]}, "one": line | {"formats": BOTH}}
+    tree.write(tree.document() | {"sweeps": sweeps | {"over_it": chains}})
     tree.succeed("atlas", "-c", "1")
-    for name in ("small.png", "one.png", "one.svg"):
+    for name in ("small.png", "one.png", "one.svg", "over_it.png"):
         drawn = (tree.path / "results/atlas/figures" / name).read_bytes()
         assert (tree.path / "more_figures" / "atlas" / name).read_bytes() == drawn
         assert drawn.startswith((b"\x89PNG", b"<?xml"))

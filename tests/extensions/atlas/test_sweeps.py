@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 from documents import complaint, good
-from project import SHIPPED
 
-from extensions.atlas import kinds
 from pipeline import config
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
@@ -32,13 +30,6 @@ def test_axes_are_the_decimals_they_are_meant_to_be():
     assert ratios.max() / ratios.min() < 1 + 2e-5
 
 
-def test_the_shipped_sweeps_hold_the_papers_cases():
-    sweeps = {n: s.as_mapping() for n, s in config.load(SHIPPED).variants["atlas"].items()}
-    assert {0.625, 6.25} <= set(sweeps["line"]["energy"])
-    assert sweeps["line"]["k"] == [0.2]
-    assert sum(len(part["cells"]) for part in kinds.parts(sweeps["plane"])) == 160 * 160
-
-
 @pytest.mark.parametrize(
     ("fields", "start", "allowed"),
     [
@@ -46,14 +37,11 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
         ({"k": "all"}, "k: 'all'", "a list of numbers, or a mapping with from, to and count"),
         ({"energy": RANGE | {"to": 0.1}}, "energy.to: 0.1", "above from = 0.1"),
         ({"energy": RANGE | {"spacing": "lg"}}, "energy.spacing: 'lg'", "one of even, log"),
-        ({"energy": RANGE | LOG | {"from": 0}}, "energy.from: 0", "> 0"),
         ({"energy": RANGE | {"form": 3}}, "energy.form", "did you mean from?"),
         ({"energy": [2, 1]}, "energy: [2, 1]", "increasing"),
         ({"energy": LOG | {"from": 1, "to": 1.00001, "count": 90}}, "energy: ", "six digits"),
         ({"k": [0, 0.2]}, "k: 0", "0 < k <= 1"),
-        ({"k": [0.2, 1.5]}, "k: 1.5", "0 < k <= 1"),
         ({"energy": [-2.5, 1]}, "energy: -2.5", "above -1/(2k) = -2.5"),
-        ({"energy": [1, 1e10]}, "energy: 10000000000.0", "at most 1e+09"),
         ({"g": 0.1}, "g: 0.1", "0 < g < k = 0.1"),
         ({"g": 0.04}, "energy: 6.25", "below (k/2 - g)/g^2 = 6.25"),
         ({"starts": 10**6, "impacts": 10**7}, "impacts: 10000000", "in a sweep"),
@@ -63,11 +51,3 @@ def test_the_shipped_sweeps_hold_the_papers_cases():
 def test_a_sweep_that_cannot_be_is_refused_in_one_line(fields, start, allowed):
     line = complaint(document(**fields))
     assert line.startswith(f"sweeps.a.{start}") and allowed in line
-
-
-def test_a_sweep_has_up_to_a_million_cells():
-    many = {"energy": RANGE | {"from": 1, "count": 1000}, "block": 1000}
-    rows = {"from": 0.01, "to": 0.3, "count": 1000}
-    check(k=rows, **many)
-    line = complaint(document(k=rows | {"count": 1001}, **many))
-    assert line.startswith("sweeps.a.energy: [1.0, ") and "at most 1000000 cells" in line

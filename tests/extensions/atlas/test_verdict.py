@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from project import ROOT
 
 from extensions.atlas import cell, verdicts
 from pseudorigid import Ball
@@ -46,23 +45,6 @@ def test_growth_is_that_of_a_product_of_jacobians():
         assert found.exponent[i] == pytest.approx((logs[399] - logs[99]) / 300, abs=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("impacts", "expected"), [(1001, [500, 1000, 1001]), (500, [500]), (300, [300])]
-)
-def test_undecided_orbits_are_followed_twice_as_far_in_order(monkeypatch, impacts, expected):
-    """With another order in memory, all kernels that follow them would be compiled again."""
-    lengths, propagate = [], verdict.propagate_with_tangent
-
-    def checked(orbits, k, start, stop, *sums):
-        lengths.append(stop)
-        assert all(array.flags.c_contiguous for array in (orbits, *sums))
-        propagate(orbits, k, start, stop, *sums)
-
-    monkeypatch.setattr(verdict, "propagate_with_tangent", checked)
-    cell.cell(K, E, 50, impacts)
-    assert lengths == expected
-
-
 def test_frozen_verdicts():
     """Counts of 2,000 short orbits, of which some lie on either side of each threshold."""
     shares = cell.cell(0.2, 9.0, 2000, 500)
@@ -83,9 +65,3 @@ def test_wrong_verdicts_are_rare():
     gaps = (data["exponent"] - data["exponent_long"]).values
     error = data["exponent_error"].values
     assert np.nanmax(np.abs(gaps) / np.maximum(error, 1e-3)) < 4
-
-
-def test_nothing_runs_beside_the_study_of_verdicts():
-    rules = (ROOT / "src/extensions/atlas/rules.smk").read_text()
-    (rule,) = (r for r in rules.split("\nuse rule ") if r.startswith("orbits as verdicts "))
-    assert "threads: lambda wildcards: workflow.cores" in rule

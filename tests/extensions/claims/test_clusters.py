@@ -91,8 +91,3 @@ def test_memory_of_an_autoregressive_process(memory):
         assert np.all(low - 0.02 < expected) and np.all(expected < high + 0.02)
         # eight bins of a coordinate explain a little less than its value does
         np.testing.assert_allclose(dependence[0, lag - 1], memory ** (2 * lag), atol=0.03)
-
-
-def test_a_cut_beyond_all_flights_is_refused():
-    with pytest.raises(ValueError, match=r"cuts = 9.0 is not allowed"):
-        clusters(BALL, ENERGY, SEA, 2, 50, [9.0], 1, 4, 1)

@@ -1,7 +1,5 @@
 """Lobes and flux by actions, by polygons and by counting, and angles of the traced branches."""
 
-import math
-
 import independent_solver as judge
 import numpy as np
 import pytest
@@ -10,7 +8,7 @@ from mpmath import mp, mpf
 from sections import BALL
 
 from extensions.claims import turnstile_flux
-from extensions.claims.analyses import actions, polygon
+from extensions.claims.analyses import actions
 from extensions.proofs import Surface
 from extensions.proofs.enclosure.jets import Jet
 from pseudorigid import symmetric_orbits, trace_manifold
@@ -75,18 +73,6 @@ def test_angles_are_those_of_the_traced_branches(flowing):
         sine = 2.0 * abs(slope) / (1.0 + slope * slope)
         assert sine == pytest.approx(abs(float(flowing["sine"].values[row, 0])), rel=1e-3)
         assert x[at] == pytest.approx(float(flowing["crossing_x"].values[row, 0]), abs=1e-4)
-
-
-def test_area_and_points_of_a_star():
-    angle = 2.0 * np.pi * np.arange(10) / 10
-    radius = np.where(np.arange(10) % 2, 0.4, 1.0)
-    star = polygon.Polygon(np.stack([radius * np.cos(angle), radius * np.sin(angle)]))
-    assert star.area() == pytest.approx(5.0 * 0.4 * math.sin(math.pi / 5.0), rel=1e-12)
-    x, y = np.random.default_rng(1).uniform(-1.1, 1.1, (2, 200_000))
-    share = star.contains(x, y).mean() * 2.2 * 2.2
-    assert share == pytest.approx(star.area(), abs=0.02)
-    x, y = np.array([[0.0, 0.6, 0.9, 2.0], [0.0, 0.43, 0.0, 0.0]])
-    assert star.contains(x, y).tolist() == [True, False, True, False]
 
 
 @pytest.mark.slow

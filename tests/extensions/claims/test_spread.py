@@ -52,14 +52,6 @@ def test_blocks_add_up_to_the_exponents_of_the_whole(spreading):
     assert stretches(spreading, 10_000).size == 4 * sea.sum()
 
 
-def test_exponents_of_regular_orbits_fall_like_ln_n_over_n(spreading):
-    n = spreading["length"].values[6:]
-    largest = spreading["regular_exponent"].values[6:, :, 0]
-    bound = 1.5 * np.log(n) / n
-    assert np.all(np.abs(largest) < bound[:, None])
-    assert np.all(stretches(spreading, 40_000) > 0.2)
-
-
 def test_counts_of_cells_are_those_of_each_orbit(spreading):
     any_, all_, least = (spreading[f"entered_{name}"].values for name in ("any", "all", "least"))
     assert np.all(all_ <= least) and np.all(least <= any_)

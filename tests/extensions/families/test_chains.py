@@ -14,13 +14,13 @@ from pseudorigid.dynamics.variables import rows
 PLANE = {
     "k": [0.14, 0.2, 0.26, 0.33],
     "energy": [0.1, 1.0, 10.0, 40.0],
-    "chains": [4, 6, 7],
+    "chains": [4, 7],
 }
 
 
 @pytest.fixture(scope="module")
 def curves():
-    """The dataset of three chains, sought at one k each."""
+    """The dataset of two chains, sought at one k each."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(chains, "_SOUGHT", 1)
         return chains.chains(**PLANE)
@@ -70,7 +70,7 @@ def place_of(order, kind, k):
 
 @pytest.mark.parametrize(
     ("order", "kind", "near"),
-    [(4, "fold", 0.26), (6, "doubling", 0.2), *slowly((7, "rim", 0.3))],
+    [(4, "fold", 0.26), (4, "doubling", 0.2), *slowly((7, "rim", 0.3))],
 )
 def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, kind, near):
     k, energy = at(curves, order, kind, near)
@@ -80,7 +80,7 @@ def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, 
 
 def test_curves_pass_through_the_events_of_families(curves):
     """At another k, where a search that follows E finds them."""
-    for order, k in ((4, 0.23), (6, 0.17), (7, 0.29)):
+    for order, k in ((4, 0.23), (7, 0.29)):
         for kind, start in chains.chain_events(k, order).items():
             ks, energies = curve(curves, order, kind)
             there = np.interp(k, ks, energies)
@@ -97,9 +97,9 @@ def test_every_chain_doubles_between_its_birth_and_the_loss_of_an_impact(curves)
 
 def test_an_entry_that_does_not_vanish_is_not_followed():
     limits = chains.Limits((0.1, 0.3), (0.1, 40.0))
-    start = chains.chain_events(0.2, 6)["doubling"]
-    assert len(chains.follow(6, start, limits)) > 20
-    assert chains.follow(6, start._replace(entry="b"), limits) == []
+    start = chains.chain_events(0.2, 4)["doubling"]
+    assert len(chains.follow(4, start, limits)) > 20
+    assert chains.follow(4, start._replace(entry="b"), limits) == []
 
 
 def test_births_are_the_closed_form_and_jumps_begin_where_the_proof_says(curves):

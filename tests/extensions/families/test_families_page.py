@@ -97,27 +97,3 @@ def test_the_page_has_the_tables_of_the_datasets(datasets):
     lines = list(expected(*datasets))
     assert len(lines) > 30
     assert [line for line in lines if line not in PAGE and line not in TEXT] == []
-
-
-def test_each_end_has_a_name(datasets):
-    families, _ = datasets
-    assert families.attrs["unresolved"] == 0
-    kinds = ["range", "resonance", "doubling", "pitchfork", "touch", "rim"]
-    assert np.all(np.isin(families["end_kind"].values, kinds))
-
-
-def test_the_first_minimum_has_the_last_curve_beyond_a_fifth_as_its_cause(datasets):
-    _, shares = datasets
-    assert shares["cause_event"].values.tolist().count("unexplained") == 4
-    assert shares["cause_event"].values[0] == "last curve beyond 1/5 breaks"
-    events = dict(zip(shares["breakup_event"].values, shares["breakup_at"].values, strict=True))
-    assert events["first curve beyond 2/7 forms"] > 0.0550 + 0.0005
-
-
-def test_at_the_papers_energy_regular_orbits_are_in_the_island_or_in_its_six(datasets):
-    families, shares = datasets
-    (row,) = np.flatnonzero(np.isclose(shares["energy"].values, 0.01))
-    share = shares["share"].values[row]
-    held = sorted(int(families["period"].values[i]) for i in np.flatnonzero(share))
-    assert held == [1, 6]
-    assert share.sum() == pytest.approx(float(shares["regular"].values[row]))

@@ -30,13 +30,3 @@ def test_families_without_an_event_are_drawn_with_their_rim_and_a_key_of_what_th
     assert len(rims) == 2
     low, high = 775 / style.DPI, 1865 / style.DPI
     assert all(low < y < high for line in rims for y in line.get_ydata())
-
-
-def test_families_along_k_do_not_name_one_k(calm):
-    _, held, regular = calm
-    span = [0.18, 0.22]
-    held = held.assign(k=("point", np.linspace(*span, held.sizes["point"])))
-    scene = SCENE | {"parameter": "k", "span": span, "drawn": 1}
-    figure = draw(scene, held, regular)
-    assert "$E$ = 0.01, $g$ = 0.04" in texts(figure)
-    assert not any("$k$ =" in text for text in texts(figure))

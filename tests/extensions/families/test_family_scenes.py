@@ -1,14 +1,8 @@
 """Scenes of families and chains: bounds, which datasets variants share, and a run."""
 
 import pytest
-import yaml
 from documents import complaint, good
 from examples import PAPER, assert_bounded
-from project import fresh_tree, of_scenes
-
-from pipeline import config
-from pipeline.config import paths
-from pipeline.config.reference import example
 
 PLANE = {"k": [0.19, 0.21], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 CHAINS = {"picture": "chains", "over": "a", "chains": [6]}
@@ -28,16 +22,6 @@ def test_beyond_its_bound(beyond, line):
     assert_bounded("families", "families", {"ball": PAPER}, beyond, line)
 
 
-def test_a_dataset_is_shared_only_with_its_inputs():
-    """Shares of stable motion follow the families, whose levels are not among their own fields."""
-    scenes = {"map": yaml.safe_load(example("families"))}
-    finer = {"scenes": {"map": {"levels": 40}}}
-    document = {"ball": PAPER, "scenes": scenes, "variants": {"finer": finer}}
-    artifact_paths = paths.artifact_paths(config.check(document).variants)
-    for stage in ("families", "shares"):
-        assert artifact_paths["finer", "map", stage] == f"results/finer/{stage}_map.nc"
-
-
 @pytest.mark.parametrize(
     ("plane", "chains", "start", "allowed"),
     [
@@ -50,13 +34,3 @@ def test_a_dataset_is_shared_only_with_its_inputs():
 def test_chains_that_cannot_be_are_refused_in_one_line(plane, chains, start, allowed):
     line = complaint(good() | {"sweeps": {"a": PLANE | plane, "over_it": CHAINS | chains}})
     assert line.startswith(f"sweeps.over_it.{start}") and allowed in line
-
-
-@pytest.mark.slow
-def test_chains_are_drawn_over_the_data_of_the_sweep(tmp_path):
-    sweeps = {"a": PLANE, "over_it": CHAINS}
-    tree = fresh_tree(tmp_path / "a fresh clone", of_scenes("fig3", sweeps=sweeps))
-    tree.succeed("atlas", "-c", "1")
-    assert {file.name for file in (tree.path / "results/atlas").glob("*_a.nc")} == {"sweep_a.nc"}
-    assert (tree.path / "results/atlas/chains_over_it.nc").is_file()
-    assert (tree.path / "more_figures/atlas/over_it.png").read_bytes().startswith(b"\x89PNG")

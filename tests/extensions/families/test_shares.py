@@ -6,7 +6,7 @@ import pytest
 from extensions.atlas.cell import cell
 from extensions.families.causes import causes, extrema
 from extensions.families.families import families
-from extensions.families.shares import Line, elliptic_orbits, shares
+from extensions.families.shares import shares
 from pseudorigid import Ball
 
 BALL, SPAN = Ball(0.2, 0.04), [0.0075, 0.0095]
@@ -39,15 +39,6 @@ def test_the_six_islands_are_those_of_the_sweep(held, data):
     counted = cell(0.2, 5.625, 200, 4000)
     assert (counted["chain_period"], counted["chain_turns"]) == (6, 1)
     assert data["share"].values[1, six] == pytest.approx(counted["chain_share"], abs=0.011)
-
-
-def test_elliptic_orbits_close(held):
-    found = elliptic_orbits(Line(BALL, 0.01, "energy", held), 0.009)
-    assert sorted(points.shape[1] for _, points in found) == [1, 6]
-    for _, points in found:
-        x, y = points[:, -1]
-        after = BALL.impact(*BALL.state_xy(x, y, 0.009))
-        assert after[0] == pytest.approx(points[0, 0], abs=1e-9)
 
 
 def test_extrema_stand_out_from_their_intervals():
