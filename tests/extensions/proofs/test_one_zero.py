@@ -13,7 +13,6 @@ from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.checkers.fixed_point import energy_at
 from extensions.proofs.checkers.twist import normal_form
 from extensions.proofs.search.periodic import approximate_points
-from study.enclosure.jets import Jet, algebra
 from study.enclosure.surface import ball_of
 
 NAME = "twist-one-zero"
@@ -41,21 +40,6 @@ def test_the_twist_is_that_of_birkhoffs_normal_form(theta):
         assert abs(form.twists[0] - twist / arb(theta)) < 1e-11
 
 
-@pytest.mark.parametrize("theta", ["0", "0.9", "2.2"])
-def test_the_series_has_the_fixed_point_its_symmetry_and_its_area(theta):
-    with ctx.workprec(one_zero.BITS):
-        t = arb(theta)
-        right, up = one_zero._series(*map(arb, ("0.2", "0.04")), t, 1)
-        for jet in (right, up):
-            assert jet[0, 0, 0].contains(0)
-            assert jet[0, 0, 1].contains(0)
-        assert right[1, 0, 0].overlaps(up[0, 1, 0])
-        determinant = (1 + t * right[1, 0, 0]) * (1 + t * up[0, 1, 0])
-        determinant -= t * t * right[0, 1, 0] * up[1, 0, 0]
-        assert determinant.contains(1)
-        assert determinant.rad() < 1e-20
-
-
 def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_differences():
     with ctx.workprec(one_zero.BITS):
         for ends in (("0", "0.05"), ("1.97", "1.98"), ("2.3", "2.305")):
@@ -66,24 +50,6 @@ def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_difference
                 assert all(value.overlaps(row[place]) for row in values)
                 for a, b in pairwise(values):
                     assert slope.overlaps((b[place] - a[place]) * 3 / arb(float(high - low)))
-
-
-@pytest.mark.parametrize("kind", ["sine", "versine"])
-def test_even_functions_enclose_their_taylor_coefficients(kind):
-    """To the present precision, whatever an earlier one was."""
-    one_zero._power_series.cache_clear()
-    one_zero._even_function(kind, arb("3.3"), 3)
-    with ctx.workprec(one_zero.BITS):
-        (z,) = Jet.series(algebra(1, 3), arb("3.3"))
-        sine, cosine = z.sin_cos()
-        stated = (sine - z) / (z * z * z) if kind == "sine" else (1 - cosine) / (z * z)
-        for ball in (arb("3.3"), arb(3.31, 0.02)):
-            terms = one_zero._even_function(kind, ball, 3)
-            for ours, exact in zip(terms, stated.coefficients, strict=True):
-                assert ours.overlaps(exact)
-                assert ours.rad() < max(1e-25, 0.05 * float(ball.rad()) / 0.02)
-        with pytest.raises(NotProvedError, match="too wide"):
-            one_zero._even_function(kind, arb(5.1), 3)
 
 
 def test_a_function_falls_through_zero_once_only():
