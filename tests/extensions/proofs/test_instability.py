@@ -94,7 +94,6 @@ def theta(low, high):
 CHANGES = {
     # |B| < |A| forged, and coefficients that are not those of this energy
     "coefficients = [7.35932691733, 1.74978423654]": "normal form is not",
-    "coefficients = [-1.74978423654, 7.35932691733]": "normal form is not",
     "coefficients = [1.74978423654, 7.359326919]": "normal form is not",
     "coefficients = [1.74978423654]": "no row of 2",
     # a margin that is not there, or too small

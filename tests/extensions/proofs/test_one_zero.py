@@ -52,6 +52,15 @@ def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_difference
                     assert slope.overlaps((b[place] - a[place]) * 3 / arb(float(high - low)))
 
 
+@pytest.mark.parametrize("kind", ["sine", "versine"])
+def test_coefficients_over_a_ball_enclose_those_at_its_points(kind):
+    with ctx.workprec(one_zero.BITS):
+        terms = one_zero._even_function(kind, arb(3.31, 0.02), 3)
+        for point in (3.295, 3.325):
+            inner = one_zero._even_function(kind, arb(point), 3)
+            assert all(ball.contains(term) for ball, term in zip(terms, inner, strict=True))
+
+
 def test_a_function_falls_through_zero_once_only():
     plus, minus, falls = (arb(1), arb(0, 9)), (arb(-1), arb(0, 9)), (arb(0, 1), arb(-1))
 

@@ -97,9 +97,7 @@ def test_rows_outside_a_premise_are_refused(name, field, row, columns, values, r
     ("diffeomorphism", {"g": Fraction(0)}, "no ball"),
     ("twist-one-zero", {"zero": (Fraction(1, 100), Fraction(7, 100))}, "do not reach"),
     ("six-birth", {"rotation": Fraction(5, 6)}, "no two orbits"),
-    ("six-birth", {"rotation": Fraction(1, 7), "period": 7}, "no two orbits"),
     ("six-birth", {"energies": (Fraction(0), Fraction(1, 50))}, "beyond theta"),
-    ("jump-set", {"jump": Fraction(-1)}, "may be within"),
 ])  # fmt: skip
 def test_a_statement_outside_a_premise_is_refused(name, bounds, reason):
     assert reason in refused(name, None, **bounds)
