@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from certificates import numbers, refused, with_field, with_rows
 from flint import arb, ctx
-from slowly import slowly
 
 from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import jump
@@ -41,10 +40,9 @@ def in_doubles(hset):
     return Parallelogram(*(np.array([float(a) for a in side]) for side in sides))
 
 
-@pytest.mark.parametrize("name", [SMALL, *slowly("entropy")])
-def test_the_entropy_is_that_of_the_paths(name):
+def test_the_entropy_is_that_of_the_paths():
     """The logarithm of the spectral radius of the matrix with a vertex for each impact."""
-    parts, digits = proved(name)
+    parts, digits = proved(SMALL)
     sets, connections = parts["graph"].sets, parts["graph"].connections
     size = len(sets) + sum(it.impacts - 1 for it in connections)
     matrix, free = np.zeros((size, size)), len(sets)
@@ -56,7 +54,7 @@ def test_the_entropy_is_that_of_the_paths(name):
     entropy = np.log(np.abs(np.linalg.eigvals(matrix)).max())
     with ctx.workprec(64):
         bound = float(digits["entropy"])
-    assert float(THEOREMS[name].bounds["entropy"]) < bound < entropy < bound + 5e-4
+    assert float(THEOREMS[SMALL].bounds["entropy"]) < bound < entropy < bound + 5e-4
 
 
 @pytest.mark.parametrize("name", [SMALL, "horseshoe-outer"])
