@@ -10,9 +10,6 @@ checker:
 - An orbit is proved by Brouwer's theorem, and alone by a comparison vector, without elimination.
 - Coverings are proved from images of single points and, again, the distance from a chord.
 
-It does not cover the twist and its zero, invariant curves, graphs of coverings, births and ends of
-orbits, the jump set, the uniqueness and trace of the fixed point, and the angles of horseshoes.
-
 Nothing rests on floating point. Doubles only propose what intervals then prove: a time near the
 first root, and the approximate inverse of a matrix.
 

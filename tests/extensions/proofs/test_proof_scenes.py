@@ -3,22 +3,18 @@
 import numpy as np
 import pytest
 import xarray as xr
-from documents import changed, complaint
 from examples import (
     OTHER,
     SHELL,
     assert_bounded,
-    assert_made_or_refused_in_one_line,
     checked,
     computed,
     made,
     no_clipping,
 )
 from keys import SCENE, texts
-from legible import assert_text_is_whole_and_apart
 from project import shipped
 
-from extensions.proofs import THEOREMS
 from extensions.proofs.figures.twist import draw
 from pipeline.config.schema.kinds import KINDS
 
@@ -48,11 +44,6 @@ def test_the_twist_is_drawn_within_its_frame():
         made(checked("twist", ball=OTHER, energies=energies, marks=[0.001]))
 
 
-@pytest.mark.slow
-def test_few_energies_of_the_twist_are_drawn_or_refused_in_one_line():
-    assert_made_or_refused_in_one_line(checked("twist", energies=[0.001, 0.01], marks=[]))
-
-
 def test_energies_outside_the_axes_are_reported():
     document = shipped()
     block = {"ball": document["ball"]} | document["proofs"]["twist"]
@@ -72,15 +63,6 @@ def test_a_horseshoe_shows_only_what_lies_within_its_limits():
         made(checked("horseshoe", axes=far), data)
 
 
-def test_theorems_are_named_like_their_certificates():
-    assert all(theorem.certificate == f"{name}.toml" for name, theorem in THEOREMS.items())
-
-
-def test_the_exact_method_is_among_what_is_allowed():
-    line = complaint(changed("scenes.a_portrait.method", "scan"))
-    assert line.endswith("a mapping with the keys scan and tolerance, or {exact: true}")
-
-
 # ---- the picture of the twist
 
 
@@ -95,13 +77,3 @@ def test_no_mark_of_a_twist_lies_outside_its_frame():
     axes = {"energy": {"limits": [0.003, 0.006], "ticks": [0.004]}}
     figure = picture(energies, 1e3 * energies, marks=[0.001, 0.004], axes=axes)
     assert [text for text in texts(figure) if "$E$ =" in text] == ["$E$ = 0.004"]
-
-
-@pytest.mark.parametrize("last", [0.004, 0.0005])
-def test_text_of_a_twist_is_apart_and_off_its_line(last):
-    shares = np.array([0.1, 0.2, 0.4, 0.6, 0.8, 0.999])
-    figure = picture(shares * last, 60.0 - 50.0 * shares, marks=[0.999 * last])
-    assert_text_is_whole_and_apart(figure)
-    (mark,) = (text for text in figure.texts if "$E$ =" in text.get_text())
-    (dot,) = (line for line in figure.artists if line.get_marker() == "o")
-    assert mark.get_position()[1] < dot.get_ydata()[0]

@@ -1,7 +1,5 @@
 """Certificates that prove nothing: altered, foreign, unreadable, or of less than the statement."""
 
-import dataclasses
-import os
 import re
 from fractions import Fraction
 from math import atan2, pi, tan
@@ -16,25 +14,22 @@ from certificates import (
     with_field,
     with_rows,
 )
-from flint import arb, ctx
+from flint import arb
 from second_checker import STATEMENTS, ImpactMap, prove_orbit
 from second_checker import NotProvedError as SecondNotProvedError
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, Surface
-from extensions.proofs.checkers import fixed_point, horseshoe, jump, periodic, twist
+from extensions.proofs.checkers import fixed_point, horseshoe, jump, periodic
 from extensions.proofs.checkers.certificate import Finding, NotProvedError
 from extensions.proofs.checkers.hsets import HSet
 from extensions.proofs.checkers.newton import enclose_zero
-from extensions.proofs.enclosure.surface import ball_of
 from extensions.proofs.search import jump as jump_search
 from extensions.proofs.search.fixed_point import propose_elliptic, propose_unique
 from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
 from pseudorigid import Ball, symmetric_orbits
 
-TWISTS = [name for name, theorem in THEOREMS.items() if theorem.checker is twist.check]
-HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 CHECKERS = ["package", *slowly("second")]
 # Fields of which leading digits are changed.
@@ -45,35 +40,30 @@ FIELDS = {
     "event",
 }  # fmt: skip
 
-# A theorem, and a field and places of its sets; the default suite changes the first one only.
-FIELDS_OF_SETS = [
-    *((name, "approach", (0, 30, -2)) for name in HORSESHOES), ("entropy-lower", "sets", (0,)),
-    ("entropy-lower", "chains", (0, 20, -1)), ("no-circle", "chain", (1, 30, -2)),
-]  # fmt: skip
+# A theorem, a field, and the place of one of its sets: first ones, inner ones and last ones.
+SETS = [("horseshoe-outer", "approach", 0), ("horseshoe-inner", "approach", -2),
+        ("entropy-lower", "sets", 0), ("no-circle", "chain", 1)]  # fmt: skip
 # Columns of a set that are multiplied by a factor and moved by half the columns so much further on.
 CHANGES = [((2, 3), Fraction("1.3"), None), ((4, 5), Fraction("0.7"), None),
            ((0, 1), 1, 2), ((0, 1), 1, 4)]  # fmt: skip
-SETS = [(name, field, rows[:1]) for name, field, rows in FIELDS_OF_SETS]
-MORE_SETS = [(name, field, rows[1:]) for name, field, rows in FIELDS_OF_SETS if rows[1:]]
 
 
-@pytest.mark.parametrize(("checker", "name", "field", "places"), [
+@pytest.mark.parametrize(("checker", "name", "field", "place"), [
     *(("package", *sets) for sets in SETS),
-    *slowly(*(("package", *sets) for sets in MORE_SETS)),
-    *slowly(*(("second", *sets) for sets in [*SETS, *MORE_SETS] if sets[0] in STATEMENTS)),
+    *slowly(("package", "entropy-lower", "chains", -1)),
+    *slowly(*(("second", *sets) for sets in SETS if sets[0] in STATEMENTS)),
 ])  # fmt: skip
 @pytest.mark.parametrize(("columns", "factor", "shift"), CHANGES)
 def test_sets_that_are_wider_thinner_or_shifted_are_refused(
-    checker, name, field, places, columns, factor, shift
+    checker, name, field, place, columns, factor, shift
 ):
-    for place in places:
-        rows = numbers(THEOREMS[name].text(), field)
-        values = [Fraction(a) for a in rows[place]]
-        for i in columns:
-            values[i] = values[i] * factor + (values[i + shift] / 2 if shift else 0)
-        rows[place] = [f'"{value}"' for value in values]
-        reason = refused(name, with_rows(THEOREMS[name].text(), field, rows), checker)
-        assert re.search("cover|floor|set", reason) or (checker == "second" and "cone" in reason)
+    rows = numbers(THEOREMS[name].text(), field)
+    values = [Fraction(a) for a in rows[place]]
+    for i in columns:
+        values[i] = values[i] * factor + (values[i + shift] / 2 if shift else 0)
+    rows[place] = [f'"{value}"' for value in values]
+    reason = refused(name, with_rows(THEOREMS[name].text(), field, rows), checker)
+    assert re.search("cover|floor|set", reason) or (checker == "second" and "cone" in reason)
 
 
 @pytest.mark.parametrize(("checker", "name"), by_both(ONE_OF_EACH))
@@ -99,47 +89,17 @@ def test_unreadable_certificates_are_refused(checker, name):
     arabic = text.replace('k = "1/5"', 'k = "\u0661/\u0665"')
     assert "not an exact number" in refused(name, arabic, checker)
     for field in ("points", "saddles", "approach", "middle", "margins", "roots", "leaves"):
-        for value in ('"text"', "5", "[]", "[[]]", "[[[1, 2], 3]]", "1979-05-27"):
+        for value in ("5", "[]", "[[]]", "[[[1, 2], 3]]", "1979-05-27"):
             pattern = re.compile(rf"^{field} = (\[\n.*?^\]|.*?$)", re.DOTALL | re.MULTILINE)
             if (other := pattern.sub(f"{field} = {value}", text)) != text:
                 refused(name, other, checker)
+    for number in ("1e-999999999", '"1e999999999"', '"1_0.5"', "true", '"1/0"', "[1]"):
+        for field in ("k", "energy", "energy_up_to", "energy_below", "radius"):
+            if (other := with_field(text, field, number)) != text:
+                refused(name, other, checker)
 
 
-def test_a_refusal_without_a_reason_has_one():
-    def refuse(text, **bounds):
-        raise NotProvedError
-
-    assert refused(dataclasses.replace(THEOREMS["fixed-point"], checker=refuse))
-
-
-def stated(name, field):
-    """The number in a field of a theorem's certificate."""
-    line = re.search(rf'^{field} = "?([^"\n]*)', THEOREMS[name].text(), re.MULTILINE)
-    return Fraction(line.group(1))
-
-
-@pytest.mark.parametrize(("name", "field", "value", "reason"), [
-    ("fixed-point", "radius", "5e-03", "boxes"),
-    *((name, "radius", THEOREMS[name].bounds["radius"] / 2, "as stated") for name in TWISTS),
-    *((name, "twist", factor * stated(name, "twist"), "not the stated")
-      for name in TWISTS for factor in (-1, Fraction("1.00000001"))),
-    *(("twist-zero", "energy", stated("twist-zero", "energy") + shift, "")
-      for shift in (Fraction("1e-13"), -Fraction("1e-13"))),
-    *(("twist-zero", "width", width, "wid") for width in ("1e-12", "-1e-13", "nan", "inf")),
-    ("twist-zero", "radius", "1e-3", "as stated"),
-    *(("fixed-point-elliptic", "bands", bands, reason)
-      for bands, reason in ((1, "each band"), (-4, "bands"), (10**9, "bands"))),
-    ("fixed-point-elliptic", "trace_above", "-1/2", "not -0.46"),
-    ("fixed-point-elliptic", "trace_above", "-0.45", "not proved to be above"),
-    ("jump-set", "radius", "1e-27", "not above 0 and at most"),
-    *(("jump-set", "speed", speed, "") for speed in ("0.2", "-0.2", "nan")),
-])  # fmt: skip
-def test_another_number_in_a_field_is_refused(name, field, value, reason):
-    value = value if isinstance(value, int) else f'"{value}"'
-    assert reason in refused(name, with_field(THEOREMS[name].text(), field, value))
-
-
-@pytest.mark.parametrize(("checker", "name"), by_both([*ORBITS, *TWISTS]))
+@pytest.mark.parametrize(("checker", "name"), by_both([*ORBITS, "twist-six"]))
 def test_boxes_of_another_size_and_points_of_another_orbit_are_refused(checker, name):
     theorem = THEOREMS[name]
     text, points = theorem.text(), numbers(theorem.text(), "points")
@@ -189,13 +149,6 @@ def test_the_map_is_not_proved_smooth_below_another_energy(energy, roots, stated
     assert re.search(reason, refused("diffeomorphism", text, checker, energy=Fraction(stated)))
 
 
-def test_no_jump_is_proved_where_the_map_is_smooth():
-    at = Surface("1/5", "1/25", "11/6250")
-    text = THEOREMS["jump-set"].text().replace("1/100", "11/6250")
-    reason = refused("jump-set", text, surface=at, length=Fraction(0), jump=Fraction(0))
-    assert "no flight touches the floor" in reason
-
-
 def only_fixed_point(k, g, energy):
     """The certificate of one fixed point up to an energy of a ball."""
     return propose_unique(with_bounds(THEOREMS["one-fixed-point"], k=k, g=g, energy=energy))
@@ -219,18 +172,12 @@ def test_one_fixed_point_is_proved_neither_to_a_lower_energy_nor_where_there_are
         fixed_point.check_unique(text, k, g, energy)
 
 
-def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_near_another_theta():
+def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_where_it_is_not():
     ball, trace = (Fraction(1, 5), Fraction(1, 25)), Fraction("-0.46")
     for energy in (Fraction(1, 20), Fraction(61, 1000)):
         text = elliptic(*ball, energy, Fraction("-0.5"))
         assert fixed_point.check_elliptic(text, *ball, energy, Fraction("-0.5"))
         assert f"up to {energy}" in refused("fixed-point-elliptic", text)
-    text = THEOREMS["fixed-point-elliptic"].text()
-    for theta, reason in (
-        ("[2.30, 2.31]", "1e-30"),
-        ('["5.450263", "5.450263000000000000000000000000000001"]', "between 0 and pi"),
-    ):
-        assert reason in refused("fixed-point-elliptic", with_field(text, "theta", theta))
     # At k = 1 and this energy the fixed point has long been inverse hyperbolic.
     text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
     with pytest.raises(NotProvedError, match="not proved to be above"):
@@ -254,36 +201,14 @@ def test_a_newton_image_that_is_not_inside_its_box_proves_no_zero(zero):
 # ---- certificates that are consistent and prove less than the statement
 
 
-def test_the_boxes_contain_those_around_the_points_of_the_orbit(monkeypatch):
-    sizes = []
-    prove = periodic.prove
-
-    def watched(surface, centres, radius):
-        sizes.append(radius)
-        return prove(surface, centres, radius)
-
-    monkeypatch.setattr(periodic, "prove", watched)
-    theorem = THEOREMS["six-elliptic"]
-    orbit = theorem.prove().parts["orbit"]
-    assert orbit.radius == theorem.bounds["radius"]
-    rows = numbers(theorem.text(), "points")
-    with ctx.workprec(256):
-        distance = max(
-            abs(value - arb(middle)).upper()
-            for point, centre in zip(orbit.points, rows, strict=True)
-            for value, middle in zip(point, centre, strict=True)
-        )
-        assert 0 < distance < ball_of(sizes[0] - orbit.radius)
-
-
 STRONGER = [
-    *((name, "radius", lambda radius: radius * Fraction(101, 100)) for name in [*ORBITS, *TWISTS]),
+    *((name, "radius", lambda radius: radius * Fraction(101, 100))
+      for name in [*ORBITS, "twist-six"]),
     *((name, "window", lambda window: tuple((low, low) for low, _ in window))
-      for name in [*ORBITS, *TWISTS, *HORSESHOES, "no-circle"]),
-    *((name, "crossing", lambda sides: (sides[0] + Fraction(1, 1000), sides[1] + 1))
-      for name in HORSESHOES),
+      for name in [*ORBITS, "twist-six", "horseshoe-outer", "no-circle"]),
+    ("horseshoe-outer", "crossing", lambda sides: (sides[0] + Fraction(1, 1000), sides[1] + 1)),
     *((name, "entropy", lambda entropy: entropy * Fraction(102, 100))
-      for name in [*HORSESHOES, "horseshoe-smooth", "entropy", "entropy-lower"]),
+      for name in ("horseshoe-outer", "entropy", "entropy-lower")),
     *((name, "energy", lambda energy: energy * Fraction(101, 100))
       for name in ("one-fixed-point", "fixed-point-elliptic", "diffeomorphism", "twist-one-zero")),
     ("fixed-point-elliptic", "trace", lambda trace: trace * Fraction(99, 100)),
@@ -303,54 +228,6 @@ STRONGER = [
 ])  # fmt: skip
 def test_a_stronger_statement_is_not_proved_by_the_same_certificate(checker, name, bound, change):
     refused(name, None, checker, **{bound: change(THEOREMS[name].bounds[bound])})
-
-
-# ---- statements: each number in one is given to the checker
-
-# Bounds that a text need not name: of the certificate's accuracy or of the boxes in which an orbit
-# is alone, where the statement does not speak of it; `trace` of a doubling is always -2.
-UNSAID = {
-    "error", *((name, "radius") for name in (*TWISTS, *HORSESHOES, "horseshoe-smooth", "no-circle",
-    "jump-set", "twist-zero", *(name for name in THEOREMS if name.startswith("curve-")))),
-    ("twist-zero", "width"), ("six-elliptic-doubling", "trace"),
-}  # fmt: skip
-
-
-def with_other_numbers(value):
-    """Yield (place, value with another number there) for each number."""
-    if isinstance(value, Surface):
-        for name in ("energy", "k", "g"):
-            change = {name: getattr(value, name) * Fraction(113, 128)}
-            numbers = {"k": value.k, "g": value.g, "energy": value.energy}
-            yield name, Surface(**numbers | change)
-    elif isinstance(value, tuple):
-        for i, part in enumerate(value):
-            for place, other in with_other_numbers(part):
-                yield (i, place), (*value[:i], other, *value[i + 1 :])
-    elif isinstance(value, Fraction):
-        yield (), value * Fraction(113, 128)
-    elif isinstance(value, int):
-        yield (), value + 2 if value > 0 else -value
-
-
-SAID = [
-    (name, bound)
-    for name, theorem in THEOREMS.items()
-    for bound in theorem.bounds
-    if not {bound, (name, bound)} & UNSAID and bound not in ("halves", "type")
-]
-
-
-@pytest.mark.parametrize(("name", "bound"), SAID)
-def test_another_number_in_a_bound_gives_another_statement(name, bound):
-    theorem = THEOREMS[name]
-    others = list(with_other_numbers(theorem.bounds[bound]))
-    if bound == "sides":  # of which only the sign counts
-        others = [((i,), tuple(-a if i == j else a for j, a in enumerate(theorem.bounds[bound])))
-                  for i in (0, 1)]  # fmt: skip
-    assert others
-    texts = [with_bounds(theorem, **{bound: other}).statement for _, other in others]
-    assert len({theorem.statement, *texts}) == len(texts) + 1
 
 
 @pytest.mark.parametrize("name", THEOREMS)
@@ -401,23 +278,8 @@ def test_a_jump_set_of_coarser_points_or_of_part_of_the_curve_is_refused(monkeyp
     assert "longer than 0.4048" in refused("jump-set")
 
 
-@pytest.mark.parametrize(("checker", "name"), by_both(
-    ["fixed-point", "horseshoe-outer", "diffeomorphism", "twist-zero", "jump-set",
-     "one-fixed-point"]
-))  # fmt: skip
-def test_a_number_of_too_many_digits_or_of_another_form_is_refused(checker, name):
-    text = THEOREMS[name].text()
-    for number in (
-        "1e-999999999", "1e999999999", "1e400", "1e-999", "1_0.5", "true", "0x10", '"1/0"', "[1]",
-    ):  # fmt: skip
-        for field in ("k", "g", "energy", "energy_up_to", "energy_below", "radius"):
-            for value in (number, f'"{number}"'):
-                if (other := with_field(text, field, value)) != text:
-                    refused(name, other, checker)
-
-
 def leading_digits(text):
-    """(field, number, certificate) of every changed leading digit in one of FIELDS."""
+    """(field, number, certificate) of each number of FIELDS with another leading digit."""
     start, field = 0, None
     for line in text.splitlines(keepends=True):
         named = re.match(r"(\w+) = ", line)
@@ -427,35 +289,22 @@ def leading_digits(text):
             for number in re.finditer(r"-?\d[\d.e-]*", line[values:]):
                 if digit := re.search(r"[1-9]", number.group(0)):
                     at = start + values + number.start() + digit.start()
-                    for other in "123456789".replace(text[at], ""):
-                        yield field, number.group(0), text[:at] + other + text[at + 1 :]
+                    other = "2" if text[at] == "1" else "1"
+                    yield field, number.group(0), f"{text[:at]}{other}{text[at + 1 :]}"
         start += len(line)
 
 
-def some_leading_digits(text):
-    """All changed leading digits of a short certificate, some of each field of a long one."""
-    changes = list(leading_digits(text))
-    if len(changes) <= 200:
-        return changes
-    fields = [[change for change in changes if change[0] == field] for field in FIELDS]
-    return [change for group in fields for change in group[:: max(1, len(group) // 4)]]
-
-
-def stays_true(checker, field, name, text):
-    """Whether a changed certificate claims more: larger boxes, which the second checker proves."""
-    larger = re.search(r"^radius = (.*)$", text, re.MULTILINE) if field == "radius" else None
-    return checker == "second" and larger and Fraction(larger[1]) > THEOREMS[name].bounds["radius"]
-
-
 @pytest.mark.parametrize(("checker", "name"), by_both(THEOREMS))
-@pytest.mark.parametrize("eighths", [[0], *slowly([*range(1, 8)])])
-def test_no_leading_digit_may_change(checker, name, eighths):
-    """Of the eight other values of a digit, the default suite tries one."""
-    changes = some_leading_digits(THEOREMS[name].text())
+def test_no_leading_digit_may_change(checker, name):
+    """Of any number of a short certificate, and of one in each field of a long one."""
+    changes = list(leading_digits(THEOREMS[name].text()))
+    if len(changes) > 30:
+        groups = ([change for change in changes if change[0] == field] for field in FIELDS)
+        changes = [group[len(group) // 3] for group in groups if group]
     assert changes
-    for field, number, text in (change for first in eighths for change in changes[first::8]):
-        if not stays_true(checker, field, name, text):
-            assert refused(name, text, checker), number
+    for field, number, changed in changes:
+        if (checker, field) != ("second", "radius"):  # it proves larger boxes too
+            assert refused(name, changed, checker), number
 
 
 def test_a_set_contains_what_is_proved_to_be_inside():
@@ -479,19 +328,9 @@ def test_a_horseshoe_whose_middle_set_may_meet_another_is_refused(monkeypatch):
     assert "M_0 is not proved to be disjoint" in refused("horseshoe-outer")
 
 
-@pytest.mark.parametrize(
-    ("make", "reason"),
-    [
-        (lambda file: file.write_bytes(b"\xff\x00" * 1000), "the certificate cannot be read: "),
-        (lambda file: file.mkdir(), "there is no such certificate"),
-        (os.mkfifo, "there is no such certificate"),
-        (lambda file: None, "there is no such certificate"),
-    ],
-    ids=["random bytes", "a folder", "a FIFO", "nothing"],
-)
-def test_what_is_no_certificate_is_a_reason(monkeypatch, tmp_path, make, reason):
+def test_random_bytes_and_a_missing_file_are_no_certificate(monkeypatch, tmp_path):
     monkeypatch.setattr(statements.resources, "files", lambda package: tmp_path)
+    assert "there is no such certificate" in refused("fixed-point")
     (tmp_path / "certificates").mkdir()
-    make(tmp_path / "certificates" / "fixed-point.toml")
-    result = THEOREMS["fixed-point"].check()
-    assert result.verdict == "not proved" and result.reason.startswith(reason)
+    (tmp_path / "certificates" / "fixed-point.toml").write_bytes(b"\xff\x00" * 1000)
+    assert "the certificate cannot be read" in refused("fixed-point")

