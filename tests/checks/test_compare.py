@@ -79,6 +79,10 @@ def test_orbits_are_lost_gained_and_changed():
     assert lines[0] == "one: period 1: elliptic (rotation 0.179)"
 
 
+def test_the_spread_is_the_standard_deviation_between_orbits():
+    assert datasets.spread(np.array([0.1, 0.3])) == "0.2000 ± 0.1414 (0.1000 to 0.3000)"
+
+
 def test_a_comparison_prints_every_difference(variants):
     output = (variants.path / "said of paper and low").read_text().partition("\npaper | low\n")[2]
     assert "  energy: 0.01 | 0.0017\n" in output

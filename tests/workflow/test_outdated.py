@@ -11,12 +11,9 @@ from contextlib import suppress
 
 import psutil
 import pytest
-from project import ROOT
 from runs import FIG3, contents, rows
 from slowly import slowly
 from verdicts import verified
-
-from pipeline.cli import running
 
 PAPER = "results/paper"
 
@@ -92,15 +89,6 @@ def test_a_run_that_leaves_a_figure_out_is_no_success(done):
     result = done.run()
     assert result.returncode == 1
     assert "reproduce: 1 of 14 results not made, or not current: fig3.png\n" in result.stdout
-
-
-def test_the_options_of_a_run_are_those_of_the_profile():
-    text = (ROOT / "profiles/default/config.yaml").read_text()
-    lines = [line.partition("#")[0].split(":") for line in text.splitlines()]
-    profile = {name: value.strip(" []") for name, value in (line for line in lines if line[1:])}
-    words = running.OPTIONS[3:]  # without the profile and the lock of snakemake
-    given = [f"--{name} {'' if value == 'true' else value}" for name, value in profile.items()]
-    assert sorted(" ".join(given).split()) == sorted(words)
 
 
 def kill(run, how):
