@@ -20,9 +20,9 @@ class Found(NamedTuple):
     lines: list  # the whole report
 
 
-def verified(tree, strict=False, committed=False):
+def verified(tree, strict=False):
     """Verify a tree."""
-    findings, *others = verify(tree.path, config.load(tree.config), committed)
+    findings, *others = verify(tree.path, config.load(tree.config))
     wrong = {
         name: [f"{layer}: {words}" for layer, words in layers.items()]
         for name, layers in findings.differences.items()

@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 import time
-from functools import partial
 from importlib import import_module, metadata
 from pathlib import Path
 
@@ -44,7 +43,6 @@ def command(moved, monkeypatch, capsys):
 def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     status, lines = command("verify", "--strict")
     assert (status, lines[-1]) == (0, "14 of 14 figures identical")
-    assert verified(moved)[:4] == (0, {}, [], [])
     shutil.rmtree(moved.path / "results")
     status, lines = command("verify")
     assert status == 1
@@ -52,7 +50,6 @@ def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     status, lines = command("verify", "--committed")
     assert status == 0
     assert lines[-2].startswith("no results here: only the committed files were checked")
-    assert verified(moved, committed=True)[:4] == (0, {}, [], [])
 
 
 def test_manifest_and_records_have_no_folder_and_no_date(accepted):
@@ -69,18 +66,18 @@ def test_manifest_and_records_have_no_folder_and_no_date(accepted):
 # ---- one fault for each layer ----
 
 
-def spoil_pixel(path, row=100, column=200):
+def spoil_pixel(path):
     image = pictures.pixels(path).copy()
-    image[row, column] ^= 255
+    image[100, 200] ^= 255
     path.write_bytes(png(image, 300))
 
 
-def spoil_value(path, variable, index):
+def spoil_value(path):
     with netCDF4.Dataset(path, "a") as file:
         file.set_auto_mask(False)
-        values = file[variable][...]
-        values.view("i8")[index] += 3
-        file[variable][...] = values
+        values = file["strain"][...]
+        values.view("i8")[1500] += 3
+        file["strain"][...] = values
 
 
 def spoil_attribute(path):
@@ -104,30 +101,13 @@ def made_thicker(path):
 # whether the file is a result, which is then a finding too.
 FAULTS = [
     (FIGURE, Path.unlink, "fig3.png", f"file: {FIGURE} is missing: ./reproduce makes it$", False),
-    (FIGURE, cut_to(0), "fig3.png", f"drawing: {FIGURE}: damaged, or not", False),
     (FIGURE, cut_to(8), "fig3.png", f"drawing: {FIGURE}: damaged, or not", False),
-    (
-        FIGURE,
-        save_otherwise,
-        "fig3.png",
-        f"file: {FIGURE}: the same picture in other bytes",
-        False,
-    ),
-    (SVG, cut_to(0), "fig7.svg", f"drawing: {SVG}: damaged, or not", False),
+    (FIGURE, save_otherwise, "fig3.png", f"file: {FIGURE}: the same picture in other", False),
     (SVG, made_thicker, "fig7.svg", rf"drawing: {SVG}: 1 of [\d,]+ elements differ", False),
     (DRAWING, spoil_pixel, "fig3.png", rf"drawing: {DRAWING}: 1 of [\d,]+ pixels differ", True),
     (PERIODIC, spoil_attribute, "fig3", f"data: {PERIODIC}: attribute energy differs$", True),
-    (ORBITS, cut_to(0), "fig2", f"data: {ORBITS}: ", True),
     (ORBITS, cut_to(4000), "fig2", f"data: {ORBITS}: ", True),
-    (ORBITS, cut_to(-1), "fig2", f"data: {ORBITS}: ", True),
-    (
-        *(ORBITS, partial(spoil_value, variable="x", index=17), "fig2"),
-        *(rf"data: {ORBITS}: variable x differs from block 0 on \(value 0 of ", True),
-    ),
-    (
-        *(MOTION, partial(spoil_value, variable="strain", index=1500), "fig4"),
-        *(rf"data: {MOTION}: variable strain differs from block 1 on \(value 1,024 of ", True),
-    ),
+    (MOTION, spoil_value, "fig4", rf"data: {MOTION}: variable strain differs from block 1", True),
 ]
 
 
@@ -199,9 +179,7 @@ def test_a_pixel_that_differs_from_the_results_or_the_commit_is_shown(moved):
     found = verified(moved)
     (words,) = found.wrong.pop("fig3.png")
     assert (found.wrong, found.findings, found.notes) == ({}, [], [])
-    assert re.match(
-        rf"drawing: {FIGURE}: 1 of [\d,]+ pixels differs: see results/paper/diff", words
-    )
+    assert re.match(rf"drawing: {FIGURE}: 1 of [\d,]+ pixels differs: see results/paper/d", words)
     image = pictures.pixels(moved.path / "results" / "paper" / "differences" / "fig3.png")
     assert np.argwhere((image == (220, 0, 0)).all(axis=2)).tolist() == [[100, 200]]
     shutil.rmtree(moved.path / "results")

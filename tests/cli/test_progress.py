@@ -5,30 +5,16 @@ import types
 from itertools import pairwise
 
 import pytest
-from project import ROOT, SHIPPED
+from project import ROOT
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
 from pipeline.checks.freshness import Freshness
-from pipeline.cli import figures, packages
-from pipeline.cli.session import UsageError, one_line
-from pipeline.config import load
-from pipeline.config.build_specs import build_specs
 from pipeline.jobs import heartbeat, stage
 from pipeline.jobs.plan import Plan
 from pipeline.records.build_spec import BuildSpec
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
-
-
-def test_a_result_has_the_name_of_its_scene_and_step():
-    checked = load(SHIPPED)
-    checked.variants["thin"] = {"fig4": checked.scenes["fig4"].model_copy(update={"energy": 0.011})}
-    names = {path: (each.scene, each.step) for path, each in build_specs(checked).items()}
-    assert names[ORBITS] == ("fig2", "orbits")
-    assert names[DRAWING] == ("fig2", "drawing png")
-    assert names["results/thin/figures/fig4.png"] == ("thin/fig4", "drawing png")
-    assert names["results/study/work.nc"] == ("work_uniform", "work")
 
 
 def spec(path, step, config=None):
@@ -91,14 +77,6 @@ def test_running_steps_are_named(handler, monkeypatch):
     assert handler._running() == ""
 
 
-def test_compiling_is_named_if_no_machine_code_is_kept(monkeypatch, tmp_path):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    assert steps._compiling() == "compiling, once; "
-    (tmp_path / "pseudorigid.kernel.loops-0").mkdir()
-    (tmp_path / "pseudorigid.kernel.loops-0/function.nbc").touch()
-    assert steps._compiling() == ""
-
-
 def test_silence_never_lasts_five_seconds(monkeypatch, capsys):
     now, times = [0.0], []
     monkeypatch.setattr(heartbeat.Heartbeat, "start", lambda self: None)
@@ -134,19 +112,6 @@ def test_a_long_stage_reports_the_share_done_every_four_seconds(monkeypatch, cap
     assert len(lines) == 12
 
 
-def test_the_closing_table_is_as_wide_as_the_terminal(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "60")
-    files = ["paper_figures/fig4.png", "paper_figures/fig4.svg"]
-    reason = "no elliptic orbit of period 6 at energy 0.0017 (found: hyperbolic)"
-    rows = [("fig4", file, f"cannot exist: {reason}") for file in files]
-    figures._print_table("paper_figures", rows, [])
-    _, head, *lines = capsys.readouterr().out.splitlines()
-    assert all(len(line) <= 60 for line in (head, *lines))
-    assert [line.split()[2:] for line in lines[:2]] == 2 * [["cannot", "exist"]]
-    text = " ".join(line.strip() for line in lines[2:])
-    assert text == f"{', '.join(files)}: cannot exist: {reason}"
-
-
 def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     log = tmp_path / "results/paper/logs/orbits_fig2.nc.log"
     log.parent.mkdir(parents=True)
@@ -166,20 +131,3 @@ def test_parts_of_a_dataset_are_counted(handler, capsys, monkeypatch):
     monkeypatch.setattr(steps, "plan", lambda: Plan({}, fresh, {ORBITS}))
     emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
     assert capsys.readouterr().err == "fig2: 1 of 1 blocks\n"
-
-
-def test_only_errors_of_the_given_kind_are_one_line():
-    with pytest.raises(UsageError, match=r"^archive: no archive$"), one_line("archive: ", OSError):
-        raise OSError("no archive")
-    with pytest.raises(KeyError), one_line("archive: ", OSError):
-        raise KeyError("a bug")
-
-
-def test_an_installation_says_how_far_it_is(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(packages, "VENV", tmp_path)
-    monkeypatch.setattr(packages, "LOG", tmp_path / "install.log")
-    monkeypatch.setattr(packages, "_GAP", 0.05)
-    (tmp_path / "lib/python3/site-packages/numpy.dist-info").mkdir(parents=True)
-    assert packages._run(["sleep", "0.12"]) and not packages._run(["false"])
-    lines = capsys.readouterr().err.splitlines()
-    assert {*lines} == {"reproduce: installing: packages so far: 1"} and len(lines) <= 3

@@ -2,7 +2,6 @@
 
 import pytest
 from project import ROOT, check_jsonschema
-from slowly import slowly
 
 from pipeline.config import json_schema
 from pipeline.config.reference import example
@@ -29,13 +28,6 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     [
         ("elevation: 40", "elevatoin: 40", "elevatoin"),
         ("elevation: 40", "elevation: 400", "400"),
-        *slowly(
-            ("\nscenes:", "\nscnes:", "scnes"),
-            ("picture: portrait", "picture: portrayed", "portrayed"),
-            ("impacts: 200000", "impacts: '200000'", "200000"),
-            ("scenes:\n", "scenes:\n  -x: {picture: portrait}\n", "-x"),
-            ("\nscenes:", "\nothers: {}\nscenes:", "others"),
-        ),
     ],
 )
 def test_a_mistake_is_refused_and_named(tmp_path, old, new, named):

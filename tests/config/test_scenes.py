@@ -36,7 +36,6 @@ def test_numbers_are_recorded_as_they_were_written():
     [
         (0.1, None),
         ({"x": 0.1, "xdot": 0.05}, None),
-        ({"x": 0.1, "xdot": -0.02}, None),
         ({"x": 0.1, "y": 0.02}, None),
         ({"x": 0.1, "y": -0.02}, None),
         ({"x": 0.5739, "y": 0}, None),  # the section ends at 0.2 + sqrt(0.14) = 0.57417
@@ -98,49 +97,35 @@ def test_values_outside_the_axes_are_reported(scene, fields, lines):
 # goes on. `test_the_committed_schema_is_up_to_date` holds the bounds of single values.
 BAD = [
     ("ball", ..., ": missing: expected a mapping with the keys k and g"),
-    ("ball.k", ..., ": missing: expected a number with 0 < k <= 1"),
     ("ball.k", 0, ": 0 is not allowed: expected a number with 0 < k <= 1"),
     ("ball.k", "0.2", ": '0.2' is not allowed"),
-    ("ball.k", True, ": true is"),
     ("ball.g", 0.2, ": 0.2 is not allowed: expected 0 < g < k = 0.2"),
     ("ball.gravity", 0.04, ": unknown key: allowed here: k, g"),
     ("scene", {}, ": unknown key: did you mean scenes?"),
     ("scenes", {}, ": {} is not allowed: expected a mapping from names to scenes, at least one"),
-    ("scenes", None, ": nothing is"),
-    ("scenes.new", None, ": nothing is"),
     ("scenes.new", {"energy": 1}, ".picture: missing: expected one of"),
     ("a_portrait.method", {"scan": 0.1}, ".tolerance: missing: expected a number from 1e-15"),
-    ("a_portrait.method", "scan", ": 'scan' is not allowed: expected a mapping with the keys scan "
-     "and tolerance"),
     ("a_tangle.method", {"scan": 0.1, "tolerance": 1e-6},
      ".tolerance: 1e-06 is not allowed: expected a number from 1e-15 to 1e-12, for manifolds"),
     ("a_motion.picture", "movie", ": 'movie' is not allowed: expected one of"),
     ("a_motion.starts", [0.1], ": unknown key"),
     ("a_motion.energy", ..., ": missing: expected a number with"),
     ("a_motion.energy", float("inf"), ": inf is not allowed: expected a number with"),
-    ("a_motion.energy", 10**400, ": 1000"),
     ("a_motion.energy", 0.06, ": 0.06 is not allowed: expected a number below k/2 - g = 0.06,"),
     ("a_motion.energy", -0.004, ": -0.004 is not allowed: expected a number above -g^2/(2k)"),
-    ("a_motion.ball", {"k": 0.1, "g": 0.1}, ".g: 0.1 is"),
     ("a_motion.period", 6.0, ": 6.0 is not allowed: expected a whole number from 1 to 12"),
     ("a_motion.type", "eliptic", ": 'eliptic' is not allowed: expected one of elliptic"),
     ("a_motion.formats", ["svg"], ": ['svg'] is not allowed: expected a list of png"),
     ("a_motion.formats", ["png", "gif"], "[1]: 'gif' is not allowed: expected one of png, svg"),
-    ("a_motion.formats", ["png", "png"], ": ['png', 'png'] is"),
-    ("a_motion.formats", "png", ": 'png' is not allowed: expected a list"),
     ("a_motion.axes.t.limits", [16, 0], ": [16, 0] is not allowed: expected a list of two incr"),
     ("a_motion.axes.t.ticks", [0, 17], ": 17 is not allowed: expected numbers within the limit"),
     ("a_motion.axes.x", AXES, ": unknown key: allowed here: t, displacement"),
     ("a_motion.axes.display", 3, ": unknown key: did you mean displacement?"),
-    ("a_motion.axes", [], ": [] is not allowed: expected a mapping with the keys t and displace"),
     ("a_portrait.starts", [-0.5, 1], "[1]: 1 is not allowed: expected a fraction of"),
     ("a_portrait.impacts", [10], ": [10] is not allowed: expected one number for each of the 2"),
-    ("a_portrait.impacts", "many", ": 'many' is not allowed: expected a whole number"),
     ("a_portrait.impacts", 6_000_000, ": 6000000 is not allowed: expected at most 10000000"),
     ("a_portrait.impacts", [10, 2.5], "[1]: 2.5 is not allowed: expected a whole number"),
     ("a_portrait.sea", [2], ": 2 is not allowed: expected a place in starts, from 0 to 1"),
-    ("a_portrait.sea", [1, 1], ": [1, 1] is"),
-    ("a_tangle.branches", {}, ": {} is"),
     ("a_tangle.branches.outer.length", 4167, ": 4167 is not allowed: expected at most 10000000 "
      "times resolution.distance, shared by 24 branches = 4166.666666666667"),
     ("a_closeup.point", 6, ": 6 is not allowed: expected a whole number from 0 to period - 1"),
@@ -165,13 +150,6 @@ def test_a_value_of_any_size_is_shortened_to_a_line():
     assert len(lines) == 11 and all(len(line) < 250 for line in lines)
 
 
-@pytest.mark.parametrize(
-    ("path", "value"), [("a_tangle.branches.outer.length", 4166), ("a_motion.energy", 0.0599999)]
-)
-def test_a_value_at_a_bound_of_several_fields_is_accepted(path, value):
-    assert config.check(changed(f"scenes.{path}", value))
-
-
 def test_a_misspelt_key_is_one_mistake():
     document = good()
     document["scenes"]["a_motion"]["perod"] = document["scenes"]["a_motion"].pop("period")
@@ -188,10 +166,3 @@ def test_keys_are_texts_and_a_name_has_no_spaces():
     assert first == f"scenes: 'fig 2' is not allowed: {name}"
     assert second == f"scenes: 2 is not allowed: {name}"
     assert third.startswith("scenes.a_portrait[3]: unknown key: allowed here: ")
-
-
-@pytest.mark.parametrize(("g", "bound"), [(0.01, "0.14, "), (0.0100000003, "0.1399999997, ")])
-def test_a_bound_is_printed_with_all_its_digits(g, bound):
-    document = good()
-    document["scenes"]["a_motion"] |= {"ball": {"k": 0.3, "g": g}, "energy": 0.15}
-    assert f"below k/2 - g = {bound}" in complaint(document)

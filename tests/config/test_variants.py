@@ -1,7 +1,5 @@
 """Variants of the config: what they replace, keep and leave out, and what is refused."""
 
-import random
-
 import pytest
 from documents import complaints
 from project import shipped
@@ -73,20 +71,15 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
     ("name", "block", "parts"),
     [
         ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
-        ("-n", {"energy": 0.002}, ["variants: '-n'", "not begin with -"]),
         ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, study"]),
-        ("v", None, ["variants.v: nothing", "ball, energy, method, scenes and"]),
         ("v", {}, ["variants.v: {}"]),
         ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
         ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
-        ("v", {"ball": {"k": 0.01}}, ["variants.v.ball.g: 0.04", "0 < g < k = 0.01"]),
         ("v", {"energy": 0.06}, ["variants.v.energy: 0.06", "below k/2 - g = 0.06"]),
         ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.0005"]),
         ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
-        ("v", {"scenes": {"fig2": 3}}, ["variants.v.scenes.fig2: 3", "a mapping"]),
         ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
         ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),
-        ("v", {"scenes": {"fig5": {"resolution": {"bend": 0}}}}, ["fig5.resolution.bend: 0"]),
         ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
     ],
 )
@@ -166,35 +159,6 @@ def test_what_a_variant_says_of_a_scene_is_a_mistake_that_names_it(variant, line
     assert len(lines) == (2 if "for fig2" in line else 1)  # the small ball has another bound
 
 
-def test_a_change_that_does_not_help_leaves_a_scene_out_and_one_that_helps_keeps_it():
-    variants = {
-        "no": {"energy": 0.002, "scenes": {"point": {"sea": []}}},
-        "yes": {"energy": 0.002, "scenes": {"point": {"starts": [0.5]}}},
-    }
-    document = checked(variants, point=POINT)
-    assert set(document.left_out["no"]) == {"point"} and not document.left_out["yes"]
-
-
 def test_the_ball_of_the_file_is_refused_once():
     lines = complaints(shipped() | {"ball": {"k": 0.2, "g": 0.3}})
     assert list(lines) == ["ball.g: 0.3 is not allowed: expected 0 < g < k = 0.2"]
-
-
-@pytest.mark.slow
-def test_points_that_the_explorer_copies_suit_the_shipped_variants_or_are_left_out():
-    draw = random.Random(7).uniform
-    for _ in range(30):
-        k = round(draw(0.02, 1 / 3), 4)
-        g = round(draw(0.05, 0.45) * k, 4)
-        lowest = -g * g / (2 * k)
-        energy = round(lowest + draw(0.01, 1) ** 2 * (k / 2 - g - lowest), 6)
-        radius = ((2 * energy + g * g / k) / k) ** 0.5
-        x, y = (draw(-0.7, 0.7) * radius for _ in range(2))
-        start = {"x": g / k + x, "y": y * (k + k * k) ** 0.5}
-        block = POINT | {"ball": {"k": k, "g": g}, "energy": energy, "starts": [start]}
-        for other in ({}, {"picture": "exponents", "records": 2}):
-            document = checked(explored=block | other)
-            assert {*document.left_out["doubled"]} == set()
-            for name, scenes in document.left_out.items():
-                assert set(scenes) <= {"explored"}
-                assert ("explored" in document.variants[name]) == (not scenes)

@@ -56,14 +56,3 @@ def test_what_was_drawn_before_an_edit_is_not_called_current(done):
         f"not current: made by other code than this tree's: {STYLE} differs",
         f"not made: {STYLE} {AGAIN}",
     ]
-
-
-@pytest.mark.slow
-def test_a_job_of_plain_snakemake_fails_too(done):
-    plant(done, "motion", append("src/pipeline/jobs/draw.py"))
-    (done.path / DRAWING).unlink()
-    result = done.python("-m", "snakemake", "--cores", "1", DRAWING)
-    assert result.returncode == 1
-    log = done.path / "results/paper/logs/fig3.png.log"
-    line = f"pseudorigid: fig3: src/pipeline/jobs/draw.py {AGAIN}"
-    assert log.read_text().splitlines()[-1] == line

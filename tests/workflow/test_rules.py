@@ -6,7 +6,6 @@ import subprocess
 import sys
 from functools import cache
 from types import SimpleNamespace
-from xml.etree import ElementTree
 
 from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
@@ -76,24 +75,6 @@ def test_a_rule_has_the_scenes_of_its_kind_alone_where_sets_have_scenes_of_one_n
             for variant, scene in [("one", "a"), ("one", "b"), ("two", "a"), ("two", "b")]:
                 file = f"results/{variant}/{output.format(scene=scene, extension='png')}"
                 assert bool(rule.match(file)) == (kinds[variant].get(scene) == kind)
-
-
-def chain():
-    """Return the edges between the rules of data.smk and figures.smk."""
-    written = rules(CORE["data"], CORE["figures"]).items()
-    return {(stage, name) for name, (_, text) in written for stage in stages(text)}
-
-
-def test_the_chain_is_shown_by_the_comment_and_by_the_picture():
-    comment = re.findall(r"^#     (\w+) -> (.*)$", CORE["data"].read_text(), re.M)
-    assert {(stage, name) for stage, names in comment for name in names.split(", ")} == chain()
-    svg = ElementTree.parse(ROOT / "docs" / "rulegraph.svg").getroot()
-    groups = svg.iter("{http://www.w3.org/2000/svg}g")
-    titles = {g[0].text: [t.text for t in g if t.tag.endswith("text")] for g in groups}
-    names = {title: words[0] for title, words in titles.items() if words}
-    edges = {tuple(names[n] for n in t.split("->")) for t in titles if "->" in t}
-    assert {(a, b) for a, b in edges if b != "all"} == chain()
-    assert {a for a, b in edges if b == "all"} == set(rules(CORE["figures"]))
 
 
 def test_snakemake_takes_the_inputs_of_the_build_specifications():

@@ -4,11 +4,7 @@ import os
 import re
 import shutil
 
-import pytest
-from project import shipped
 from runs import FIG3, contents, rows
-
-from pipeline.config.schema.stages import STAGES
 
 PAPER = "results/paper"
 
@@ -60,9 +56,6 @@ def test_a_plan_is_in_our_words_and_makes_nothing(done):
     assert result.stdout.startswith(plan)
     assert fig7 in result.stdout and hidden in result.stdout.splitlines()
     assert done.run("fig7", "-n").stdout == fig7
-    stale = "stale: duration 16 -> 30"
-    listed = f"fig3  paper_figures/fig3.png  {stale}\n"
-    assert listed in done.run("list").stdout
     assert done.published() == before
 
 
@@ -153,25 +146,3 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
     assert row.endswith("cannot exist")
     assert f"paper_figures/absent.png: cannot exist: {words}" in lines
     assert "absent  periodic" not in edited.run("absent").stdout  # it is not tried again
-
-
-def test_the_study_makes_the_data_of_the_paper_with_which_it_compares(tree):
-    tree.write(tree.document() | {"study": {"needs": shipped()["study"]["needs"]}})
-    lines = tree.run("study", "-n").stdout.splitlines()
-    assert {line.partition(":")[0] for line in lines} == {"fig3", "fig4", "fig5", "fig6", "needs"}
-
-
-@pytest.mark.slow
-def test_long_jobs_begin_first_and_seconds_are_measured_alone(tree):
-    tree.write(tree.document() | {"study": shipped()["study"]})
-    of_study = [name for name, stage in STAGES.items() if stage.function.startswith("study.")]
-    parts = [f"results/study/{name}.nc" for name in of_study]
-    output = tree.run(*parts, "-n", "--cores", "3", "--", "--quiet", "host").stdout
-    jobs = {
-        re.search(r"output: results/(\S+)\.nc ", job)[1]: job
-        for job in re.split(r"^rule ", output, flags=re.MULTILINE)[1:]
-    }
-    alone = {name for name, job in jobs.items() if "threads: 3" in job}
-    assert alone == {"study/work_all"}
-    assert "priority: 90" in jobs["study/needs"]
-    assert "priority" not in jobs["study/edges"]

@@ -99,27 +99,14 @@ def test_comments_formatting_and_docstrings_outdate_nothing(done):
     assert len(changed) > 0.7 * len(python)  # others need no change
     result = done.run("-n")
     assert (result.returncode, result.stdout) == (0, "nothing to make\n")
-    assert "recomputed" not in done.run().stdout
 
 
-def test_a_line_of_code_in_the_kernel_outdates_the_datasets(done):
-    with (done.path / "src/pseudorigid/kernel/lanes.py").open("a") as file:
-        file.write("_UNUSED = 1\n")
-    planned = done.run("-n").stdout.splitlines()
-    code = "made by other code than this tree's: src/pseudorigid/kernel/lanes.py differs"
-    assert planned[0].startswith(f"fig2: {code}: orbits")
-    assert len(planned) == len(done.document()["scenes"])
-
-
-# Module of BOOKKEEPING -> an edit that changes what it does; packages without code have none.
+# Module of BOOKKEEPING, without packages that have no code -> an edit that changes what it does.
 PLANTED = {
-    "pipeline": ("", ""),
     "pipeline.declaration": ("def lacking", "_P = 1\n\n\ndef lacking"),
-    "pipeline.jobs": ("", ""),
     "pipeline.jobs.job": ("pseudorigid: {spec", "planted: {spec"),
     "pipeline.jobs.server": ("the job was killed", "planted"),
     "pipeline.loading": ("        note_loaded(path, data)\n", ""),
-    "pipeline.records": ("", ""),
     "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
@@ -131,7 +118,7 @@ PLANTED = {
 @pytest.mark.slow
 def test_changes_of_bookkeeping_do_not_reach_the_bytes(done):
     """Change all modules of BOOKKEEPING at once, and make the results of a figure again."""
-    assert set(PLANTED) == set(BOOKKEEPING)
+    assert set(PLANTED) == set(BOOKKEEPING) - {"pipeline", "pipeline.jobs", "pipeline.records"}
     for name, (old, new) in PLANTED.items():
         path = done.path / "src" / name.replace(".", "/")
         file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")

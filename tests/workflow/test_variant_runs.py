@@ -6,9 +6,6 @@ from project import make_here, of_scenes
 from runs import VARIANTS, contents, rows
 
 from pipeline import config
-from pipeline.cli.arguments import Arguments
-from pipeline.cli.commands import figures
-from pipeline.cli.session import CommandLineError
 from pipeline.config.build_specs import build_specs
 from pipeline.records.artifacts import load
 
@@ -35,7 +32,7 @@ def figures_of(tree, name):
 def scaled(tmp_path_factory):
     """Return a function of a variant and a name that computes the dataset of a small scene."""
     folder = tmp_path_factory.mktemp("scaled")
-    document = of_scenes("fig4", "fig5", "fig6", "fig7", variants=VARIANTS)
+    document = of_scenes("fig4", "fig5", "fig7", variants=VARIANTS)
     specs = build_specs(config.check(document))
 
     def data(variant, name):
@@ -47,10 +44,8 @@ def scaled(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["orbits_fig5", "periodic_fig4", "motion_fig4", "manifolds_fig5", "manifolds_fig6",
-     "lyapunov_fig7"],
-)  # fmt: skip
+    "name", ["orbits_fig5", "periodic_fig4", "motion_fig4", "manifolds_fig5", "lyapunov_fig7"]
+)
 def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
     paper, doubled = (scaled(variant, name) for variant in ("paper", "doubled"))
     assert doubled.attrs["g"] == 2.0 * paper.attrs["g"]
@@ -99,29 +94,3 @@ def test_what_is_shared_is_not_computed_again_and_what_cannot_exist_is_removed(d
     assert not (folder / "low" / "motion_fig4.nc").exists()
     drawn, paper = (folder / name / "figures/fig4.png" for name in ("low", "paper"))
     assert drawn.read_bytes() == paper.read_bytes()
-
-
-@pytest.mark.slow
-def test_one_figure_of_a_variant_is_drawn_again_as_soon_as_it_can_exist(done):
-    for scenes in ({"fig3": {"period": 5}}, {}):
-        edit(done, "low", {"energy": 0.0017, "scenes": scenes})
-        output = done.succeed("variant", "low", "fig3")
-        assert set(rows(output)) == (set() if scenes else {"results/low/figures/fig3.png"})
-        assert ("fig3.png" in figures_of(done, "low")) == (not scenes)
-
-
-@pytest.mark.parametrize(
-    ("name", "line"),
-    [
-        ("lowr", "no variant lowr: did you mean low? "),
-        ("paper", "no variant paper: "),
-        (None, "variant needs a name: "),
-    ],
-)
-def test_an_unknown_variant_is_one_line(variants, name, line):
-    checked = config.load(variants.config)
-    args = Arguments(word="variant", variant=name, figure=[], options=[], config=checked)
-    with pytest.raises(CommandLineError) as error:
-        figures.run(args)
-    assert str(error.value) == f"{line}config.yaml has {', '.join(checked.own_variants)}"
-    assert checked.own_variants[:2] == ["low", "doubled"]
