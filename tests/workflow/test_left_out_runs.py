@@ -30,7 +30,7 @@ def refused(shared, finished):
 
 
 def test_accept_and_archive_go_on_without_a_figure_that_cannot_be_made(refused, tmp_path, capsys):
-    left_out = f"away is left out, {CANNOT}"
+    left_out = f"away is left out, because it {CANNOT}"
     assert (refused.path / "said").read_text().startswith(left_out)
     assert "away.png" not in (refused.path / "paper_figures/SHA256SUMS").read_text()
     found = verified(refused)
