@@ -31,14 +31,14 @@ def test_the_examples_are_blocks_of_a_config(name):
     checked(name)
 
 
-FEW = {"starts": [0.1], "impacts": 1, "sea": []}
+ONE_IMPACT = {"starts": [0.1], "impacts": 1, "sea": []}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "change"),
     [
-        ("portrait", {"ball": PAPER, "energy": -0.003999} | FEW),
+        ("portrait", {"ball": PAPER, "energy": -0.003999} | ONE_IMPACT),
         ("motion", {"duration": 1.0e-9}),
         ("exponents", {"ball": PAPER, "energy": 0.001, "impacts": [2000, 50]}),
     ],
