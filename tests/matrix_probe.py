@@ -8,6 +8,7 @@ Arguments come from a generator that is the same everywhere, never from a librar
 
 import hashlib
 import json
+import math
 import re
 import sys
 import tempfile
@@ -53,6 +54,13 @@ def table(count):
     return digest(*arithmetic.sincos_each(t), [arithmetic.log(abs(a)) for a in t.tolist()])
 
 
+def library():
+    """The hash of the C library's own functions, which the settings change where it has FMA."""
+    t = arguments(20_000)[:10_000].tolist()
+    functions = math.sin, math.exp, lambda a: math.log(abs(a)), lambda a: math.pow(abs(a), 1.7)
+    return digest(*([function(a) for a in t] for function in functions))
+
+
 def history(states, impacts):
     """The hash of every impact; few states are followed by the loop for one orbit."""
     return digest(BALL.history(states, impacts))
@@ -92,6 +100,7 @@ def everything():
         for file in Path(folder).rglob("*.nc"):
             yield file.name, digest(file.read_bytes())
     # What the settings change, so that a test can tell that they were honoured.
+    yield "library", library()
     yield "simd", [name for name, there in __cpu_features__.items() if there]
 
 

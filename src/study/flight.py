@@ -33,8 +33,8 @@ class UndecidedError(NotProvedError, ArithmeticError):
 class Flight:
     """Flights after an impact, eq. (26), and their gap f(t), eq. (21).
 
-    x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it. All but
-    g, and the times, may be any numbers with `sin_cos`: arb, acb, or series of these.
+    x, b = xdot and c = udot are those after the impact, s = xdot + udot is that before it. They and
+    the times are arb, acb, or series of these; g is an arb. `first_root` needs arb alone.
     """
 
     x: Any

@@ -71,6 +71,13 @@ def test_a_motion_follows_the_scanned_impacts():
         assert np.all(np.diff(at) > 0)
 
 
+@pytest.mark.slow
+def test_a_scan_without_an_end_raises():
+    """A flight of 2e7 time units takes more steps than a scan may."""
+    with pytest.raises(ArithmeticError, match="scan"):
+        Ball(0.2, 1e-8, ImpactMap((0.1, 1e-6))).impact(0.0, 0.0, 0.3)
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_input_that_is_not_finite_gives_nan(bad):
     assert np.isnan(scan(bad, -0.1, -0.1, 0.04, 0.1, 1e-6)[0])

@@ -41,7 +41,7 @@ def test_machine_code_is_strict():
             assert not LOOSE.search(text), kernel
 
 
-def test_loops_over_lanes_are_vectorised():
+def test_loops_over_lanes_are_vectorised_and_strict():
     """The compiler vectorises a loop only if it can exclude negative indices."""
     row, n, h = np.ones(lanes.SIZE), lanes.LANES, (0.1, 0.1)
     states, flights = tangents.allocate_buffers()
@@ -59,8 +59,10 @@ def test_loops_over_lanes_are_vectorised():
         ),
         (spectrum._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
     ):
-        (text,) = compiled(loop, *arguments).inspect_llvm().values()
+        fresh = compiled(loop, *arguments)
+        ((signature, text),) = fresh.inspect_llvm().items()
         assert re.search(r"fdiv <\d+ x double>", text), loop
+        assert traces(fresh, signature) == [] and not LOOSE.search(text), loop
 
 
 def test_code_that_is_not_strict_is_noticed():

@@ -87,6 +87,19 @@ ONE = constants.ONE
     assert printed(show, "") == "20.0 1"
 
 
+@pytest.mark.slow
+def test_an_edit_before_the_compilation_does_not_stay_in_the_cache(src, printed):
+    """The machine code is kept under the text that was loaded, whatever the file holds later."""
+    file = src / "pseudorigid/kernel/callee.py"
+    file.write_text("from .compiled import jit\n\n\n@jit\ndef f():\n    return 2.0\n")
+    show = "from pseudorigid.kernel.callee import f; print(f())"
+    edit = f"import pathlib; p = pathlib.Path({str(file)!r}); text = p.read_text(); "
+    edit += "p.write_text(text.replace('2.0', '3.0'))"
+    undone = f"import pseudorigid.kernel.compiled; {edit}; {show}; p.write_text(text)"
+    assert printed(undone) == "3.0"
+    assert printed(show) == "2.0"
+
+
 def test_loaded_files_are_noted():
     file = os.path.realpath(arithmetic.__file__)
     assert LOADED[file] == {hashlib.sha256(Path(file).read_bytes()).hexdigest()}

@@ -7,7 +7,23 @@ from verdicts import accepting, verified
 
 from pipeline import config
 
+REASON = "left out: energy: 0.0017 is not allowed: expected a number below k/2 - g = -0.015"
 CANNOT = "cannot exist: axes.t.limits"
+
+
+@pytest.mark.slow
+def test_a_scene_that_a_variant_cannot_have_is_named_and_its_old_picture_goes(variants, tmp_path):
+    tree = variants.copy(tmp_path / "small")
+    document = tree.document()
+    ball = {"ball": {"k": 0.05, "g": 0.04}, "energy": -0.0155}
+    document["scenes"]["small"] = document["scenes"]["fig7"] | ball
+    tree.write(document)
+    old = tree.path / "results/low/figures/small.png"
+    old.write_bytes(b"from another config")
+    assert f"low      {REASON}" in tree.succeed("list")
+    lines = tree.succeed("variant", "low", "small").splitlines()
+    assert any(line.startswith(f"results/low/figures/small.png: {REASON}") for line in lines)
+    assert not old.exists()
 
 
 @pytest.fixture(scope="module")

@@ -123,7 +123,7 @@ def _double(element: Any) -> float:
     """Convert one element of an array of objects."""
     if np.ma.is_masked(element):
         return math.nan
-    if getattr(element, "shape", None) == ():  # an array without dimensions
+    if getattr(element, "shape", None) == ():  # a scalar of numpy, or an array without dimensions
         return float(_converted(element))
     if isinstance(element, bool) or not isinstance(element, (Real, Decimal)):
         raise TypeError

@@ -17,6 +17,7 @@ from .variables import LENGTH, NAMES, TIME, of_type, states_of, variables
 SAMPLES = 200
 # Flights of a motion; more than 2 million samples cannot be drawn.
 MOST_FLIGHTS = 10_000
+_ALLOWED = "one state or one orbit of symmetric_orbits"
 _SAMPLE_NAMES = {
     "t": ("time", TIME),
     "position": ("position of the mass centre, downwards", LENGTH),
@@ -48,7 +49,8 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     Raises
     ------
     ValueError
-        More than one state, a state with xdot + udot < 0, or more than MOST_FLIGHTS flights.
+        More than one state, points of another function's orbit, a state with xdot + udot < 0, or
+        more than MOST_FLIGHTS flights.
 
     Examples
     --------
@@ -60,13 +62,14 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
     points: list[tuple[Any, ...]] = []
     if "point" in getattr(start, "dims", ()):
-        if "row_size" in start:  # tau is the time since the previous impact, not to the next one
-            raise not_allowed("start", start, "one state or one orbit of symmetric_orbits")
+        # Elsewhere tau is the time since the previous impact, not that to the next one.
+        if "multiplier" not in start:
+            raise not_allowed("start", start, _ALLOWED)
         points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
         start = points[0][:3]
     state = ball.on_section(*state_of(start))
     if state[0].shape:
-        raise not_allowed("start", start, "one state or one orbit")
+        raise not_allowed("start", start, _ALLOWED)
     flights = cycle(points) if points else _flights(ball, *(float(a) for a in state))
     coefficients = impact_coefficients(ball.k)
     samples: list[tuple[np.ndarray, ...]] = []

@@ -68,6 +68,7 @@ def test_a_new_search_gives_a_certificate_that_holds(name):
 
 
 PAGE = (ROOT / "src/extensions/proofs/README.md").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 CELLS = {  # of each row about a theorem in a table of the page
     name: row.split(" | ") for name, row in re.findall(r"^\| `(.*?)` \| (.*) \|$", PAGE, re.M)
     if name in THEOREMS
@@ -216,3 +217,12 @@ def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
         assert {f"src/extensions/proofs/checkers/{each}.py" for each in ("curve", "twist")} <= {
             *sources
         }
+
+
+@pytest.mark.parametrize(("name", "bound"), [
+    ("jump-set", "length"),
+    ("entropy", "entropy"),
+    ("curve-fixed-point-outer", "share"),
+])  # fmt: skip
+def test_the_readme_has_the_bound_of_a_theorem(name, bound):
+    assert f" {float(THEOREMS[name].bounds[bound]):g}" in README

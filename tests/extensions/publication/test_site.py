@@ -55,6 +55,13 @@ def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
     assert not [*(moved.path / "results").glob("*site*"), *moved.path.glob("results/article*")]
 
 
+def test_a_site_that_cannot_be_replaced_stays(tmp_path):
+    write(tmp_path, "site/report.html")
+    with pytest.raises(FileNotFoundError):
+        site._replace(tmp_path / ".site.part", tmp_path / "site")
+    assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/report.html"]
+
+
 def test_clean_deletes_what_was_published_and_nothing_else(tmp_path, monkeypatch):
     monkeypatch.setattr(clean, "ROOT", tmp_path)
     monkeypatch.setattr(clean, "RESULTS", tmp_path / "results")

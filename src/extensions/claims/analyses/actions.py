@@ -145,7 +145,7 @@ class Heteroclinic:
 # A crossing of a branch with y = 0: its orbit's initial distance from the saddle, and the impacts
 # from there.
 Crossing = tuple[float, int]
-PrimaryPair = tuple[Heteroclinic, Heteroclinic]  # the orbits at the first neighbouring crossings
+PrimaryPair = tuple[Heteroclinic, Heteroclinic]  # the orbits of the two crossings of `lobe`
 
 
 def lobe(saddle: Saddle, sign: int, periods_earlier: int) -> tuple[arb, PrimaryPair]:
@@ -154,9 +154,10 @@ def lobe(saddle: Saddle, sign: int, periods_earlier: int) -> tuple[arb, PrimaryP
     The lobe lies between an unstable branch and its mirror image in y = 0. The branch leaves the
     saddle, of even period, on the side `sign`, and leads to the saddle's mirror image. One crossing
     with y = 0 is its own, the other that of its image half a period later. Both orbits start on the
-    branch's tangent, `periods_earlier` periods before _SCAN_END. This changes the area by the cube
-    of their distance from the saddle, an error that the enclosure does not include. Raises
-    ValueError if a crossing is not found, and ArithmeticError if the precision is too low.
+    branch's tangent, `periods_earlier` periods before the last fundamental segment within _SCAN_END
+    of the saddle. This changes the area by the cube of their distance from the saddle, an error
+    that the enclosure does not include. Raises ValueError if a crossing is not found, and
+    ArithmeticError if the precision is too low.
     """
     first = first_crossing(saddle, sign, 0)
     second = first_crossing(saddle, sign, saddle.period // 2)

@@ -15,7 +15,7 @@ def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> d
     """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
     from ..analyses.spread import in_sea
 
-    # over the blocks of each orbit the mean, of which the largest exponent
+    # the mean over an orbit's blocks, then its largest exponent
     largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
     error = largest.std(ddof=1) / largest.size**0.5
     return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}

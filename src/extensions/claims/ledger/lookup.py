@@ -48,7 +48,8 @@ def energy_of(theorem: str) -> float:
 def enclosed(proved: Mapping[str, bool]) -> list[dict[str, Any]]:
     """Return a row for each proved theorem that bounds the area inside invariant curves.
 
-    `share` is the least share of the section inside one curve, and `period` the number of curves.
+    `share` is the proved lower bound of the share of the section inside one curve, and `period` the
+    number of curves.
     """
     bounds = [bounds_of(name) for name, known in proved.items() if known]
     return [

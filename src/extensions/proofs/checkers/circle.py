@@ -53,7 +53,7 @@ def values(
     coefficients: list[acb], count: int, offset: arb | int = 0, height: arb | int = 0
 ) -> list[acb]:
     """Return the values at t = (j + offset)/count + i height, j = 0 ... count - 1."""
-    folded = [acb(0)] * count  # coefficients whose q agree modulo count have the same values
+    folded = [acb(0)] * count  # waves whose q agree modulo count agree on the grid
     for q, c in enumerate(coefficients):
         shift = (acb(2 * q * arb(offset) / count)).exp_pi_i()
         decay = (-2 * q * arb(height) * arb.pi()).exp()

@@ -33,7 +33,9 @@ def check(
     window: Window | None = None,
     crossing: Range | None = None,
 ) -> Finding:
-    """Prove a certificate's horseshoe on an orbit of a least period, with a point in the window.
+    """Prove a certificate's horseshoe on an orbit of a period, with a point in the window.
+
+    The orbit's least period must be `period`.
 
     The orbit must be the only one within `radius` of the centres of the sets S. `crossing` is an
     interval of x that must hold M_0: it tells this connection from others. The entropy, in nats per
@@ -50,7 +52,7 @@ def check(
             *pairwise([*saddles, saddles[0]]),
             *pairwise([saddles[leaves], *chain, saddles[enters]]),
         ]
-        stated = certificate.numbers("margins", 2)  # beyond the exit edges, and room
+        stated = certificate.numbers("margins", 2)  # beyond exit edges, and inside the others
         if len(stated) != len(edges):
             raise NotProvedError(f"there are {len(stated)} margins for {len(edges)} coverings")
         if (least := min(map(min, stated))) < 0:
@@ -63,8 +65,8 @@ def check(
         x = middle.box(hsets.UNIT, hsets.UNIT)[0]
         if crossing and not ball_of(crossing[0]) < x < ball_of(crossing[1]):
             raise NotProvedError("the connection does not pass y = 0 where the statement says")
-        # A loop runs through the chain, and on around the saddles to where it began. If the lengths
-        # of both loops have no common divisor, the shift is mixing.
+        # A second loop runs through the chain, and on around the saddles to where it began. If its
+        # length and the period have no common divisor, the shift is mixing.
         loop = len(chain) + 1 + (leaves - enters) % period
         if gcd(period, loop) != 1:
             raise NotProvedError(f"loops of {period} and {loop} impacts do not mix")

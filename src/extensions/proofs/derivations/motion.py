@@ -129,7 +129,7 @@ def smooth() -> Formula:
 
 
 def contact_speed() -> Formula:
-    """Check (8) and (22): the contact speed is positive as printed, not negative corrected.
+    """Check (8) and (22). Printed: the contact speed is positive. Corrected: it is not negative.
 
     The gap x + u is negative before an impact, so its slope at zero, the contact speed, is not
     negative. It is 0 at a grazing impact: the rim v + w = 0 has states of every energy above the

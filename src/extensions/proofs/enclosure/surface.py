@@ -63,9 +63,9 @@ def flight_of_constants(flight: Flight) -> Flight:
 
 
 def first_root(flight: Flight) -> Any:
-    """Enclose the time of the next impact as `Flight.first_root` does.
+    """Enclose the time of the next impact, also for a flight of jets.
 
-    For a flight of jets it is the Taylor series of that root.
+    This is `Flight.first_root`; for jets it is the Taylor series of that root.
     """
     if isinstance(flight.x, Jet):
         return expand(flight, flight_of_constants(flight).first_root())

@@ -165,8 +165,9 @@ def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
 def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
     """Find the largest entropy at which the weights of the sets still grow, by bisection.
 
-    Each iteration replaces a set's weight by the largest sum, over disjoint strips, of exp(-entropy
-    impacts) times the target's weight.
+    Each iteration takes the mean of a set's weight and of the largest sum, over disjoint strips, of
+    exp(-entropy impacts) times the target's weight, and divides it by the largest mean. If that is
+    above 1, the weights grow.
     """
     low, high = 0.0, _HIGHEST
     weights = np.ones(count)

@@ -83,12 +83,12 @@ def _write(folder: Path, args: Arguments) -> None:
 def _replace(part: Path, folder: Path) -> None:
     """Put a new folder in the place of an old one, which is deleted, or else put back."""
     old = part.with_name(part.name + ".old")
-    if folder.exists():
-        folder.rename(old)
     try:
+        if folder.exists():
+            folder.rename(old)
         part.rename(folder)
     except BaseException:
-        if old.exists():
+        if old.exists() and not folder.exists():
             old.rename(folder)
         raise
     shutil.rmtree(old, ignore_errors=True)
