@@ -38,6 +38,7 @@ LANES = 1024  # orbits of an ensemble
 WEAK_SADDLE_ENERGY = 0.001  # of a saddle of period 10 with a small multiplier
 MANY = 1e5  # E/g^2 with many orbits of period 12
 UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
+# Two units of speed from one loop: the time of a single sincos in it, and that of three.
 ONE, THREE = "one dependent sincos", "three dependent sincos"
 ORBIT, SPECTRUM = "one orbit, an impact", "spectrum here"
 BRANCH, NONE = "that branch here", "a search finding none"
@@ -47,7 +48,7 @@ Triple = tuple[float, float, float]
 def run(repetitions: int = REPETITIONS, more: tuple[ModuleType, ...] = ()) -> list[str]:
     """Return the table's lines: label, seconds, ratio and aim; then machine and versions.
 
-    Each module of `more` adds calls, and lines on their seconds.
+    Each module of `more`, which an extension declares, adds calls(), and lines(seconds) on them.
     """
     timed = calls()
     for module in more:
@@ -79,6 +80,7 @@ def calls() -> dict[str, Call]:
     saddle = of_type(symmetric_orbits(BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
     branch = partial(trace_manifold, BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
     from_segment = partial(_from_the_segment, branch)
+    # With g = 1 the energy is E/g^2: that of E = 0.01 is 6.25.
     search = partial(symmetric_orbits, Ball(k=BALL.k, g=1.0))
     ensemble, stored = partial(BALL.after, many_orbits, 200), partial(_store, many_orbits, out)
     vectors, spectra = partial(_with_tangent, many_orbits, 192), partial(spectrum, many_orbits, 192)
@@ -144,14 +146,14 @@ def _store(start: State, out: np.ndarray) -> None:
 
 
 def _with_tangent(start: State, impacts: int) -> None:
-    """Advance an ensemble with a tangent vector for each orbit."""
+    """Advance an ensemble with a tangent vector for each orbit, in units of g R, without sums."""
     orbits = begin(BALL.k, [np.array(column) / BALL.g for column in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, LANES))
     propagate_with_tangent(orbits, BALL.k, 0, impacts, windows, windows, sums, sums)
 
 
 def _from_the_segment(branch: Callable[[], object]) -> None:
-    """Trace a branch as a strong one is, each image from the first segment."""
+    """Trace a weak branch by the rule for strong ones, each image from the first segment."""
     usual, branch_rule.WEAK = branch_rule.WEAK, 0.0
     try:
         branch()

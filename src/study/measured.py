@@ -1,6 +1,6 @@
 """Comparisons that measure times or need external solvers. Their data differ between machines.
 
-`machine` describes the machine, also for `bench`, whose calls have the form of `Call`.
+`bench` also uses `machine`, which describes the machine, and `Call`, the form of its timed calls.
 """
 
 import os
@@ -54,8 +54,8 @@ def missed_all() -> xr.Dataset:
 def timed_work(methods: Sequence[Method], count: int = 200, repetitions: int = 5) -> xr.Dataset:
     """Compute (method, set): errors and evaluations of any methods, and seconds a flight.
 
-    The repetitions are interleaved. The first `solve` of each method, which may compile something,
-    is not timed.
+    `count` is the number of states of a set. The seconds are quartiles of interleaved repetitions.
+    `stages.work` solves for the errors first, so that a method that compiles does so untimed.
     """
     data = stages.work(methods, count, "work_all")
     sets = [states_of(count) for states_of in stages.SETS.values()]
@@ -106,7 +106,7 @@ class Call(NamedTuple):
 
 
 def machine() -> dict[str, str]:
-    """Return the processor, its load and the versions of packages."""
+    """Return the processor, its cores and load, and the versions of packages."""
     return {
         "processor": _processor(),
         "cores": str(os.cpu_count()),

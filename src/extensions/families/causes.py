@@ -1,4 +1,9 @@
-"""Extrema of the regular share along a line of E or k, and what causes them."""
+"""Extrema of the regular share along a line of E or k, and what causes them.
+
+A *chain* is the chain of islands of a family of periodic orbits, and a *curve* an invariant curve
+in the main island, beyond a resonance (`shares`). A *slope* is the part of the line between two
+neighbouring extrema, or from the first or last one to an end.
+"""
 
 import math
 from collections.abc import Sequence
@@ -28,9 +33,9 @@ _UNEXPLAINED = Change(math.nan, -1, 0.0, "unexplained", math.nan)
 def extrema(share: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[int, int, int]]:
     """Return (index, left, right) of the minima and maxima of a curve with intervals.
 
-    At `left` and `right`, the nearest such values on both sides, the interval is disjoint from that
-    at the extremum, and the curve has not passed the extremum's value before. Of equal values the
-    first one counts.
+    From an extremum the values are followed to both sides. `left` and `right` are the first indices
+    at which the interval is disjoint from that at the extremum. If the values pass the extremum's
+    or end before, there is no extremum. Of equal values the first one counts.
     """
     found = []
     for sign in (1.0, -1.0):
@@ -79,7 +84,10 @@ def causes(
         return (column[j] - column[i]) / (share[j] - share[i] or math.inf)
 
     def largest_change(i: int, j: int) -> Change:
-        """Return the chain that changes most from one value to another, and its nearest event."""
+        """Return the chain with the largest part of a change, and its event nearest to values[i].
+
+        The part is negative if the chain changes in the other direction than the regular share.
+        """
         changed = parts(i, j, chains)
         number = int(np.argmax(changed))
         events = _events_of(families, parameter, number)
@@ -120,7 +128,10 @@ def causes(
 
 
 def _events_of(families: xr.Dataset, parameter: str, number: int) -> list[tuple[str, float]]:
-    """Return the events and ends of a family with their energies."""
+    """Return the events and ends of a family, each with the parameter's value there.
+
+    An end at a limit of the range in which the family was followed is left out.
+    """
     found = []
     for i in np.flatnonzero(families["event_family"].values == number).tolist():
         kind = str(families["event_kind"].values[i])

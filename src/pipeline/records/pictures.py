@@ -30,7 +30,10 @@ def pixels(path: _Path) -> npt.NDArray[np.uint8]:
 
 
 def _elements(path: _Path) -> list[str]:
-    """Return the tags and texts of an SVG in order; attributes are sorted."""
+    """Return the lines of an SVG, of which each begins with a tag; attributes are sorted.
+
+    An element is two of them, its start tag and its end tag. The first line is empty.
+    """
     try:
         with open_regular(path) as file:
             text = ElementTree.canonicalize(from_file=file, strip_text=True)
@@ -40,7 +43,10 @@ def _elements(path: _Path) -> list[str]:
 
 
 def describe(path: _Path) -> dict[str, Any]:
-    """Return size and hash of a drawing's pixels or elements; raises PictureError."""
+    """Return size and hash of a drawing's pixels or elements; raises PictureError.
+
+    For a PNG `pixels` is the hash. For an SVG `elements` counts the tags, and `text` is the hash.
+    """
     if Path(path).suffix == ".png":
         image = pixels(path)
         size = {"height": image.shape[0], "width": image.shape[1]}
@@ -74,7 +80,10 @@ def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tupl
 
 
 def _differing_elements(ours: list[str], theirs: list[str]) -> str:
-    """Say how many elements of two SVGs differ, and which is the first."""
+    """Say how many lines of `_elements` differ in two SVGs, and which is the first.
+
+    Lines are compared place by place: after one that is inserted, most others differ too.
+    """
     shared = min(len(ours), len(theirs))
     different = [i for i in range(shared) if ours[i] != theirs[i]]
     count = len(different) + abs(len(ours) - len(theirs))

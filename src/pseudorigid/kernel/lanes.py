@@ -1,12 +1,15 @@
 """Many orbits at once in SIMD lanes, with the bits of `impact.steps`.
 
-Each of LANES orbits has a lane, and all lanes advance by one impact together. A round evaluates the
-gap once in every lane, with the functions that `flight.first_impact` calls. Most flights need two
-rounds; lanes whose flight needs more are moved together, and only they have another round. LLVM
-vectorises a loop over lanes only if the loop has no branch and makes every selection before its
-first store, so a branch of `first_impact` is a selection between two values here. The loops are
-short so that the processor overlaps several iterations. A lane that leaves the common case has its
-flight done by `impact.step`.
+Each of LANES orbits has a lane, and all lanes advance by one impact together. The gap, the march
+and the landing are those of `flight`: the gap is negative in flight, the march goes towards its
+first root without passing it, and a landing follows once no other root is in reach. A round
+evaluates the gap once in every lane, with the functions that `flight.first_impact` calls. Most
+flights need two rounds; lanes whose flight needs more are moved together, and only they have
+another round. LLVM vectorises a loop over lanes only if the loop has no branch and makes every
+selection before its first store, so a branch of `first_impact` is a selection between two values
+here. The loops are short so that the processor overlaps several iterations. A lane that leaves the
+common case is handled by itself: it takes a longer step of the march (`_stride_alone`), or
+`impact.step` does its whole flight (`_step_alone`).
 """
 
 import math
@@ -35,7 +38,9 @@ from .impact import impact_coefficients, rebound, step
 # rows that are a large power of two apart evict each other from the processor's cache.
 LANES = 264
 MIN_ORBITS_FOR_LANES = 12  # fewer orbits are faster one after the other
-# Offsets of the rows of the orbits' states, of which TAU is the time of the flight before it.
+# One flat array `lanes` (SIZE,) has all rows, and these are their offsets: lanes[T + i] is the time
+# in lane i. The first four rows are of orbits, which keep their places: the state just before an
+# impact, and in TAU the time of the flight that ended there. lanes[X + orbit[i]] is of lane i.
 X, V, W, TAU = (i * LANES for i in range(4))
 # Rows of a lane's flight: position, velocities and contact speed after the impact; the bound of the
 # amplitude; the time of the next evaluation, NaN where the flight is over; the results of
@@ -59,7 +64,11 @@ _COMMON, _ALONE, _LONG = 0.0, 1.0, 2.0
 
 @jit
 def _begin_flights(lanes, n, k, g, coefficients):
-    """Begin the flights of n lanes from their states."""
+    """Begin the flights of n lanes from their states.
+
+    A lane outside the common case gets the time inf. Its gap is then NaN, so that `_find_ends` lets
+    it land and `_choose` passes it on to `_step_alone`.
+    """
     for i in range(n):
         x = lanes[X + i]
         b, c, s = rebound(lanes[V + i], lanes[W + i], k, coefficients)
@@ -88,9 +97,10 @@ def _gaps(lanes, n, g):
 
 @jit
 def _find_ends(lanes, n, g):
-    """Find the lanes whose flight ends within a step by the series; return how many are over.
+    """Find the lanes whose flight ends with a step of the series; return how many are over.
 
-    A flight is over if this step is its last one, or if T is NaN.
+    A flight is over if this step is its last one, or if `_step_alone` has done it, so that T is
+    NaN. The others' LANDING, LOW, HIGH and STEP are brought up to date.
     """
     over = 0
     for i in range(n):

@@ -23,7 +23,9 @@ from pseudorigid.kernel.formulas import impact_coefficients, rebound
 from . import Flights, Method
 
 FirstRoot = Callable[[float, float, float, float, float], tuple[float, int]]
-AFTER = 1e-9  # time after the impact at which a flight begins; no flight is as short as this
+# Time after the impact at which a flight begins. Above x = -g a flight with xdot + udot below about
+# 1e-10 may be shorter; its end is then wrong or missed.
+AFTER = 1e-9
 DIRECTIONS = "any", "positive"  # signs of the gap's slope at which heyoka's zeros are events
 
 
@@ -31,8 +33,9 @@ DIRECTIONS = "any", "positive"  # signs of the gap's slope at which heyoka's zer
 class ExternalSolver(Method):
     """A method of a library, applied to one flight at a time.
 
-    `flight` takes (x, b, c, g, latest) and returns (tau, evaluations) of the flight from x with
-    velocities b, c; tau is NaN if none is found. No root of the gap is later than `latest`.
+    `flight` takes (x, b, c, g, latest) and returns (tau, evaluations) of the flight from x with the
+    velocities b = xdot and c = udot after the impact; tau is NaN if none is found. No root of the
+    gap is later than `latest`.
     """
 
     flight: FirstRoot
@@ -40,7 +43,8 @@ class ExternalSolver(Method):
     def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
         """Return flight times and evaluations of states, arrays (n,)."""
         b, c, _ = rebound(xdot, udot, ball.k, impact_coefficients(ball.k))
-        # the parabola below the gap, x + b t + g t^2/2 - sqrt(x^2 + c^2), is positive after that
+        # `latest` is 0.1 after the last root of the parabola x + b t + g t^2/2 - sqrt(x^2 + c^2).
+        # The gap is nowhere below it, and so positive from there on.
         latest = (np.sqrt(b * b - 2.0 * ball.g * (x - np.hypot(x, c))) - b) / ball.g + 0.1
         states = zip(*(a.tolist() for a in (x, b, c, latest)), strict=True)
         flights = [self.flight(x, b, c, ball.g, latest) for x, b, c, latest in states]

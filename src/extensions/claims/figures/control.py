@@ -1,4 +1,7 @@
-"""The control experiment: regular orbits of maps that keep area, the reversor, both, or neither."""
+"""The control experiment: regular orbits of maps that keep area, the reversor, both, or neither.
+
+docs/method.md defines the three forms of change (twist, stir and shift) and the strength.
+"""
 
 import numpy as np
 import xarray as xr
@@ -58,6 +61,7 @@ def _portraits(sheet: Sheet, control: xr.Dataset) -> Frame:
         form, _, kept = name.partition(" ")
         if kept == "both":  # like the unchanged map
             continue
+        # The impact map stands where "shift area" would: no shift keeps area.
         row = last if name == "none" else [*_FORMS].index(form)
         column = 0 if name == "none" else columns.index(kept)
         left, bottom = _LEFT + column * (_SIDE + 22), first[1] - row * _APART
@@ -119,6 +123,7 @@ def _class_shares(control: xr.Dataset, kind: str) -> np.ndarray:
 def _rates(sheet: Sheet, frame: Frame, across: Axis, control: xr.Dataset) -> None:
     """Draw the growth rate of the distance from the fixed point, divided by the strength."""
     strength = control["strength"].values[1:]
+    # The last index, island 0, is the fixed point.
     rate = np.stack([control[f"rate{end}"].values[:, 1:, 0] for end in ("", "_low", "_high")])
     rate = rate / strength
     most = 1.15 * float(np.nanmax(np.abs(rate[0]))) if np.isfinite(rate[0]).any() else 1.0

@@ -48,7 +48,11 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
 
 
 def _sets(panel: Window, horseshoe: xr.Dataset) -> None:
-    """Draw the sets and the key."""
+    """Draw the centres of the sets, and the key.
+
+    `chain` is a set's index along the chain: below 0 on the way out, 0 for the middle set, above 0
+    on the way back, and NaN for the sets at the saddles.
+    """
     x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
     for sets, hue, size in (
         (chain < 0.0, style.BLUE, 2.0),
@@ -70,7 +74,11 @@ def _sets(panel: Window, horseshoe: xr.Dataset) -> None:
 
 
 def _relation(panel: Window, horseshoe: xr.Dataset) -> None:
-    """Draw the image of a set across the square of the next."""
+    """Draw the image of the set before the middle one, across the square of the middle one.
+
+    `image_p` and `image_q` (edge, point) are in half widths of the middle set. The edges are the
+    images of p = -1 and 1, drawn last and heavy, and before them those of q = -1 and 1.
+    """
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
     panel.line(*square, color=style.BLACK, lw=1.0)

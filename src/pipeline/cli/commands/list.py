@@ -16,10 +16,11 @@ from ..arguments import Arguments
 def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
     config = args.config
-    own: list[Sequence[str]] = []
+    own: list[Sequence[str]] = []  # rows on the variants of the paper
     freshness = Freshness(ROOT, build_specs(config))
     for published_set in committed_sets(config):
         _print(published_set.command, [*_published(freshness, published_set)])
+    # What is not published: charts of times of this machine, and the data of scenes without one.
     for group, scenes in SETS.items():
         blocks = config.variants[group].items()
         charts = [scene for scene, block in blocks if paths.is_measured(block) and block.formats]
@@ -30,6 +31,7 @@ def run(args: Arguments) -> int:
             _print(f"{scenes.command}, {kind}", rows)
     for name in config.own_variants:
         files: dict[str, list[str]] = {}  # state -> the variant's files that have it
+        # `upstream` has the data of a figure and, last, its drawing.
         for _, upstream in paths.figures(config.variants, name).values():
             file = PurePath(upstream[-1]).name
             files.setdefault(freshness.state(upstream[-1]), []).append(file)
@@ -43,7 +45,8 @@ def run(args: Arguments) -> int:
 def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Sequence[str]]:
     """Yield scene, file and state of each file of a published set.
 
-    Whether a file is stale follows from its drawing's record or, without one, from the manifest.
+    The state says how the file compares with the committed one or, if it is stale, why. That it is
+    stale follows from the record of its drawing or, without a drawing, from the manifest's config.
     """
     from ...checks import manifest  # takes long to import
 

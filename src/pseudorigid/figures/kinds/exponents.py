@@ -43,7 +43,7 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
     lines = [(style.HUES[i % len(style.HUES)], i >= len(style.HUES)) for i in range(orbits)]
-    # 48 pixels for each row of the key, which has two starts; rounded up to quarter inches
+    # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
         names = zip(scene["starts"], chaotic, lines, strict=True)
@@ -56,6 +56,7 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
         refuse_empty(scene["axes"], {"largest": largest[later]})
     for orbit, (hue, dashed) in enumerate(lines):
         line_style = {"color": hue, "lw": 0.8, "ls": "--" if dashed else "-"}
+        # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
             picture.line(impact[known], exponent[known, orbit, index], **line_style)
@@ -88,9 +89,11 @@ class _Inset(panel.Window):
 def _inset(
     picture: Plane, largest: dict[str, Any], first: float, second: float, last: float
 ) -> _Inset | None:
-    """Return a panel between the lines that end at `first` and `second`, None without room.
+    """Return a panel between the lines of the first two exponents, or None.
 
-    `largest` is its vertical axis, and `last` the last number of impacts.
+    `first` and `second` are the values at which these lines end, `largest` is the panel's vertical
+    axis, and `last` the last number of impacts. There is no panel if a value is beyond the axis, if
+    the lines are too close, or if the orbits end before the first impact that it would show.
     """
     left, _, right, _ = picture.frame
     _, (high, low) = picture.place(0.0, [first, second])
