@@ -116,4 +116,5 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
         panel.line(n, positive, color=hue, lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
     grey = " grey: chaotic;" if chaotic.any() else ""
-    corner(sheet, frame, f"one colour an orbit;{grey} dashes: $\\ln\\,n/n$")
+    hues = "one colour an orbit;" if chaotic.size <= len(style.HUES) else ""
+    corner(sheet, frame, f"{hues}{grey} dashes: $\\ln\\,n/n$")

@@ -264,8 +264,8 @@ def key(
 ) -> None:
     """Draw a key of entries (text, colour[, marker, hollow, size]) in rows from the top left.
 
-    An entry without a marker is a line, full or (hollow) dashed. Its size is that of the mark or
-    the width of the line in points. None leaves a cell empty.
+    An entry without a marker is a line: `hollow` is whether it is dashed, or its style. Its size is
+    that of the mark or the width of the line in points. None leaves a cell empty.
     """
     for i, entry in enumerate(entries):
         if entry is None:
@@ -276,6 +276,6 @@ def key(
         if marker:
             sheet.dots([x + 6], [y], color, points or 3.2, hollow, marker=marker, zorder=4)
         else:
-            dashes = "--" if hollow else "-"
+            dashes = hollow if isinstance(hollow, str) else "--" if hollow else "-"
             sheet.draw([x - 8, x + 20], [y, y], lw=points or 0.9, color=color, ls=dashes)
         sheet.text(x + 7 * POINT, y, text, size=size)

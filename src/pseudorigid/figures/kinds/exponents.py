@@ -16,11 +16,11 @@ from ..canvas.sheet import POINT
 
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
+_DASHES = "-", "--", "-.", ":"  # after each round of hues, orbits have the next of these
 _NAMES = "Number of impacts", "Lyapunov exponents"
 empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
-@style.pinned()
 def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
 
@@ -28,8 +28,14 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     at the lines' ends are for the chaotic ones, and a key names each start. Raises ValueError if
     the axes show nothing.
     """
+    return drawn(scene, lyapunov)[0]
+
+
+@style.pinned()
+def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
+    """Return the figure, and the values of the inset, none without one."""
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    final, chaotic = final_exponents(lyapunov), _chaotic(lyapunov)
+    final, chaotic = final_exponents(lyapunov), which_are_chaotic(lyapunov)
     mixed = chaotic.any() and not chaotic.all()
     in_inset = chaotic if mixed else np.full(chaotic.shape, True)
     largest = exponent[:, in_inset].max(axis=2)
@@ -42,20 +48,21 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
-    lines = [(style.HUES[i % len(style.HUES)], i >= len(style.HUES)) for i in range(orbits)]
+    turns = [divmod(i, len(style.HUES)) for i in range(orbits)]
+    lines = [(style.HUES[place], _DASHES[turn % len(_DASHES)]) for turn, place in turns]
     # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
         names = zip(scene["starts"], chaotic, lines, strict=True)
-        entries = [(_key_text(start, sea), hue, "", dashed) for start, sea, (hue, dashed) in names]
+        entries = [(_key_text(start, sea), hue, "", dashes) for start, sea, (hue, dashes) in names]
         panel.key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
     ends = np.median(final[in_inset], axis=0)
     inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
+    largest = largest[impact >= inset.across.limits[0]] if inset else largest[:0]
     if inset:
-        later = impact >= inset.across.limits[0]
-        refuse_empty(scene["axes"], {"largest": largest[later]})
-    for orbit, (hue, dashed) in enumerate(lines):
-        line_style = {"color": hue, "lw": 0.8, "ls": "--" if dashed else "-"}
+        refuse_empty(scene["axes"], {"largest": largest})
+    for orbit, (hue, dashes) in enumerate(lines):
+        line_style = {"color": hue, "lw": 0.8, "ls": dashes}
         # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
@@ -63,10 +70,10 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
         if inset and in_inset[orbit]:
             inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
-    return picture.figure
+    return picture.figure, largest
 
 
-def _chaotic(lyapunov: xr.Dataset) -> np.ndarray:
+def which_are_chaotic(lyapunov: xr.Dataset) -> np.ndarray:
     """Return which orbits are chaotic: their largest exponent exceeds `regular_bound`."""
     from ...dynamics.regularity import regular_bound  # compiled code, which other kinds do not need
 

@@ -1,7 +1,8 @@
 """What each kind of picture reports: quantity -> value as text, measured in its datasets.
 
-A function has the name of a kind and takes the scene's block and the datasets by their stages. The
-last three functions help them, and those of extensions.
+A function has the name of a kind and takes the scene's block and the datasets by their stages.
+KIND_facts returns what the kind's caption says of what was computed and drawn (`d` in
+captions.toml). The last three functions help them, and those of extensions.
 """
 
 from typing import Any
@@ -19,6 +20,14 @@ def portrait(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
         "least speed of contact": f"{speed:.2g}",
         "x": f"{float(orbits['x'].min()):.4f} to {float(orbits['x'].max()):.4f}",
     }
+
+
+def portrait_facts(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, Any]:
+    """Count the chaotic and the regular orbits."""
+    from pseudorigid.dynamics.regularity import chaotic_orbits
+
+    chaotic = len(chaotic_orbits(block["ball"], orbits))
+    return {"chaotic": chaotic, "regular": orbits.sizes["orbit"] - chaotic}
 
 
 def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
@@ -43,6 +52,30 @@ def tangle(
         "branches": f"{manifolds.sizes['branch']:,}",
         "points of the lines": f"{manifolds.sizes['vertex']:,}",
     }
+
+
+def tangle_facts(
+    block: dict[str, Any], orbits: xr.Dataset, periodic: xr.Dataset, manifolds: xr.Dataset
+) -> dict[str, Any]:
+    """Name the marks that are seen, and the sides whose branches meet.
+
+    The reversor maps y = xdot - k udot to -y, and an unstable branch to a stable one, which it
+    meets where it crosses y = 0.
+    """
+    import numpy as np
+
+    from pseudorigid.dynamics.variables import rows, states_of
+
+    from .tangle import drawn
+
+    _, xdot, udot = states_of(manifolds)
+    y, meeting = xdot - block["ball"]["k"] * udot, set()
+    names = zip(rows(manifolds), manifolds["stable"].values, manifolds["side"].values, strict=True)
+    for span, stable, side in names:
+        above = np.where(np.abs(y[span]) > 1e-9, np.sign(y[span]), np.nan)
+        if not stable and (above[1:] * above[:-1] < 0.0).any():
+            meeting.add(str(side))
+    return {"seen": drawn(block, orbits, manifolds, periodic)[1], "meeting": sorted(meeting)}
 
 
 def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) -> dict[str, str]:
@@ -72,6 +105,22 @@ def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
         "their mean": f"{np.mean(largest):.4f}{spread}",
         "all three of an orbit, at the end": "; ".join(rows[1:]),
         "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
+    }
+
+
+def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, Any]:
+    """Count chaotic and regular orbits, and say from where to where the largest exponents are."""
+    from pseudorigid.dynamics.variables import final_exponents
+
+    from .exponents import drawn, which_are_chaotic
+
+    chaotic = which_are_chaotic(lyapunov)
+    largest = sorted(final_exponents(lyapunov)[chaotic, 0].tolist())
+    return {
+        "chaotic": len(largest),
+        "regular": chaotic.size - len(largest),
+        "largest": [f"{value:.4f}" for value in largest[:: max(len(largest) - 1, 1)]],
+        "inset": bool(drawn(block, lyapunov)[1].size),
     }
 
 

@@ -21,7 +21,6 @@ _SHARP = 0.5  # of the reach: the largest distance there between the two sides o
 _BRANCHES = (("stable", 1, style.STABLE, 1.0), ("unstable", 0, style.UNSTABLE, 0.5))
 
 
-@style.pinned()
 def draw(
     scene: dict[str, Any], orbits: xr.Dataset, manifolds: xr.Dataset, periodic: xr.Dataset
 ) -> Figure:
@@ -31,30 +30,36 @@ def draw(
     followed further, an open square a line that a jump of the map interrupts, and a small full dot
     a sharp fold. Raises ValueError if no branch can be seen or there is no such orbit.
     """
+    return drawn(scene, orbits, manifolds, periodic)[0]
+
+
+@style.pinned()
+def drawn(
+    scene: dict[str, Any], orbits: xr.Dataset, manifolds: xr.Dataset, periodic: xr.Dataset
+) -> tuple[Figure, list[str]]:
+    """Return the figure, and the names of its marks in the key."""
     scene = complete_box(scene, orbits, manifolds)
     branches, jumps = states_of(manifolds), _jumps(manifolds)
     saddles = states_of(of_type(periodic, scene["type"]))
-    entries: list[Entry] = [
-        *((name, hue, "", False, width) for name, _, hue, width in _BRANCHES),
-        ("saddles", style.VERMILION, "o"),
-        ("orbits", style.BACKDROP, "o"),
-    ]
+    entries: list[Entry] = [(name, hue, "", False, width) for name, _, hue, width in _BRANCHES]
     trial = Box(scene, shown=branches)
     spans, pixels = rows(manifolds), np.array(trial.view(branches))
     tips = [span.start + tip for span in spans for tip in _tips(pixels[:, span], pixels)]
-    for name, marker, hollow, size, at in (
-        ("cut off", "o", True, None, [span.stop - 1 for span in spans]),
-        ("jump", "s", True, None, jumps),
-        ("fold", "o", False, _TIP, tips),
+    for points, *entry in (
+        (saddles, "saddles", style.VERMILION, "o"),
+        (states_of(orbits), "orbits", style.BACKDROP, "o"),
+        (branches[:, [span.stop - 1 for span in spans]], "cut off", style.FRAME, "o", True, None),
+        (branches[:, jumps], "jump", style.FRAME, "s", True, None),
+        (branches[:, tips], "fold", style.FRAME, "o", False, _TIP),
     ):
-        if trial.seen(branches[:, at]).any():
-            entries.append((name, style.FRAME, marker, hollow, size))
+        if trial.seen(points).any():
+            entries.append(tuple(entry))
     box = Box(scene, entries)
     box.points(states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds, branches, jumps, tips)
     box.points(saddles, "white", _SADDLE + 1.2)
     box.points(saddles, style.VERMILION, _SADDLE)
-    return box.figure
+    return box.figure, [name for name, *_ in entries]
 
 
 def _branches(
