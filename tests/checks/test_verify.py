@@ -42,7 +42,7 @@ def command(moved, monkeypatch, capsys):
 
 def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     status, lines = command("verify", "--strict")
-    assert (status, lines[-1]) == (0, "14 of 14 figures identical")
+    assert (status, lines[0], lines[-1]) == (0, "paper_figures/", "14 of 14 figures identical")
     shutil.rmtree(moved.path / "results")
     status, lines = command("verify")
     assert status == 1

@@ -39,6 +39,7 @@ MISTAKES = {
     "verfy": ": no command or figure verfy: did you mean verify?",
     "fig33": ": no command or figure fig33: did you mean fig3?",
     "fig3 fgi5": ": no command or figure fgi5: did you mean fig5?",
+    "energy": ": energy is the name of several scenes: say study/energy or families/energy",
     "fig2 fig3 list": ": list is a command, no figure: run ./reproduce list",
     "help verfy": ": no command verfy: did you mean verify?",
     "help verify fig3": " help: no argument fig3",

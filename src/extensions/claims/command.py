@@ -55,7 +55,7 @@ def theorem_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of the verdicts on theorems; raises UsageError for a missing one."""
     artifact_paths = paths.artifact_paths(config.variants)
     known = {
-        scene: path for (_, scene, stage), path in artifact_paths.items() if stage == "theorem"
+        scene: path for (group, scene, _), path in artifact_paths.items() if group == "theorems"
     }
     for name in names:
         if name not in known:

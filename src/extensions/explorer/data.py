@@ -41,7 +41,7 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
             }
             for variant, scenes in checked.variants.items()
             for scene, block in scenes.items()
-            if (name := address(variant, scene, block.as_mapping()))
+            if (name := address(checked, variant, scene, block.as_mapping()))
         },
         "presets": json.loads(read_text(_PRESETS)),
         "check": published_orbits(root),
@@ -71,14 +71,16 @@ def citation() -> dict[str, Any]:
     }
 
 
-def address(variant: str, scene: str, block: YamlMapping) -> str | None:
+def address(checked: Config, variant: str, scene: str, block: YamlMapping) -> str | None:
     """Return what opens a scene of a variant in the page after `#`, None if nothing does.
 
-    Scenes with another method than the page's have other orbits.
+    The first published set with a scene of a name has the bare name. Scenes with another method
+    than the page's have other orbits.
     """
     if not KINDS[block["picture"]].on_section or "method" in block:
         return None
-    return scene if variant in PUBLISHED else f"{variant}/{scene}"
+    sets = [name for name in PUBLISHED if scene in checked.variants[name]]
+    return scene if [variant] == sets[:1] else f"{variant}/{scene}"
 
 
 def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:

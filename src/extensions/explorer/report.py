@@ -28,7 +28,7 @@ def part(config: Config, root: Path, links: Links) -> Part:
         write_whole(root / "results/explorer.html", render(config, root))
 
     def note(variant: str, scene: str, block: dict[str, Any], published: str) -> Markup:
-        place = address(variant, scene, block)
+        place = address(config, variant, scene, block)
         return _NOTE.format(page, place) if place else Markup()
 
     return Part({"Explore orbits": page}, note=note)

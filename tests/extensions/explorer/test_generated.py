@@ -89,16 +89,26 @@ def test_the_page_follows_config_and_manifest(text, tmp_path):
 
 
 def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
-    variants = config.load(SHIPPED).variants
+    checked = config.load(SHIPPED)
+    variants = checked.variants
     scenes = scenes_of(text)
     assert {"fig2", "jumps", "curves", "below/fig8", "thin-shell/fig2"} <= set(scenes)
     assert "families" not in scenes and not any("exact" in name for name in scenes)
     assert scenes["thin-shell/fig2"]["ball"]["k"] == 0.3333333333333333
     for variant, blocks in variants.items():
         for scene, block in ((name, each.as_mapping()) for name, each in blocks.items()):
-            assert (data.address(variant, scene, block) in scenes) == (
+            assert (data.address(checked, variant, scene, block) in scenes) == (
                 "method" not in block and KINDS[block["picture"]].on_section
             )
+
+
+def test_scenes_of_two_sets_with_one_name_open_apart():
+    document = config.load(SHIPPED)
+    other = document.variants["paper"]["fig2"]
+    document.variants["paper"]["curves"] = other
+    scenes = data.collect(document)["scenes"]
+    pictures = [scenes[name]["picture"] for name in ("curves", "proofs/curves")]
+    assert pictures == ["portrait", "curves"]
 
 
 def test_every_kind_of_picture_with_a_section_has_a_preset():

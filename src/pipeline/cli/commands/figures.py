@@ -42,8 +42,13 @@ def _named(args: Arguments) -> dict[str, figures.Drawings]:
             (group, path)
             for group, drawings in published.items()
             for path, drawing in drawings.items()
-            if name == PurePath(drawing).stem or path in files or (name, group) == ("all", PAPER)
+            if name in (scene := PurePath(drawing).stem, f"{group}/{scene}")
+            or path in files
+            or (name, group) == ("all", PAPER)
         ]
+        if "/" not in name and len(groups := dict.fromkeys(group for group, _ in found)) > 1:
+            full_names = " or ".join(f"{group}/{name}" for group in groups)
+            raise CommandLineError(f"{name} is the name of several scenes: say {full_names}")
         for group, path in found:
             targets.setdefault(group, {})[path] = published[group][path]
         if not found:

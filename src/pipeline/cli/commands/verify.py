@@ -8,7 +8,8 @@ from ..arguments import Arguments
 def run(args: Arguments) -> int:
     """Compare the tree with its committed state; 0 if all is well."""
     status = 0
-    for findings in verify(ROOT, args.config, args.committed):
-        print(*findings.report(), sep="\n")
+    for i, findings in enumerate(verify(ROOT, args.config, args.committed)):
+        heading = "\n" * (i > 0) + f"{findings.published_set.folder}/"
+        print(heading, *findings.report(), sep="\n")
         status |= findings.fails(args.strict)
     return int(status)
