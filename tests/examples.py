@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 from legible import assert_text_is_whole_and_apart
 
-from pipeline.checks.quantities import reported
+from pipeline.checks.quantities import facts, reported
 from pipeline.checks.report.captions import caption_of
 from pipeline.config import ConfigError, check
 from pipeline.config.reference import example
@@ -54,7 +54,8 @@ def made(block, data=None, legible=True):
     figure = function(kind.drawn_by)(block, *(data[name] for name in kind.stages))
     if legible:
         assert_text_is_whole_and_apart(figure, margin=1, slack=5)  # 10^-5 and 10^1 at a corner
-    return render(figure, "png"), reported(block, data), caption_of("one", block).shows
+    caption = caption_of("one", block, facts(block, data))
+    return render(figure, "png"), reported(block, data), caption.shows
 
 
 def assert_made_or_refused_in_one_line(block):

@@ -19,6 +19,7 @@ from ..records.record import versions
 from ..records.sources import syntax_hash
 from . import published_sets
 from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
+from .quantities import facts
 
 BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
@@ -53,9 +54,10 @@ class _FileEntry(pydantic.BaseModel):
 
 
 class _SceneEntry(pydantic.BaseModel):
-    """A scene: its config block, source paths, stage -> name in _Manifest.data, and its files."""
+    """A scene: its block, what its caption says, sources, stage -> name of data, and its files."""
 
     config: dict[str, Any]
+    facts: dict[str, Any]
     sources: list[str]
     data: dict[str, str]
     figures: dict[str, _FileEntry]
@@ -107,6 +109,9 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
         "scenes": {
             scene: {
                 "config": block,
+                "facts": facts(
+                    block, {s: load(root / path) for s, path in published_set.data[scene].items()}
+                ),
                 "sources": sources[scene],
                 "data": {
                     stage: Path(path).name for stage, path in published_set.data[scene].items()

@@ -1,6 +1,9 @@
 """The reported quantities of scenes, as measured in their datasets and as printed in the paper."""
 
 import tomllib
+from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +23,16 @@ PAPER_NUMBERS: dict[str, dict[str, str]] = {
 }
 
 
-def measured(root: Path, variants: paths.Variants, variant: str, scene: str) -> dict[str, str]:
-    """Measure the quantities of a scene in its datasets; ValueError names wrong files."""
+def measured(
+    root: Path, variants: paths.Variants, variant: str, scene: str,
+    measure: Callable[[dict[str, Any], dict[str, Any]], dict[str, Any]] | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """Measure a scene, by default its quantities, in its datasets; ValueError names wrong files."""
     block, files = variants[variant][scene], paths.artifact_paths(variants)
     own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
     data = {stage: load(root / file) for stage, file in own.items()}
     try:
-        return reported(block.as_mapping(), data)
+        return (measure or reported)(block.as_mapping(), data)
     except (LookupError, TypeError, AttributeError, ArithmeticError):
         wrong = ", ".join(own.values())
         raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
@@ -37,6 +43,22 @@ def reported(block: dict[str, Any], data: dict[str, Any]) -> dict[str, str]:
     kind = KINDS[block["picture"]]
     quantities: dict[str, str] = imported(kind.reported_by)(block, **data) if kind.headline else {}
     return quantities
+
+
+def hidden(block: dict[str, Any], data: dict[str, Any]) -> list[str]:
+    """Return a line for each thing that the axes of a picture hide."""
+    return []
+
+
+def facts(block: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:
+    """Return what a caption says of what was computed and drawn, as values that JSON can hold.
+
+    `hidden` has lines on what the axes hide. The rest is what the function KIND_facts beside a
+    kind's reports returns, if there is one.
+    """
+    module, _, kind = KINDS[block["picture"]].reported_by.rpartition(".")
+    of_kind = getattr(import_module(module), f"{kind}_facts", None) if find_spec(module) else None
+    return {"hidden": hidden(block, data)} | (of_kind(block, **data) if of_kind else {})
 
 
 def printed(scene: str, quantity: str) -> str:

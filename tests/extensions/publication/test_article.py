@@ -132,6 +132,18 @@ def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing
     assert "Accuracy: 10−12." in plain and "<sup>−12</sup>" in box
 
 
+def test_each_picture_is_of_the_set_that_it_names(data):
+    source = SOURCE.read_text()
+    for name in re.findall(r'"([a-z]+/\w+)"', source):
+        folder, scene = name.split("/")
+        assert data["figures"][name]["file"].startswith(f"more_figures/{folder}/{scene}.")
+    families = source.partition("= Families of periodic orbits")[2].partition("\n== ")[0]
+    assert "@families-energy" in families and '"families/energy"' in source
+    titles = {name: figure["title"] for name, figure in data["figures"].items()}
+    assert titles["families/energy"] == "Families of periodic orbits"
+    assert titles["study/energy"].startswith("What an energy check detects")
+
+
 def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
     ours = {scene: data["figures"][scene]["settings"]["axes"] for scene in numbers.PRINTED_TICKS}
     for scene, axes in numbers.PRINTED_TICKS.items():
@@ -145,6 +157,7 @@ def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
         ('"rotation number")', '"rotation nunber")', "rotation nunber"),
         ("@greene", "@green", "green"),
         ("#findings(42)", "#findings(4242)", "none"),
+        ('"families/energy"', '"energy"', "energy"),  # a bare name
     ],
 )
 def test_a_number_or_reference_that_does_not_exist_is_one_line(compiled, old, new, problem):

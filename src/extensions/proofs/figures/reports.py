@@ -1,6 +1,7 @@
 """What each kind of picture reports: quantity -> value as text, measured in its datasets.
 
 A function has the name of a kind and takes the scene's block and the datasets by their stages.
+KIND_facts returns what the kind's caption says of the data.
 """
 
 import math
@@ -8,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from pseudorigid.figures.kinds.reports import about_orbit
+from pseudorigid.figures.kinds.reports import about_orbit, portrait_facts
 
 
 def horseshoe(
@@ -45,3 +46,11 @@ def graph(block: dict[str, Any], graph: xr.Dataset, orbits: xr.Dataset) -> dict[
         "connections": f"{graph.sizes['connection']}",
         "entropy": f"above {float(graph['entropy']):.4f} per impact",
     }
+
+
+def graph_facts(block: dict[str, Any], orbits: xr.Dataset, **_: xr.Dataset) -> dict[str, Any]:
+    """Count chaotic and regular orbits."""
+    return portrait_facts(block, orbits)
+
+
+curves_facts = graph_facts

@@ -69,8 +69,8 @@ def numbers_of(root: Path, config: Config) -> str:
     figures: dict[str, Table] = {}
     for each in sets:
         for scene, entry in committed[each.folder]["scenes"].items():
-            name = f"{each.group}-{scene}" if scene in figures else scene
-            figures[name] = _figure(root, each, scene, entry, committed[each.folder]["data"])
+            name = scene if each.group == PAPER else f"{each.group}/{scene}"
+            figures[name] = _figure(root, each, name, entry, committed[each.folder]["data"])
     for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
         figures[scene] |= {"rows": _rows(root, config, scene), "settings": entry["config"]}
     return json.dumps(
@@ -120,7 +120,7 @@ def _rows(root: Path, config: Config, scene: str) -> Table:
     values = measured(root, config.variants, PAPER, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
     axes = config.scenes[scene].given_axes()
-    for axis, ticks in PRINTED_TICKS[scene].items():
+    for axis, ticks in PRINTED_TICKS.get(scene, {}).items():
         labels = {"paper": ticks, "ours": axes[axis].ticks}
         rows[f"ticks, {axis}"] = {
             who: ", ".join(f"{tick:g}" for tick in given) for who, given in labels.items()
@@ -129,12 +129,12 @@ def _rows(root: Path, config: Config, scene: str) -> Table:
 
 
 def _figure(
-    root: Path, published: published_sets.PublishedSet, scene: str, entry: Table, data: Table
+    root: Path, published: published_sets.PublishedSet, name: str, entry: Table, data: Table
 ) -> Table:
     """Return what the article says of a committed picture."""
-    caption = caption_of(scene, entry["config"])
+    caption = caption_of(name, entry["config"], entry["facts"])
     # For print an SVG file if there is one, for the web page the file that loads faster.
-    files = [f"{published.folder}/{name}" for name in sorted(entry["figures"])]
+    files = [f"{published.folder}/{file}" for file in sorted(entry["figures"])]
     datasets = []
     for file in sorted(Path(path).name for path in entry["data"].values()):
         variables = data[file]["variables"]
@@ -146,7 +146,6 @@ def _figure(
         "shows": caption.shows,
         "file": files[-1],
         "web_file": min(files, key=lambda file: (root / file).stat().st_size),
-        "scene": scene,
         "command": published.command,
         "datasets": datasets,
     }

@@ -1,6 +1,7 @@
 """Captions of all pictures, from files captions.toml, for the report and docs/figures.md."""
 
 import tomllib
+from collections import defaultdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,14 +10,13 @@ import jinja2
 from ...config.schema.kinds import KINDS
 from ...declaration import files
 
-CAPTIONS: dict[str, dict[str, dict[str, str]]] = {"kinds": {}, "scenes": {}}
+CAPTIONS: dict[str, dict[str, str]] = {}  # kind of picture -> its templates
 for _file in (Path(__file__).with_name("captions.toml"), *files("captions.toml")):
-    for _part, _texts in tomllib.loads(_file.read_text(encoding="utf-8")).items():
-        CAPTIONS[_part] |= _texts
+    CAPTIONS |= tomllib.loads(_file.read_text(encoding="utf-8"))["kinds"]
 
 
 class Caption(NamedTuple):
-    """The texts of a picture. `shows` and `see` are a sentence each, `details` are the rest."""
+    """The texts of a picture. `shows` and `see` are a few sentences, `details` are the rest."""
 
     name: str
     title: str
@@ -25,15 +25,22 @@ class Caption(NamedTuple):
     details: str
 
 
-def caption_of(name: str, block: dict[str, Any]) -> Caption:
-    """Return the caption of a complete scene."""
+def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = None) -> Caption:
+    """Return the caption of a complete scene, after whose set `name` is called: "families/energy".
+
+    Scenes of config.yaml and its variants have bare names. `facts` are those of
+    `quantities.facts`; without them, sentences that need one are left out.
+    """
     kind = block["picture"]
-    own = CAPTIONS["scenes"].get(name) or CAPTIONS["kinds"].get(kind, {})
-    templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""} | own
+    templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""}
+    templates |= CAPTIONS.get(kind, {})
     number = name.removeprefix("fig")
     shown_name = f"Figure {number}" if number.isdigit() and number != name else name
+    known = defaultdict(int) if facts is None else facts
     texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
-    return Caption(shown_name, *(" ".join(text.render(s=block).split()) for text in texts))
+    title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
+    hidden = [f"Note: {line}." for line in known["hidden"] or ()]
+    return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
 
 
 def _with_commas(value: object) -> object:
@@ -41,4 +48,10 @@ def _with_commas(value: object) -> object:
     return f"{value:,}" if type(value) is int else value
 
 
+def _counted(count: int, noun: str) -> str:
+    """Return a count, with commas, and a noun in the number that it needs."""
+    return f"{count:,} {noun}{'s' * (count != 1)}"
+
+
 _ENVIRONMENT = jinja2.Environment(finalize=_with_commas, undefined=jinja2.StrictUndefined)
+_ENVIRONMENT.filters["counted"] = _counted

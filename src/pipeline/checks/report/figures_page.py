@@ -10,7 +10,7 @@ from textwrap import fill
 
 import jinja2
 
-from ...config import load
+from ...config import PAPER, load
 from ...config.schema.sets import SETS
 from ...records.files import write_whole
 from ...records.sources import ROOT
@@ -23,11 +23,13 @@ def page() -> str:
     sections, config = [], load(ROOT / "config.yaml")
     for published_set in published_sets.committed_sets(config):
         scenes = manifest.read(ROOT, published_set.folder)["scenes"]
-        blocks = {name: scene["config"] for name, scene in scenes.items()}
+        group = published_set.group
+        known = {name: (scene["config"], scene["facts"]) for name, scene in scenes.items()}
         for scene in (Path(file).stem for file in published_set.measured):
-            blocks[scene] = config.variants[published_set.group][scene].as_mapping()
-        captions = [(name, caption_of(name, block)) for name, block in blocks.items()]
-        sections.append((SETS[published_set.group].heading, published_set, captions))
+            known[scene] = config.variants[group][scene].as_mapping(), None
+        prefix = "" if group == PAPER else f"{group}/"
+        captions = [(name, caption_of(prefix + name, *of)) for name, of in known.items()]
+        sections.append((SETS[group].heading, published_set, captions))
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
     environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
     wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)

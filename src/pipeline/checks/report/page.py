@@ -16,13 +16,14 @@ from PIL import Image
 
 from ...config import PAPER, PUBLISHED, Config, paths
 from ...config.build_specs import build_specs
+from ...config.schema.sets import SETS
 from ...declaration import extensions
 from ...records.files import read_bytes
 from ...records.pictures import pixels
 from ...records.record import read_record, record_path
 from ..freshness import CURRENT, Freshness
 from ..published_sets import IDENTICAL, committed_sets, committed_state
-from ..quantities import measured, printed
+from ..quantities import facts, measured, printed
 from ..verify import Findings, inspect
 from .captions import caption_of
 from .part import Links, Part
@@ -94,10 +95,12 @@ class _Page:
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def _described(
-        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str
-    ) -> Picture:
+        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str,
+        known: dict[str, Any] | None,
+    ) -> Picture:  # fmt: skip
         """Return the caption of a picture and the notes of extensions, without an image."""
-        picture: Picture = caption_of(name, block.as_mapping())._asdict()
+        full_name = f"{variant}/{name}" if variant in SETS and variant != PAPER else name
+        picture: Picture = caption_of(full_name, block.as_mapping(), known)._asdict()
         picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
         notes = [part.note(variant, name, block.as_mapping(), published) for part in self.parts]
         return picture | {"published": published, "notes": [*filter(None, notes)]}
@@ -110,8 +113,9 @@ class _Page:
             drawing = paths.drawn(scene, "png", variant)
             published = f"{PUBLISHED[PAPER]}/{scene}.png" if variant == PAPER else drawing
             published = "" if scene in left_out else published
-            picture = self._described(f"{variant}-{scene}", variant, scene, block, published)
             state = left_out.get(scene) or self.freshness.state(drawing)
+            known = self._facts(variant, scene) if state == CURRENT else None
+            picture = self._described(f"{variant}-{scene}", variant, scene, block, published, known)
             if state == CURRENT:
                 data = [self.artifact_paths[variant, scene, name] for name in paths.stages(block)]
                 compared = f": {committed_state(self.root, published)}" if variant == PAPER else ""
@@ -141,7 +145,12 @@ class _Page:
         scene, variant = Path(name).stem, published_set.group
         block = self.variants[variant][scene]
         identifier = published.replace("/", "-")
-        picture = self._described(identifier, variant, scene, block, published)
+        entry = committed["scenes"].get(scene) if committed else None
+        as_committed = entry and entry["config"] == published_set.config.get(scene)
+        known = entry["facts"] if entry and as_committed else None
+        if drawing and drawing not in findings.stale:
+            known = self._facts(variant, scene)
+        picture = self._described(identifier, variant, scene, block, published, known)
         if drawing and drawing not in findings.stale:
             numbers = self._numbers(variant, scene) if block.headline else {}
             made = self._shown(drawing, published_set.data[scene].values())
@@ -152,8 +161,7 @@ class _Page:
             missing = f"{published} is not the committed one, nor made by this tree"
             return picture | {"missing": missing}
         origin = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
-        entry = committed["scenes"].get(scene) if committed else None
-        if drawing and not (entry and entry["config"] == published_set.config[scene]):
+        if drawing and not as_committed:
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
             origin += "; made from other values than config.yaml's"
         file = f"{published}: the committed one ({origin}), not made by this tree"
@@ -170,6 +178,10 @@ class _Page:
             record = read_record(self.root, record_path(path))
             packages = ", ".join(f"{n} {v}" for n, v in record["environment"].items())
             yield {"path": path, "packages": packages, "record": record}
+
+    def _facts(self, variant: str, scene: str) -> dict[str, Any]:
+        """Return what a scene's caption says of its data."""
+        return measured(self.root, self.variants, variant, scene, facts)
 
     def _numbers(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""

@@ -1,0 +1,114 @@
+"""Captions say what was computed and drawn, of any scene, and name a scene after its set."""
+
+import json
+
+import pytest
+from examples import PAPER, SHELL, checked, computed
+from project import ROOT, SHIPPED
+
+from pipeline import config
+from pipeline.checks.quantities import facts
+from pipeline.checks.report.captions import CAPTIONS, caption_of
+from pipeline.checks.report.figures_page import page
+from pipeline.config import PUBLISHED
+from pipeline.config.schema.kinds import KINDS
+
+SADDLE = {"ball": PAPER, "period": 6, "type": "hyperbolic", "energy": 0.01, "starts": [-0.2]}
+EXPONENTS = {"ball": PAPER, "energy": 0.01, "impacts": 1500, "records": 20}
+PORTRAIT = {"ball": PAPER, "energy": 0.01, "sea": []}
+ISLANDS = [-0.440981 + 0.014 * i for i in range(26)]
+CHAOS = "neighbours separate exponentially"
+REGULAR = "exponents of the regular orbit"
+
+
+@pytest.mark.parametrize(
+    ("kind", "change", "said", "unsaid"),
+    [
+        (
+            "exponents",
+            {"starts": [-0.44, -0.235, 0.142]},
+            [REGULAR],
+            [CHAOS, "inset", "At the end"],
+        ),
+        ("exponents", {"starts": [0.6, 0.62]}, [CHAOS, "inset", "the 2 chaotic"], ["regular"]),
+        (
+            "exponents",
+            {"starts": [0.6]},
+            ["1 orbit,", "the largest one on"],
+            ["one colour", "ones"],
+        ),
+        ("exponents", {"starts": [-0.2, 0.6]}, ["the chaotic orbit's largest"], ["the regular"]),
+        ("exponents", {"starts": ISLANDS[:8]}, ["Colours repeat"], ["one colour", "both from"]),
+        ("exponents", {"starts": [*ISLANDS, 0, 0.1, 0.2]}, ["both from the twenty-ninth"], []),
+        (
+            "portrait",
+            {"starts": [0.5], "impacts": 1},
+            ["1 orbit of 1 impact in"],
+            ["regular orbit"],
+        ),
+        ("portrait", {"starts": [-0.2], "impacts": 100}, ["orbit is blue"], ["Grey", "repeat"]),
+        ("portrait", {"starts": [0.5, 0.6], "impacts": 9}, ["2 chaotic orbits"], ["losed curve"]),
+        ("portrait", {"starts": ISLANDS, "impacts": 9}, ["colours repeat"], ["is blue"]),
+        (
+            "tangle",
+            {"branches": {"inner": {"length": 0.05}}},
+            ["leave each point", "over 1 orbit in", "cut off"],
+            ["meet", "jump", "sharp fold", "chaotic sea"],
+        ),
+        (
+            "tangle",
+            {"branches": {"outer": {"length": 1.2}}},
+            ["The outer lines"],
+            ["inner", "jump"],
+        ),
+        (
+            "tangle",
+            {"ball": SHELL, "energy": 0.1, "period": 1, "type": "inverse hyperbolic"},
+            ["(red dot)"],
+            ["meet", "neighbour", "dots"],
+        ),
+        ("closeup", {"period": 6}, ["A branch from another point"], ["of the point"]),
+        ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0012]}, [], ["and after it"]),
+        (
+            "jumps",
+            {"ball": PAPER, "energies": [0.002]},
+            ["with the curves", "a further"],
+            ["three"],
+        ),
+        ("graph", {}, ["1 orbit of the section, chaotic (pale)"], ["regular"]),
+    ],
+)
+def test_a_sentence_stands_where_it_holds_and_nowhere_else(kind, change, said, unsaid):
+    common = {"exponents": EXPONENTS, "portrait": PORTRAIT, "tangle": SADDLE}
+    block = checked(kind, **common.get(kind, {}) | change)
+    text = " ".join(caption_of("one", block, facts(block, computed(block)))[2:])
+    assert all(words in text for words in said)
+    assert not any(words in text for words in unsaid)
+
+
+def test_every_kind_that_is_drawn_has_a_caption_with_and_without_data():
+    """Without data, no sentence stands that needs some; an unknown name in `d` is an error."""
+    for scenes in config.load(SHIPPED).variants.values():
+        for name, block in scenes.items():
+            assert not block.formats or len(caption_of(name, block.as_mapping()).shows) > 100
+    assert CAPTIONS.keys() <= KINDS.keys()
+    for folder in PUBLISHED.values():
+        for name, scene in json.loads((ROOT / folder / "MANIFEST.json").read_text())[
+            "scenes"
+        ].items():
+            assert caption_of(name, scene["config"], scene["facts"]).shows
+
+
+def test_a_caption_says_what_the_axes_hide():
+    block = checked("portrait", **PORTRAIT | {"starts": [0.5], "impacts": 9})
+    known = {"chaotic": 1, "regular": 0, "hidden": ["axes.x hides 3 %: widen it"]}
+    assert caption_of("one", block, known).shows.endswith(". Note: axes.x hides 3 %: widen it.")
+
+
+def test_no_caption_or_name_is_on_the_page_twice():
+    parts = page().split("\n### ")[1:]
+    names = [part.partition(":")[0] for part in parts]
+    texts = [part.partition(")\n\n")[2].partition("\n## ")[0] for part in parts]
+    assert len(set(names)) == len(set(texts)) == len(parts)
+    (families,) = [part for part in parts if part.startswith("families/energy: families of ")]
+    assert "residues" in families and "missed impacts" not in families
