@@ -9,7 +9,7 @@ from slowly import slowly
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import rows, states_of
-from pseudorigid.figures.axes import box, view
+from pseudorigid.figures.axes import box, direction
 from pseudorigid.figures.canvas import sheet, style
 
 
@@ -41,7 +41,7 @@ def test_sine_and_cosine_of_the_view_are_correctly_rounded(degrees):
     with mpmath.workdps(50):
         angle = mpmath.mpf(degrees) * mpmath.pi / 180
         exact = float(mpmath.sin(angle)), float(mpmath.cos(angle))
-    assert view.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
+    assert direction.sincos_degrees(degrees) == pytest.approx(exact, rel=0, abs=1e-40)
 
 
 def test_snapped_pixels_keep_their_distance_from_every_threshold():

@@ -23,6 +23,7 @@ from pipeline.config.schema.scene import CompletionError, CrossFieldError, Pictu
 # Bounds of a sweep.
 LARGEST_IMPACTS = 10_000_000_000_000  # a larger number is a slip
 MOST_CELLS = 1_000_000  # each start of ./reproduce looks at all of them
+MOST_COLUMNS, MOST_ROWS = 800, 1600  # of a plane, for which a picture has room
 MOST_JOBS = 5000  # with more, snakemake is busier with its list than with the jobs
 HIGHEST_ENERGY = 1e9  # E/g^2
 _FORTY_DIGITS = Context(prec=40)
@@ -117,6 +118,9 @@ class Atlas(Picture):
         if cells > MOST_JOBS * self.block:
             words = f"at least {-(-cells // MOST_JOBS)} cells a block, for at most {MOST_JOBS} jobs"
             yield ("block",), self.block, words
+        elif len(k) > 1 and (len(energy) > MOST_COLUMNS or len(k) > MOST_ROWS):
+            words = f"a plane of at most {MOST_COLUMNS} energies and {MOST_ROWS} values of k"
+            yield ("energy",), energy, f"{words}, a pixel each, here {len(energy)} and {len(k)}"
 
 
 class Verdicts(Picture):

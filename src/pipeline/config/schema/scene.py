@@ -12,6 +12,8 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from annotated_types import Predicate
 from pydantic import Field
 
+from pseudorigid.figures.axes.direction import disproportion
+
 from . import fields
 from .fields import ABSENT, allowed
 from .method import Method, Scan
@@ -236,6 +238,15 @@ class OnSurface(Scene):
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
     rate, omega). An axis that is left out has limits that hold its data."""
+
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
+        """Check that the box, if all axes are given, is neither too high nor too flat."""
+        yield from super().cross_field_errors()
+        axes = self.given_axes()
+        limits = [axes[name].limits for name in ("x", "xdot", "udot") if name in axes]
+        sound = len(limits) == 3 and all(map(fields.rising, limits))
+        if refused := disproportion(limits, **dict(self.view)) if sound else None:
+            yield ("axes", refused[0], "limits"), *refused[1:]
 
 
 def is_sound(scene: Scene) -> bool:

@@ -5,9 +5,11 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.transforms import Bbox
 
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet, pieces, width
+from ..canvas.sheet import LONGEST, POINT, Sheet, pieces, width
+from .direction import disproportion
 from .limits import inside, refuse_empty
 from .panel import Entry, key
 from .view import OccludingEllipsoid, Projection
@@ -16,6 +18,7 @@ Step = tuple[float, float]  # on the sheet, across and up
 
 
 class _Label(NamedTuple):
+    along: int  # its axis
     at: list[float]  # its tick, or the middle of its axis, in the box
     step: Step  # unit vector from there to the label
     reach: float  # points from there to the label
@@ -26,6 +29,12 @@ class _Label(NamedTuple):
 _WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
 _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
+_APART = 0.25  # of a label's size: space on its left and its right
+_MARGIN = 1.2  # points: from there to the ends of the sheet
+_STEEP = 0.8  # sine of the least angle between an axis and its ticks
+# Share of a text's width or height to the left of its place or below it.
+_BEFORE = {"left": 0.0, "center": 0.5, "right": 1.0}
+_BEFORE |= {"bottom": 0.0, "center_baseline": 0.625, "top": 1.0}
 _ROW, _LEFT, _BETWEEN = 1.45 * _SIZE, 45, 28  # of the key above the box; points, pixels, pixels
 _RIM = 0.7  # points: width of the rim
 _SIDES = 2000  # pieces of a line of the box, which the surface hides one by one
@@ -37,7 +46,8 @@ class Box:
     What lies behind the surface is not drawn. The scene has `axes` with limits and ticks of x, xdot
     and udot; `view` with elevation (between 0 and 90) and azimuth; `energy` and `ball`, which are
     written above the box. `entries` are those of `panel.key`. Points are arrays (3, n). Raises
-    ValueError, one line, if there are points `shown` that the axes or the surface all hide.
+    ValueError, one line, if there are points `shown` that the axes or the surface all hide, or if
+    the box is too high or too wide for a picture.
     """
 
     def __init__(
@@ -52,6 +62,8 @@ class Box:
             if not self.seen(shown).any():
                 hides = "the energy surface hides all that is drawn"
                 raise ValueError(f"view {scene['view']}: {hides}")
+        if refused := disproportion(self.spans, **scene["view"]):
+            raise ValueError("axes.{}.limits {}: expected {}".format(*refused))
         if self.seen(self.surface.rim()).any():
             entries = [*entries, ("grazing rim", style.RIM, "", False, _RIM)]
         self._lay_out(style.setting(scene), entries)
@@ -85,7 +97,7 @@ class Box:
             left, row = _LEFT, 1
         self.sheet = self._fit(1 + row)
         self.figure = self.sheet.figure
-        self.ticks = [self._apart(along) for along in range(3)]
+        self._thin_out()
         top = self.sheet.high - (4 + _ROW / 2) * POINT
         self.sheet.text(_LEFT - 8, top, setting, size=_SIZE)
         for entry, space in zip(entries, widths, strict=True):
@@ -96,20 +108,36 @@ class Box:
         """Place the box on a sheet with room for labels and `rows` of the key; return the sheet."""
         left = _TICK + _GAP + _SIZE * _ems(self.ticks[2]) + 4
         right = _TICK + _GAP + _SIZE * _ems(self.ticks[1]) + 18
-        inner = _WIDE - (left + right) * POINT
-        inner_high = self.view.place(left * POINT, 0, inner)
+        for _ in range(4):  # labels move with the box, less and less
+            inner = _WIDE - (left + right) * POINT
+            inner_high = self.view.place(left * POINT, 0, inner)
+            frames = [self._frame(label) for label in self._labels()]
+            left += max(_MARGIN - min(frame.x0 for frame in frames) / POINT, 0.0)
+            right += max(_MARGIN + (max(frame.x1 for frame in frames) - _WIDE) / POINT, 0.0)
         # A hanging label reaches down by its height, another one by half of that.
         edges = [0.0, inner_high]
         for label in self._labels():
-            _, middle = self._place(label)
+            _, middle, *_ = self._place(label)
             hangs, size = label.step[1] > 0.5, 1.5 * label.size * POINT
             edges += [middle - size, middle + size * hangs]
         bottom, top = 4 * POINT - min(edges), (10 + rows * _ROW) * POINT
         needed = bottom + max(edges) + top
-        high = 75 * int(np.ceil(needed / 75))
+        high = max(75 * int(np.ceil(needed / 75)), _WIDE // LONGEST)
         bottom += (high - needed) / 2
         self.view.place(left * POINT, bottom, inner)
         return Sheet(_WIDE, high)
+
+    def _thin_out(self) -> None:
+        """Leave out ticks whose labels would cover others, first those of axes with many ticks."""
+        self.ticks = [self._apart(along) for along in range(3)]
+        taken: list[Bbox] = []
+        labels = sorted(self._labels(), key=lambda label: len(self.ticks[label.along]))
+        for label in sorted(labels, key=lambda label: label.size == _SIZE):  # names first
+            frame = self._frame(label)
+            if label.size == _SIZE and any(map(frame.overlaps, taken)):
+                self.ticks[label.along].remove(label.at[label.along])
+            else:
+                taken.append(frame)
 
     def _apart(self, along: int) -> list[float]:
         """Return every n-th tick of an axis, so that no label covers the next one."""
@@ -120,7 +148,7 @@ class Box:
             step = ticks[every] - ticks[0]
             if step * up > _SIZE or step * right > _SIZE * (_ems(ticks) + 0.3):
                 return ticks[::every]
-        return ticks[:1]
+        return ticks[-1:] if self.view.eye[along] < 0 else ticks[:1]  # the one at the far end
 
     def _edge(self, start: list[float], along: int, color: str, width: float) -> None:
         """Draw the line of the box through `start` in the direction of one axis."""
@@ -147,18 +175,37 @@ class Box:
         (x0, x1), (y0, y1), (z0, _) = self.spans
         east, north, _ = self.view.eye
         front = (x1 if east > 0 else x0), (y1 if north > 0 else y0)
-        corners = [(x, y) for x in (x0, x1) for y in (y0, y1)]
-        leftmost = min(corners, key=lambda corner: float(self.view([*corner, z0])[0]))
+        wide, left = self._widths(), int((east > 0) == (north > 0))
+        at_left = 2 * wide[left] > wide[1 - left]
+        corner = [*front, z0]  # the far end of the axis below it
+        along = left if at_left else 1 - left
+        corner[along] = self.spans[along][self.view.eye[along] <= 0]
         return [
-            ([x0, front[1], z0], self._towards(1, north)),
-            ([front[0], y0, z0], self._towards(0, east)),
-            ([*leftmost, z0], (-1.0, 0.0)),
+            ([x0, front[1], z0], self._ticks_of(0)),
+            ([front[0], y0, z0], self._ticks_of(1)),
+            (corner, (-1.0 if at_left else 1.0, 0.0)),
         ]
 
-    def _towards(self, along: int, sign: float) -> Step:
-        """Return the unit step on the sheet along an axis, forwards or backwards."""
+    def _widths(self) -> list[float]:
+        """Return the widths of the axes of x and xdot on the sheet, in points."""
+        pairs = zip(self.view.right, self.spans, strict=True)
+        return [abs(part) * (high - low) * self.view.scale / POINT for part, (low, high) in pairs]
+
+    def _ticks_of(self, along: int) -> Step:
+        """Return the direction of the ticks of x or xdot: along the other one, or at right angles.
+
+        They are at right angles where they would lie flat on their axis, unless it is too narrow
+        for a label below it.
+        """
+        (right, up), (across, rise) = self._towards(1 - along), self._towards(along)
+        if self._widths()[along] < _SIZE or abs(across * up - rise * right) > _STEEP:
+            return right, up
+        return (rise, -across) if across > 0 else (-rise, across)
+
+    def _towards(self, along: int) -> Step:
+        """Return the unit step on the sheet along an axis, towards the eye."""
         across, up = self.view.right[along], self.view.up[along]
-        length = math.sqrt(across * across + up * up) * (1 if sign > 0 else -1)
+        length = math.sqrt(across * across + up * up) * (1 if self.view.eye[along] > 0 else -1)
         return across / length, up / length
 
     def _labels(self) -> Iterator[_Label]:
@@ -166,15 +213,16 @@ class Box:
         for along, (start, step) in enumerate(self._axes()):
             for tick in self.ticks[along]:
                 at = [*start[:along], tick, *start[along + 1 :]]
-                yield _Label(at, step, _TICK + _GAP, style.number(tick), _SIZE)
+                yield _Label(along, at, step, _TICK + _GAP, style.number(tick), _SIZE)
             low, high = self.spans[along]
             name = list(style.NAMES.values())[along]
             if along == 2:  # this name stands above its axis, the others beside the middle
-                yield _Label([*start[:2], high], (-0.3, 1.0), 2 * _GAP, name, _NAME)
+                above = 0.3 * step[0], 1.0
+                yield _Label(along, [*start[:2], high], above, 2 * _GAP, name, _NAME)
                 continue
             size = _ems(self.ticks[along]) * abs(step[0]) + 0.9 * abs(step[1]) + 0.5
             at = [*start[:along], (low + high) / 2, *start[along + 1 :]]
-            yield _Label(at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME)
+            yield _Label(along, at, step, _TICK + 2 * _GAP + _SIZE * size, name, _NAME)
 
     def _edges(self) -> None:
         """Draw the axes with their ticks and labels."""
@@ -186,19 +234,26 @@ class Box:
                 ends = [across, across + step[0] * far], [up, up + step[1] * far]
                 self.sheet.draw(*ends, color=style.FRAME, lw=0.8)
         for label in self._labels():
-            step = label.step
-            ha = "center" if abs(step[0]) < 0.25 else ("left" if step[0] > 0 else "right")
-            va = "center_baseline" if abs(step[1]) < 0.5 else ("bottom" if step[1] > 0 else "top")
-            self.sheet.text(*self._place(label), label.text, ha=ha, va=va, size=label.size)
+            across, up, ha, va = self._place(label)
+            self.sheet.text(across, up, label.text, ha=ha, va=va, size=label.size)
 
-    def _place(self, label: _Label) -> tuple[float, float]:
-        """Return where a label stands on the sheet."""
+    def _place(self, label: _Label) -> tuple[float, float, str, str]:
+        """Return where a label stands on the sheet, and its alignments `ha` and `va`."""
+        right, high = label.step
+        ha = "center" if abs(right) < 0.25 else ("left" if right > 0 else "right")
+        va = "center_baseline" if abs(high) < 0.5 else ("bottom" if high > 0 else "top")
         across, up = map(float, self.view(label.at))
-        right, high = (part * label.reach * POINT for part in label.step)
-        return across + right, up + high
+        return across + right * label.reach * POINT, up + high * label.reach * POINT, ha, va
+
+    def _frame(self, label: _Label) -> Bbox:
+        """Return the frame of a label on the sheet, with some room beside it."""
+        across, up, ha, va = self._place(label)
+        wide, high = width(label.text, label.size), label.size * POINT
+        left, bottom = across - _BEFORE[ha] * wide, up - _BEFORE[va] * high
+        return Bbox.from_bounds(left, bottom, wide, high).padded(_APART * high, 0)
 
 
 def _ems(ticks: Sequence[float]) -> float:
     """Return an upper bound of the width of the widest label, in units of its size."""
     wide = {".": 0.26, "\N{MINUS SIGN}": 0.7}
-    return max(sum(wide.get(char, 0.51) for char in style.number(tick)) for tick in ticks)
+    return max([0.0, *(sum(wide.get(c, 0.51) for c in style.number(tick)) for tick in ticks)])

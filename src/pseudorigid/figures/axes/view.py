@@ -1,17 +1,13 @@
-"""View of a box: its projection to a sheet, and the energy surface that hides what is behind it.
-
-Everything is in closed form. Matplotlib's 3-D axes multiply matrices, whose last bit depends on the
-processor.
-"""
+"""View of a box: its projection to a sheet, and the energy surface that hides what is behind it."""
 
 import math
-from fractions import Fraction
 from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-_PI = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
+from .direction import directions
+
 _SIDES = 360  # of a quarter of a closed curve
 # Intersections nearer than this part of the surface's size are rounding errors of the point itself.
 _NEAR = 1e-5
@@ -25,11 +21,7 @@ class Projection:
 
     def __init__(self, limits: list[list[float]], view: dict[str, float]) -> None:
         self.corners = np.array([*product(*limits)], dtype=float).T
-        sin_a, cos_a = sincos_degrees(view["azimuth"])
-        sin_e, cos_e = sincos_degrees(view["elevation"])
-        self.right = (-sin_a, cos_a, 0.0)
-        self.up = (-sin_e * cos_a, -sin_e * sin_a, cos_e)
-        self.eye = (cos_e * cos_a, cos_e * sin_a, sin_e)
+        self.right, self.up, self.eye = directions(**view)
         self.scale, self.shift = 1.0, (0.0, 0.0)
 
     def place(self, left: float, bottom: float, width: float) -> float:
@@ -106,14 +98,3 @@ def _circle() -> tuple[np.ndarray, np.ndarray]:
         np.concatenate([sine, cosine, -sine, -cosine, [0.0]]),
         np.concatenate([cosine, -sine, -cosine, sine, [1.0]]),
     )
-
-
-def sincos_degrees(degrees: float) -> tuple[float, float]:
-    """Return (sin, cos) of an angle in degrees, correctly rounded, from exact series."""
-    angle = Fraction(degrees) % 360 * _PI / 180
-    sine, cosine, term, order = Fraction(0), Fraction(0), Fraction(1), 0
-    while order < 60:
-        cosine, sine = cosine + term, sine + term * angle / (order + 1)
-        term *= -angle * angle / ((order + 1) * (order + 2))
-        order += 2
-    return float(sine), float(cosine)

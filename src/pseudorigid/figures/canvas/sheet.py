@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike
 from . import style
 
 POINT = style.DPI / 72  # pixels
+LONGEST = 4  # largest ratio of a figure's sides
 _GRID = 256  # steps of the rasteriser in a pixel
 _MOST_SIDES = 5000  # of a line that matplotlib strokes at once without slowing down
 _AHEAD = 64  # vertices from a kept one to the one that defines the direction u in _end_of_piece
@@ -36,11 +37,14 @@ class Sheet:
     """An empty white figure of `wide` times `high` pixels, both multiples of 75 (a quarter inch).
 
     Coordinates count pixels from the lower left corner; sizes of lines, marks and text are points.
+    Raises ValueError if one side is more than four times as long as the other.
     """
 
     def __init__(self, wide: int, high: int) -> None:
         if wide % 75 or high % 75:
             raise ValueError(f"{wide} x {high} pixels: not whole quarters of an inch")
+        if max(wide, high) > LONGEST * min(wide, high):
+            raise ValueError(f"{wide} x {high} pixels: one side is over {LONGEST} times the other")
         self.wide, self.high = wide, high
         size = (wide / style.DPI, high / style.DPI)
         self.figure = Figure(figsize=size, dpi=style.DPI, facecolor="white")

@@ -15,6 +15,7 @@ from ..canvas import style
 from ..canvas.sheet import POINT
 
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
+_MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
 _DASHES = "-", "--", "-.", ":"  # after each round of hues, orbits have the next of these
 _NAMES = "Number of impacts", "Lyapunov exponents"
@@ -50,6 +51,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     _, orbits, indices = exponent.shape
     turns = [divmod(i, len(style.HUES)) for i in range(orbits)]
     lines = [(style.HUES[place], _DASHES[turn % len(_DASHES)]) for turn, place in turns]
+    if mixed and orbits > _MOST_STARTS:
+        raise ValueError(f"starts: {orbits} of them: expected at most {_MOST_STARTS}, with a key")
     # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
