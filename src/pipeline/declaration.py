@@ -5,7 +5,8 @@ called EXTENSION. Files beside it are found by their names:
 
     __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
-    figures/KIND.py   the function `draw` of a kind; figures/reports.py what pictures report
+    figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide
+    figures/reports.py  what pictures report
     scenes.yaml       blocks of config.yaml that it ships, and variants
     rules.smk         rules of its stages and pictures
     captions.toml     captions of its pictures
@@ -161,6 +162,13 @@ def imported(name: str) -> Any:
     """Return what a name MODULE.NAME stands for."""
     module, _, last = name.rpartition(".")
     return getattr(importlib.import_module(module), last)
+
+
+def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]:
+    """Return what the axes of a block hide, said by `hidden`, if it is there, beside its `draw`."""
+    module = importlib.import_module(drawn_by.rpartition(".")[0])
+    given = "axes" in block and hasattr(module, "hidden")
+    return [*module.hidden(block, *datasets)] if given else []
 
 
 def files(name: str) -> list[Path]:

@@ -41,9 +41,11 @@ def test_the_kinds_with_a_measure_are_studied():
     assert set(STUDIED) == set(figure_errors.MEASURES)
 
 
-def test_a_scene_without_axes_is_left_out():
+def test_a_scene_without_all_axes_is_left_out():
     bare = {key: value for key, value in PORTRAIT.items() if key != "axes"}
-    scenes = config.check({"ball": BALL, "scenes": {"one": PORTRAIT, "two": bare}}).scenes
+    flat = {name: axis for name, axis in PORTRAIT["axes"].items() if name != "udot"}
+    document = {"one": PORTRAIT, "two": bare, "three": PORTRAIT | {"axes": flat}}
+    scenes = config.check({"ball": BALL, "scenes": document}).scenes
     block = paper_scenes(scenes, {})[0]
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 

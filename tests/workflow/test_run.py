@@ -46,17 +46,30 @@ def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
 def test_a_plan_is_in_our_words_and_makes_nothing(done):
     done.edit("fig2", energy=0.0098)
     done.edit("fig7", records=5)
-    done.edit("fig3", duration=30)
     before = done.published()
     fig7 = "fig7: records 6 -> 5: lyapunov, drawing\n"
-    hidden = "fig3: duration 30 lies outside axes.t.limits [0, 16]: widen them, or leave axes.t out"
     result = done.run("-n", "--cores", "1")
     assert result.returncode == 0
-    plan = "fig2: energy 0.01 -> 0.0098: orbits, drawing\nfig3: "
-    assert result.stdout.startswith(plan)
-    assert fig7 in result.stdout and hidden in result.stdout.splitlines()
+    assert result.stdout == f"fig2: energy 0.01 -> 0.0098: orbits, drawing\n{fig7}"
     assert done.run("fig7", "-n").stdout == fig7
     assert done.published() == before
+
+
+def test_each_run_says_what_axes_hide_of_figures_made_and_current(done):
+    done.edit("fig2", energy=0.03)
+    done.edit("fig3", duration=30)
+    lines = [
+        "fig2: axes.x.limits [-0.2, 0.6] cut the energy surface at E = 0.03, and hide ",
+        "fig2: axes.udot.limits [-0.2, 0.4] cut the energy surface at E = 0.03, and hide ",
+        "fig3: axes.t.limits [0, 16] hide 46.7 % of the lines: widen them to [0.0, 30.0], or ",
+    ]
+    said = done.run("fig2", "fig3").stdout
+    for line, start in zip(said.splitlines()[-3:], lines, strict=True):
+        assert line.startswith(start)
+    again = done.run()
+    assert set(rows(again.stdout).values()) == {"current"}
+    assert again.stdout.splitlines()[-3:] == said.splitlines()[-3:]
+    assert sum(" axes." in line for line in again.stdout.splitlines()) == 3
 
 
 def test_a_second_run_has_nothing_to_do(done):

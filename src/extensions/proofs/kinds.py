@@ -60,7 +60,7 @@ class Twist(Scene):
     """the fixed point's twist coefficient against the energy"""
 
     stages = ("twist",)
-    along = {"energy": "energies"}
+    axes_depend_on = ("energies",)
     headline = "zero of the twist"
 
     energies: Annotated[

@@ -11,7 +11,7 @@ from pseudorigid.dynamics.paper import FIGURES, WINDOW
 
 from ..config import paths
 from ..config.schema.kinds import KINDS
-from ..declaration import imported
+from ..declaration import hidden_by, imported
 from ..records.artifacts import load
 
 # scene -> quantity -> the paper's value
@@ -46,8 +46,9 @@ def reported(block: dict[str, Any], data: dict[str, Any]) -> dict[str, str]:
 
 
 def hidden(block: dict[str, Any], data: dict[str, Any]) -> list[str]:
-    """Return a line for each thing that the axes of a picture hide."""
-    return []
+    """Say what the axes of a picture hide, a line each; `data` maps its stages to datasets."""
+    kind = KINDS[block["picture"]]
+    return hidden_by(kind.drawn_by, block, *(data[stage] for stage in kind.stages))
 
 
 def facts(block: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:

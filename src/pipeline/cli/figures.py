@@ -16,7 +16,7 @@ from ..config.schema.sets import PUBLISHED
 from ..records.build_spec import BuildSpec
 from ..records.differences import columns
 from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
-from ..records.record import failure, record_path
+from ..records.record import failure, read_record, record_path
 from ..records.sources import ROOT
 from . import running
 from .arguments import Arguments
@@ -69,11 +69,9 @@ def make(
     if not {*results, *inputs} <= specs.keys():  # some are of other sets
         specs = build_specs(config)
     inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
-    blocks = _blocks(config, group, drawings.values())
-    notes = [f"{scene}: {line}" for scene, block in blocks.items() for line in block.hidden()]
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
-        notes += [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
+        notes = [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
         print(*notes, sep="\n", end="\n" * bool(notes))
         return status
     freshness = Freshness(ROOT, specs)
@@ -102,12 +100,20 @@ def make(
             rows.append((specs[drawing].scene, path, state))
     rows += [(scene, path, reasons[scene]) for path, scene in left_out.items()]
     if rows:
+        notes = [*_hidden(made.values())]
         notes += _missed_impacts(config, group, _blocks(config, group, made.values()))
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in paths.figures(config.variants, group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
         _print_table(PUBLISHED.get(group), rows, notes)
     return status or int(bool(unpublished))
+
+
+def _hidden(drawings: Iterable[str]) -> dict[str, None]:
+    """Return a line for each axis that hides something, as the records of the drawings say."""
+    outputs = {path: read_record(ROOT, record_path(path))["output"] for path in drawings}
+    lines = [(path, line) for path, output in outputs.items() for line in output.get("hidden", ())]
+    return dict.fromkeys(f"{PurePath(path).stem}: {line}" for path, line in lines)
 
 
 def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Picture]:

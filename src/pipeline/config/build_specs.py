@@ -14,9 +14,15 @@ from .schema.scene import Picture
 from .schema.sets import SETS
 from .schema.stages import STAGES, function_of
 
-# Kinds of picture with a measure of error in study.figure_errors, and the stages whose datasets the
-# study compares with.
-STUDIED = ("portrait", "motion", "tangle", "closeup", "exponents")
+# Kinds of picture with a measure of error in study.figure_errors, with the axes that it needs, and
+# the stages whose datasets the study compares with.
+STUDIED = {
+    "portrait": {"x", "xdot", "udot"},
+    "motion": {"t", "displacement"},
+    "tangle": {"x", "xdot", "udot"},
+    "closeup": {"x", "xdot"},
+    "exponents": {"impact", "exponent"},
+}
 _COMPARED = ("periodic", "manifolds")
 _source_files = cache(sources.source_files)
 
@@ -77,13 +83,14 @@ def paper_scenes(
 ) -> tuple[YamlMapping, dict[str, str]]:
     """Return what decides the data of the stage `needs`, and its inputs by stage and scene.
 
-    The study measures the errors of scenes with a measure of error and axes, which fix the
+    The study measures the errors of scenes with a measure of error and all axes, which fix the
     picture's size.
     """
     chosen = {
         name: block
         for name, scene in scenes.items()
-        if scene.picture in STUDIED and "axes" in (block := scene.as_mapping())
+        if scene.picture in STUDIED
+        and STUDIED[scene.picture] <= (block := scene.as_mapping()).get("axes", {}).keys()
     }
     measures = {name: scenes[name].picture for name in chosen}
     inputs = {

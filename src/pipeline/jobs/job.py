@@ -32,8 +32,8 @@ def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
     for file in (log, refusal_path(spec.result)):
         Path(file).unlink(missing_ok=True)
     try:
-        with recorded(spec):
-            import_module(f"pipeline.jobs.{spec.program}").make(spec)
+        with recorded(spec) as output:
+            output.update(import_module(f"pipeline.jobs.{spec.program}").make(spec) or {})
     except Exception as error:
         message = " ".join(str(error).split())
         if not isinstance(error, (ValueError, MemoryError)):  # whose messages are for users

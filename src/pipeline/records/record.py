@@ -73,8 +73,10 @@ def read_record(root: Path, path: str) -> dict[str, Any]:
 
 
 @contextmanager
-def recorded(spec: BuildSpec) -> Iterator[None]:
+def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     """Write the record of a result once the body has made it; the current folder is the root.
+
+    The body may describe the result further in the mapping that it is given.
 
     A ValueError in the body says that the result cannot exist (one of a subclass, such as
     FileError, only if it has the attribute `lasting`). The refusal is recorded then, so that the
@@ -94,8 +96,9 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
     }
     require_unchanged(source_hashes)
     start = time.monotonic()
+    output: dict[str, Any] = {"file": spec.result}
     try:
-        yield
+        yield output
     except ValueError as error:
         if getattr(error, "lasting", type(error) is ValueError):
             require_unchanged(source_hashes | record["inputs"])
@@ -103,11 +106,11 @@ def recorded(spec: BuildSpec) -> Iterator[None]:
         raise
     record["seconds"] = time.monotonic() - start
     require_unchanged(source_hashes | record["inputs"])
-    output = {"file": spec.result, "sha256": file_hash(spec.result)}
+    output["sha256"] = file_hash(spec.result)
     _write(record_path(spec.result), record, output)
 
 
-def _write(path: str, record: dict[str, Any], output: dict[str, str | None]) -> None:
+def _write(path: str, record: dict[str, Any], output: dict[str, Any]) -> None:
     """Write a record with a description of its output."""
     write_whole(path, json.dumps(record | {"output": output}, sort_keys=True, indent=1) + "\n")
 

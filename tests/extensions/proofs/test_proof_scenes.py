@@ -13,10 +13,9 @@ from examples import (
     no_clipping,
 )
 from keys import SCENE, texts
-from project import shipped
 
 from extensions.proofs.figures.twist import draw
-from pipeline.config.schema.kinds import KINDS
+from pipeline.checks.quantities import hidden
 
 MARKS = {"marks": []}
 
@@ -44,13 +43,15 @@ def test_the_twist_is_drawn_within_its_frame():
         made(checked("twist", ball=OTHER, energies=energies, marks=[0.001]))
 
 
-def test_energies_outside_the_axes_are_reported():
-    document = shipped()
-    block = {"ball": document["ball"]} | document["proofs"]["twist"]
-    twist = KINDS["twist"].model_validate
-    assert not [*twist(block).hidden()]
-    (line,) = twist(block | {"energies": [0.01, 0.07]}).hidden()
-    assert line.startswith("energies 0.07 lies outside axes.energy.limits")
+def test_energies_and_values_outside_the_axes_are_reported():
+    axes = {"energy": {"limits": [0, 0.004], "ticks": [0]}}
+    data = {"twist": twist_data([0.001, 0.004, 0.006], [1.0, 4.0, 6.0])}
+    assert hidden(SCENE | {"picture": "twist"}, data) == []
+    (line,) = hidden(SCENE | {"picture": "twist", "axes": axes}, data)
+    words = "hide 33.3 % of 3 energies: widen them to [0.0, 0.006], or leave axes.energy out"
+    assert line == f"axes.energy.limits [0, 0.004] {words}"
+    axes["twist"] = {"limits": [2, 6], "ticks": [2]}
+    assert len(hidden(SCENE | {"picture": "twist", "axes": axes}, data)) == 2
 
 
 @pytest.mark.slow
@@ -58,6 +59,11 @@ def test_a_horseshoe_shows_only_what_lies_within_its_limits():
     given = {"x": {"limits": [0, 0.1], "ticks": [0]}, "q": {"limits": [-0.9, 0.9], "ticks": [0]}}
     data = computed(checked("horseshoe"))
     made(checked("horseshoe", axes=given), data)
+    said = hidden(checked("horseshoe", axes=given), data)
+    assert [line.partition(" of ")[0] for line in said] == [
+        "axes.x.limits [0, 0.1] hide 42.2 %",
+        "axes.q.limits [-0.9, 0.9] hide 9.95 %",
+    ]
     far = {"x": {"limits": [1.0, 2.0], "ticks": [1]}}
     with pytest.raises(ValueError, match=r"axes.x.limits \[1.0, 2.0\]: all data lie beyond them"):
         made(checked("horseshoe", axes=far), data)
@@ -66,10 +72,14 @@ def test_a_horseshoe_shows_only_what_lies_within_its_limits():
 # ---- the picture of the twist
 
 
+def twist_data(energies, twist):
+    """Twists that vanish nowhere."""
+    return xr.Dataset({"energy": ("e", energies), "twist": ("e", twist), "zero": np.nan})
+
+
 def picture(energies, twist, **scene):
     """Draw twists that vanish nowhere."""
-    data = xr.Dataset({"energy": ("e", energies), "twist": ("e", twist), "zero": np.nan})
-    return draw(SCENE | scene, data)
+    return draw(SCENE | scene, twist_data(energies, twist))
 
 
 def test_no_mark_of_a_twist_lies_outside_its_frame():

@@ -1,5 +1,6 @@
 """The sets of a horseshoe along a connection, over the manifolds, and one covering relation."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from pseudorigid.dynamics.variables import chart, rows, states_of
-from pseudorigid.figures.axes.limits import complete, inside, of_data, refuse_empty
+from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty
 from pseudorigid.figures.axes.panel import Axis, Window, corner, key, letters
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
@@ -45,6 +46,16 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
     corner(sheet, _BELOW, style.setting(scene))
     letters(sheet, _ABOVE, _BELOW)
     return sheet.figure
+
+
+def hidden(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) -> Iterator[str]:
+    """Say which axes hide sets, branches, or the image and square below."""
+    lines = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    both = {n: np.append(horseshoe[n], line) for n, line in zip("xy", lines, strict=True)}
+    yield from hides(scene, "the sets and branches", **both)
+    square = np.linspace(-1.0, 1.0, 201)
+    yield from hides(scene, "the image", p=horseshoe["image_p"].values)
+    yield from hides(scene, "the middle set", p=square, q=square)
 
 
 def _sets(panel: Window, horseshoe: xr.Dataset) -> None:

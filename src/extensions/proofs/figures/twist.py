@@ -1,12 +1,13 @@
 """The fixed point's twist against the energy, and where it vanishes."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.figures.axes.limits import complete, of_data, refuse_empty
+from pseudorigid.figures.axes.limits import complete, hides, of_data, refuse_empty
 from pseudorigid.figures.axes.plane import Plane
 from pseudorigid.figures.canvas import style
 
@@ -48,3 +49,9 @@ def draw(scene: dict[str, Any], twist: xr.Dataset) -> Figure:
         plane.dots([zero], [0.0], "white", _DOT + 0.6, mew=1.0, mec=style.VERMILION)
         plane.note(zero, 0.0, f"$E$ = {zero:.6f}", shift=(-10, -14), ha="right", va="bottom")
     return plane.figure
+
+
+def hidden(scene: dict[str, Any], twist: xr.Dataset) -> Iterator[str]:
+    """Say which axes hide computed values."""
+    energy, values = twist["energy"].values, twist["twist"].values
+    return hides(scene, f"{energy.size} energies", energy=energy, twist=values)

@@ -41,9 +41,7 @@ class Picture(fields.Block):
     reported_by: ClassVar[str] = ""
     # Fields that decide nothing that is drawn.
     undrawn: ClassVar[tuple[str, ...]] = ("formats",)
-    # Axis -> the field whose values lie along it.
-    along: ClassVar[dict[str, str]] = {}
-    # A variant that changes one of these or of `along`, the ball or the energy inherits no `axes`.
+    # A variant that changes one of these, the ball or the energy inherits no `axes`.
     axes_depend_on: ClassVar[tuple[str, ...]] = ()
     # The quantity among those that the picture reports that stands for it in a list.
     headline: ClassVar[str] = ""
@@ -64,14 +62,6 @@ class Picture(fields.Block):
     def given_axes(self) -> Mapping[str, fields.Axis]:
         """Return the axes of the scene that the config has."""
         return getattr(self, "axes", None) or {}
-
-    def hidden(self) -> Iterator[str]:
-        """Yield a line for each field whose values lie outside the axes."""
-        for name, field in self.along.items():
-            axis = self.given_axes().get(name)
-            outside = [v for _, v in _entries(self, field) if axis and not axis.holds(v)]
-            if axis and outside:
-                yield f"{field} {max(outside)} lies outside {beyond(name, axis.limits)}"
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Yield what is wrong between fields, each of which has its type."""
@@ -237,7 +227,8 @@ class OnSurface(Scene):
     """Direction from which the surface is seen. The surface is opaque and hides its far side."""
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
-    rate, omega). An axis that is left out has limits that hold its data."""
+    rate, omega). An axis that is left out has limits that hold its data. Limits that cut the energy
+    surface are widened to hold it, and a run says so."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the box, if all axes are given, is neither too high nor too flat."""
@@ -260,11 +251,6 @@ def bounded(scene: Scene, first: str, second: str, what: str) -> Iterator[CrossF
     if factor * other > fields.LARGEST:
         words = f"at most {fields.LARGEST} {what}, {first} times {second}"
         yield (second,), other, f"{words}: here {fields.LARGEST // factor}"
-
-
-def beyond(axis: str, limits: list[float]) -> str:
-    """Name limits of an axis that hide something, and say what to do about them."""
-    return f"axes.{axis}.limits {limits}: widen them, or leave axes.{axis} out"
 
 
 def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:

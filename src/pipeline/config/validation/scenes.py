@@ -146,7 +146,7 @@ def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) ->
     if "method" in replaced:  # methods are replaced as a whole
         block = {key: value for key, value in block.items() if key != "method"}
     derived: YamlMapping = _merge(_merge(block, replaced), change)
-    framing = ("ball", "energy", *kind.axes_depend_on, *kind.along.values())
+    framing = ("ball", "energy", *kind.axes_depend_on)
     if variant.scale in (None, 1) and all(block.get(f) == derived.get(f) for f in framing):
         return derived
     derived.pop("axes", None)

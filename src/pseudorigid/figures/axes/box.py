@@ -10,7 +10,7 @@ from matplotlib.transforms import Bbox
 from ..canvas import style
 from ..canvas.sheet import LONGEST, POINT, Sheet, pieces, width
 from .direction import disproportion
-from .limits import inside, refuse_empty
+from .limits import inside
 from .panel import Entry, key
 from .view import OccludingEllipsoid, Projection
 
@@ -46,8 +46,8 @@ class Box:
     What lies behind the surface is not drawn. The scene has `axes` with limits and ticks of x, xdot
     and udot; `view` with elevation (between 0 and 90) and azimuth; `energy` and `ball`, which are
     written above the box. `entries` are those of `panel.key`. Points are arrays (3, n). Raises
-    ValueError, one line, if there are points `shown` that the axes or the surface all hide, or if
-    the box is too high or too wide for a picture.
+    ValueError, one line, if there are points `shown` that the surface all hides, or if the box is
+    too high or too wide for a picture.
     """
 
     def __init__(
@@ -57,11 +57,9 @@ class Box:
         self.ticks = [scene["axes"][name]["ticks"] for name in style.NAMES]
         self.view = Projection(self.spans, scene["view"])
         self.surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
-        if shown is not None:
-            refuse_empty(scene["axes"], dict(zip(style.NAMES, shown, strict=True)))
-            if not self.seen(shown).any():
-                hides = "the energy surface hides all that is drawn"
-                raise ValueError(f"view {scene['view']}: {hides}")
+        if shown is not None and not self.seen(shown).any():
+            hides = "the energy surface hides all that is drawn"
+            raise ValueError(f"view {scene['view']}: {hides}")
         if refused := disproportion(self.spans, **scene["view"]):
             raise ValueError("axes.{}.limits {}: expected {}".format(*refused))
         if self.seen(self.surface.rim()).any():

@@ -1,11 +1,11 @@
-"""Axis limits and ticks from data, and refusal of axes that show none of the data.
+"""Axis limits and ticks from data, what limits hide, and refusal of those that show nothing.
 
 Matplotlib's locators use the C library's logarithm, whose last bit varies between machines. Here
 fractions, IEEE arithmetic and compiled logarithms decide, with the same bits everywhere.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -16,12 +16,17 @@ from numpy.typing import ArrayLike
 
 from ..canvas import style
 from .panel import Axis, log10
+from .view import OccludingEllipsoid, Projection
 
 # Limits are refused if they are wider than the data's largest modulus by these factors. The
 # abscissa of a line may be wide because a run may be a short trial of a longer one, and its
 # ordinate because it may be flat.
 _WIDEST_DOTS, _WIDEST_ABSCISSA, _WIDEST_ORDINATE = 1e3, 1e4, 1e6
 _NARROWEST = 1e-12  # of that modulus
+# What lies beyond limits by less than a part of their distance is shown: a pixel of most axes. The
+# surface of Figure 8 touches xdot = 0.1, but where limits cut off a part h of a surface's height,
+# they leave a hole of about 2 sqrt(h): one pixel would leave 60.
+_PIXEL, _ROUNDING = 1e-3, 1e-9
 _LONGEST_LABEL = 7  # characters of a tick label that fit at the left of a chart
 _FEW_DECADES = 0.7  # decades in which two of 1, 2, 5 times powers of ten lie
 _MOST_DECADES = 9  # decades with a tick each; beyond that every second, third, ... has one
@@ -124,10 +129,78 @@ def complete(scene: dict[str, Any], **axes: Callable[[], Any]) -> dict[str, Any]
 
 
 def complete_box(scene: dict[str, Any], *datasets: xr.Dataset) -> dict[str, Any]:
-    """Return the scene with the axes of a box, around the datasets for those that it lacks."""
+    """Return the scene with the axes of a box, around the datasets for those that it lacks.
+
+    Where limits of the scene cut the energy surface, the box grows to hold it: an open surface
+    shows its inside, and looks like another one. A box around data alone, such as one island, cuts
+    it if nothing is seen that the whole surface hides. Raises ValueError if the axes show nothing
+    of the last dataset.
+    """
     data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
-    axes = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
-    return complete(scene, **axes)
+    own = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
+    axes = complete(scene, **own)["axes"]
+    refuse_empty(axes, {name: data[name][-1] for name in data})
+    around = _around_surface(scene, axes)
+    points = np.array([np.concatenate(parts) for parts in data.values()])
+    if around.keys() & scene.get("axes", {}).keys() or _shows_inside(scene, axes, points):
+        axes |= around
+    return complete(scene | {"axes": axes}, **own)
+
+
+def cuts(scene: dict[str, Any], what: str, dataset: xr.Dataset) -> Iterator[str]:
+    """Yield a line for each axis of a scene whose limits cut the energy surface.
+
+    `what` are the points of the dataset, of which it gives the share beyond the limits.
+    """
+    axes = scene.get("axes", {})
+    for name, axis in _around_surface(scene, axes).items():
+        limits, points = axes[name]["limits"], dataset[name].values
+        share = _share_beyond(limits, points)
+        also = f", and hide {share} of {np.isfinite(points).sum():,} {what}" if share else ""
+        cut = f"axes.{name}.limits {limits} cut the energy surface at E = {scene['energy']:g}{also}"
+        yield f"{cut}: drawn with {axis['limits']}: write these, or leave axes.{name} out"
+
+
+def hides(scene: dict[str, Any], what: str, **values: np.ndarray) -> Iterator[str]:
+    """Yield a line for each axis of a scene whose limits hide some of its values, named `what`."""
+    axes = scene.get("axes", {})
+    for name in (name for name in values if name in axes):
+        limits = axes[name]["limits"]
+        if share := _share_beyond(limits, values[name]):
+            wide = of_data(limits, values[name], room=0.0)["limits"]
+            advice = f"widen them to {wide}, or leave axes.{name} out"
+            yield f"axes.{name}.limits {limits} hide {share} of {what}: {advice}"
+
+
+def _share_beyond(limits: Sequence[float], values: np.ndarray, shown: float = _PIXEL) -> str:
+    """Return the percentage of values beyond limits as text, empty for none."""
+    low, high = limits
+    excess = np.maximum(low - values, values - high)  # NaN where there is no value
+    if not np.any(excess > shown * (high - low)):
+        return ""
+    return f"{100 * np.sum(excess > 0) / np.sum(~np.isnan(excess)):.3g} %"
+
+
+def _around_surface(scene: dict[str, Any], axes: dict[str, Any]) -> dict[str, Any]:
+    """Return axes that hold the energy surface, for those of `axes` whose limits cut it."""
+    ends = OccludingEllipsoid(**scene["ball"], energy=scene["energy"]).ends()
+    return {
+        name: of_data(pair, margin=0.08)
+        for name, pair in zip(style.NAMES, ends, strict=True)
+        if name in axes and _share_beyond(axes[name]["limits"], np.array(pair), _ROUNDING)
+    }
+
+
+def _shows_inside(scene: dict[str, Any], axes: dict[str, Any], points: np.ndarray) -> bool:
+    """Return whether one sees a point, or one of the rim, that the whole surface would hide."""
+    surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
+    spans = [axes[name]["limits"] for name in style.NAMES]
+    points = np.hstack([points, surface.rim()])
+    points = points[:, inside(spans, points)]
+    before = surface.before(Projection(spans, scene["view"]).eye, points)
+    hidden = np.array([surface.has(front) for front in before])
+    still = hidden & np.array([inside(spans, front) for front in before])
+    return bool(np.any(hidden.any(axis=0) & ~still.any(axis=0)))
 
 
 def inside(limits: Iterable[Sequence[float]], values: Iterable[Any]) -> np.ndarray:

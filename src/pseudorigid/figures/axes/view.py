@@ -72,6 +72,11 @@ class OccludingEllipsoid:
             intersections.append(np.array(point))
         return intersections
 
+    def ends(self) -> list[tuple[float, float]]:
+        """Return the least and the largest x, xdot and udot."""
+        wide, back = self.radius / math.sqrt(self.k), -self.radius / math.sqrt(1.0 + self.k)
+        return [(self.centre - wide, self.centre + wide), (back, self.radius), (back, wide)]
+
     def rim(self) -> np.ndarray:
         """Return the closed curve on which the contact speed vanishes."""
         sine, cosine = _circle()

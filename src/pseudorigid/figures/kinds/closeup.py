@@ -1,5 +1,6 @@
 """Stable and unstable manifolds near one saddle, in the (x, xdot) plane: Figure 6 of the paper."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -8,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from ...dynamics.variables import rows
-from ..axes.limits import complete, refuse_empty, ticks
+from ..axes.limits import complete, hides, refuse_empty, ticks
 from ..axes.plane import Plane
 from ..canvas import style
 
@@ -45,3 +46,11 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )
     return picture.figure
+
+
+def hidden(scene: dict[str, Any], manifolds: xr.Dataset) -> Iterator[str]:
+    """Say which axes hide a part of the window, which itself shows a part of the branches."""
+    steps = np.arange(1001) / 1000
+    for name in ("x", "xdot"):
+        low, high = manifolds.attrs[f"window_{name}"]
+        yield from hides(scene, "the window", **{name: low + (high - low) * steps})

@@ -1,5 +1,6 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -9,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ...dynamics.variables import final_exponents
 from ..axes import panel
-from ..axes.limits import complete, inside, of_data, refuse_empty, ticks
+from ..axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
 from ..axes.plane import Plane, thousands
 from ..canvas import style
 from ..canvas.sheet import POINT
@@ -30,6 +31,13 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     the axes show nothing.
     """
     return drawn(scene, lyapunov)[0]
+
+
+def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
+    """Say what the axes hide of the lines' ends: the first exponents may lie far beyond."""
+    ends = {"impact": _lengths(lyapunov), "exponent": final_exponents(lyapunov)}
+    yield from hides(scene, "the lines' ends", **ends)
+    yield from hides(scene, "the inset's lines", largest=drawn(scene, lyapunov)[1])
 
 
 @style.pinned()
@@ -76,13 +84,18 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     return picture.figure, largest
 
 
+def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
+    """Return the number of impacts of each orbit."""
+    known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
+    return np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
+
+
 def which_are_chaotic(lyapunov: xr.Dataset) -> np.ndarray:
     """Return which orbits are chaotic: their largest exponent exceeds `regular_bound`."""
     from ...dynamics.regularity import regular_bound  # compiled code, which other kinds do not need
 
-    known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
-    lengths = np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
-    return final_exponents(lyapunov).max(axis=1) > [regular_bound(int(n)) for n in lengths]
+    bounds = [regular_bound(int(length)) for length in _lengths(lyapunov)]
+    return final_exponents(lyapunov).max(axis=1) > bounds
 
 
 def _key_text(start: Any, chaotic: bool) -> str:

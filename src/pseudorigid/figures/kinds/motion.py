@@ -1,5 +1,6 @@
 """A periodic motion in time, -x(t) and u(t): Figures 3 and 4 of the paper."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from ..axes.limits import complete, of_data, refuse_empty
+from ..axes.limits import complete, hides, of_data, refuse_empty
 from ..axes.plane import Plane
 from ..canvas import style
 
@@ -39,3 +40,9 @@ def draw(scene: dict[str, Any], motion: xr.Dataset) -> Figure:
         picture.shows(*impacts).any() and ("impact", 28, {"color": style.BLACK, "dots": _DOT}),
     )
     return picture.figure
+
+
+def hidden(scene: dict[str, Any], motion: xr.Dataset) -> Iterator[str]:
+    """Say what the axes hide of the two lines."""
+    both = np.concatenate([-motion["position"].values, motion["strain"].values])
+    return hides(scene, "the lines", t=motion["t"].values, displacement=both)

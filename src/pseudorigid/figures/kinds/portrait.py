@@ -1,5 +1,6 @@
 """Orbits on the energy surface: Figures 2 and 8 of the paper."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import xarray as xr
@@ -7,7 +8,7 @@ from matplotlib.figure import Figure
 
 from ...dynamics.variables import rows, states_of
 from ..axes.box import Box
-from ..axes.limits import complete_box
+from ..axes.limits import complete_box, cuts
 from ..canvas import style
 
 _CURVE, _SEA = 0.8, 0.4  # points
@@ -31,3 +32,8 @@ def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
     return box.figure
+
+
+def hidden(scene: dict[str, Any], orbits: xr.Dataset) -> Iterator[str]:
+    """Say which axes cut the energy surface."""
+    return cuts(scene, "impacts", orbits)

@@ -31,15 +31,21 @@ def portrait_facts(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, Any]:
 
 
 def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
-    """Describe the orbit, the times drawn, its period in time and its strain."""
+    """Describe the orbit, the times and impacts drawn, its period in time and its strain."""
+    import numpy as np
+
     from pseudorigid.dynamics.variables import of_type
 
-    t = motion["t"].values
+    axes, everywhere = block.get("axes", {}), {"limits": (-np.inf, np.inf)}
+    across, up = (axes.get(name, everywhere)["limits"] for name in ("t", "displacement"))
+    times = np.clip(motion["t"].values[[0, -1]], *across)
+    impacts = (across, motion["impact_t"].values), (up, -motion["impact_position"].values)
+    drawn = np.all([(low <= at) & (at <= high) for (low, high), at in impacts], axis=0)
     orbit = of_type(periodic, block["type"])
     return about_orbit(periodic, block) | {
-        "time": f"{t[0]:g} to {t[-1]:g}",
+        "time": "{:g} to {:g}".format(*times),
         "time of one period": f"{float(orbit['total_time']):.6f}",
-        "impacts drawn": f"{motion.sizes['impact']:,}",
+        "impacts drawn": f"{drawn.sum():,}",
         "strain": f"{float(motion['strain'].min()):.4f} to {float(motion['strain'].max()):.4f}",
     }
 

@@ -1,6 +1,6 @@
 """Stable and unstable manifolds on the energy surface: Figure 5 of the paper."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...dynamics.variables import of_type, rows, states_of
 from ..axes.box import Box
-from ..axes.limits import complete_box
+from ..axes.limits import complete_box, cuts
 from ..axes.panel import Entry
 from ..canvas import style
 from ..canvas.sheet import POINT, unbroken_runs
@@ -60,6 +60,11 @@ def drawn(
     box.points(saddles, "white", _SADDLE + 1.2)
     box.points(saddles, style.VERMILION, _SADDLE)
     return box.figure, [name for name, *_ in entries]
+
+
+def hidden(scene: dict[str, Any], _: Any, manifolds: xr.Dataset, __: Any) -> Iterator[str]:
+    """Say which axes cut the energy surface."""
+    return cuts(scene, "points of the branches", manifolds)
 
 
 def _branches(

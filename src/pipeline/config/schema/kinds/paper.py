@@ -1,6 +1,5 @@
 """Kinds of picture of the paper: Figures 2 to 8."""
 
-import math
 from collections.abc import Iterator
 from typing import Literal
 
@@ -14,7 +13,6 @@ from ..scene import (
     OfPeriodicOrbit,
     OfRecords,
     OnSurface,
-    beyond,
 )
 
 
@@ -29,8 +27,7 @@ class Motion(OfPeriodicOrbit):
     """a periodic motion in time"""
 
     stages = ("motion",)
-    axes_depend_on = ("period", "type")
-    along = {"t": "duration"}
+    axes_depend_on = ("period", "type", "duration")
     headline = "orbit"
 
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
@@ -77,21 +74,12 @@ class Closeup(OfManifolds):
         if self.point > last:
             yield ("point",), self.point, f"a whole number from 0 to period - 1 = {last}"
 
-    def hidden(self) -> Iterator[str]:
-        """Yield a line for each side of the window that is longer than its axis."""
-        k, g = self.ball.k, self.ball.g
-        radius = math.sqrt((2 * self.energy + g * g / k) / k)
-        for name, axis in self.given_axes().items():
-            (low, high), (left, right) = getattr(self.window, name), axis.limits
-            if radius * (high - low) > 1.001 * (right - left):  # limits are rounded
-                yield f"window.{name} {[low, high]} is wider than {beyond(name, axis.limits)}"
-
 
 class Exponents(OfRecords):
     """Lyapunov exponents against the number of impacts"""
 
     stages = ("lyapunov",)
-    along = {"impact": "impacts"}
+    axes_depend_on = ("impacts",)
     headline = "largest exponent"
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
