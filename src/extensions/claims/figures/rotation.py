@@ -6,7 +6,7 @@ import xarray as xr
 from extensions.claims.analyses.rotation import island, plateaus
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.figures.axes.limits import around, inside, linear, ticks
-from pseudorigid.figures.axes.panel import Axis, Entry, Panel, corner, key, letters, upright, vacant
+from pseudorigid.figures.axes.panel import Axis, Entry, Panel, corner, key, letters, vacant
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
@@ -54,7 +54,7 @@ def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.
     up = around(np.hstack([regular_turns, fixed, detail[1]]), 0.1, 5, "Rotation number")
     panel = Panel(sheet, frames[0], across, up)
     middle = 0.5 * (place[0] + place[-1])
-    upright([panel], middle, color=style.BACKDROP, lw=0.7)
+    panel.line([middle] * 2, up.limits, color=style.BACKDROP, lw=0.7, zorder=0.8)
     panel.note(middle, up.limits[1], "(c)", (3, -5), va="top")
     panel.dots(*detail, style.BLUE, size=1.6)
     shown = ~good & inside((across.limits, up.limits), (start, turns))
