@@ -2,6 +2,7 @@
 
 from itertools import combinations
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.transforms import Bbox
 
@@ -14,6 +15,14 @@ def frames_of(figure):
     lines = [line for line in figure.artists if len(line.get_xdata()) == 5]
     lines = [line for line in lines if line.get_color() == style.FRAME and line.get_zorder() == 3]
     return [Bbox(line.get_xydata()[[0, 2]] * figure.dpi) for line in lines]
+
+
+def pixels_in_frames(figure, color):
+    """Return how many pixels of a colour #rrggbb each panel of a figure has, in or on its frame."""
+    image, high = pixels(figure).astype(int), int(figure.bbox.height)
+    near = np.abs(image - [*bytes.fromhex(color[1:])]).max(axis=2) < 3
+    boxes = [(int(value) for value in frame.padded(10).extents) for frame in frames_of(figure)]
+    return [int(near[high - y1 : high - y0, x0:x1].sum()) for x0, y0, x1, y1 in boxes]
 
 
 def assert_text_is_whole_and_apart(figure, margin=4, slack=0):

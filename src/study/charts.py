@@ -45,6 +45,7 @@ _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which 
 _MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _MOST_FLAT_SHARE = 0.02  # share below which a panel has room for the key
+_NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[str, str, str]  # of a key: text, colour and mark
@@ -82,6 +83,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
 
     Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
     the right roots, if at most one root in a hundred is wrong. Below is the share of wrong roots.
+    Marks that others would hide are larger.
     """
     which, cost = ("uniform", "grazing").index(scene["states"]), scene["cost"]
     data, families = data.isel(set=which), list(dict.fromkeys(data["family"].values))
@@ -96,16 +98,21 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     letters(sheet, upper.frame, lower.frame)
     if (wrong <= _MAX_WRONG_SHARE).any():
         corner(sheet, upper.frame, "hollow: worst right root")
-    for family, (_, color, marker) in zip(families, entries, strict=True):
-        part = data.isel(method=data["family"].values == family)
-        x, wrong, median, worst = (part[n].values for n in (cost, "wrong", "median", "worst"))
-        reliable = wrong <= _MAX_WRONG_SHARE
-        upper.line(x, median, color=color, lw=0.9)
-        upper.line(x[reliable], worst[reliable], color=color, lw=0.5, ls="--")
-        upper.dots(x[reliable], worst[reliable], color, hollow=True, marker=marker)
-        upper.dots(x, median, color, marker=marker)
-        lower.line(x, wrong, color=color, lw=0.9)
-        lower.dots(x, wrong, color, marker=marker)
+    x, wrong, median, worst = (data[n].values for n in (cost, "wrong", "median", "worst"))
+    worst = np.where(wrong <= _MAX_WRONG_SHARE, worst, np.nan)
+    of = np.array([families.index(family) for family in data["family"].values])
+    marks = (upper, worst, True), (upper, median, False), (lower, wrong, False)
+    of = np.array([families.index(family) for family in data["family"].values])
+    sizes = [_sizes(panel, of, x, y) for panel, y, _ in marks]
+    for i, (_, color, marker) in enumerate(entries):
+        own, good = of == i, (of == i) & np.isfinite(worst)
+        upper.line(x[own], median[own], color=color, lw=0.9)
+        upper.line(x[good], worst[good], color=color, lw=0.5, ls="--")
+        lower.line(x[own], wrong[own], color=color, lw=0.9)
+        for (panel, y, hollow), size in zip(marks, sizes, strict=True):
+            for points in np.unique(size[own]):
+                at = own & (size == points) & np.isfinite(y)
+                panel.dots(x[at], y[at], color, points, hollow=hollow, marker=marker)
     method_key(sheet, entries, top - 965)
     return sheet.figure
 
@@ -115,7 +122,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
     A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
-    in which no method fails, if there is one.
+    in which no method fails, if there is one. Methods whose marks coincide take turns in front.
     """
     methods = _entries(data["name"].values, data["family"].values)
     flat = [
@@ -141,9 +148,13 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
                 middle = left - gap / 2, high - 360 - 16 * POINT
                 sheet.text(*middle, name, ha="center", va="top", size=8.0)
             title(sheet, frames[-1], text if side else f"Share failing, {text}", size=8.0)
-            for (_, color, marker), share in zip(methods, data[variable].values, strict=True):
-                panel.line(x, share[side], color=color, lw=0.9)
-                panel.dots(x, share[side], color, size=2.6, marker=marker)
+            shares = data[variable].values[:, side]
+            for (_, color, _), share in zip(methods, shares, strict=True):
+                panel.line(x, share, color=color, lw=0.9)
+            for column, at in enumerate(x):  # methods that coincide take turns in front
+                for i in np.roll(np.arange(len(methods)), column).tolist():
+                    _, color, marker = methods[i]
+                    panel.dots(at, shares[i, column], color, size=2.6, marker=marker)
             if (variable, side) in flat:
                 method_key(sheet, methods, high - 30, columns=1, left=left + 30)
     letters(sheet, *frames)
@@ -240,6 +251,16 @@ def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
     lines = math.ceil(len(entries) / _KEY_COLUMNS)
     high = 75 * math.ceil((least + lines * _KEY_LINE) / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
+
+
+def _sizes(panel: Panel, family: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return sizes of marks, larger ones in a family if later ones hide each of its marks."""
+    places = np.stack(panel.place(x, y), axis=1)
+    near = np.abs(places[:, None] - places).max(axis=2) < _NEAR
+    later = near & (family > family[:, None])
+    over = np.array([len(set(family[row])) for row in later])
+    hidden = [over[(family == each) & np.isfinite(y)].all() for each in family]
+    return np.where(hidden, 3.2 + _RIM * over, 3.2)
 
 
 def _error_axis(low: int, high: int, name: str) -> AxisWithZero:

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 import xarray as xr
 from keys import texts
-from legible import assert_text_is_whole_and_apart
+from legible import assert_text_is_whole_and_apart, pixels_in_frames
 
 from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
+# families of different colours; black is that of letters, too
+DISTINCT = [*{c: name for name, (c, _) in study.STYLES.items() if c != "#000000"}.values()]
 
 
 def scene(states, cost):
@@ -118,3 +120,32 @@ def test_the_key_covers_no_text_in_a_panel_without_failures_or_below_all(least):
     some[:, 1] = 0.0
     figure = study.edges({}, failing(shares, some))
     assert_text_is_whole_and_apart(figure, slack=4)  # letters stand close to labels
+
+
+@pytest.mark.parametrize("count", [2, 3, 6])
+@pytest.mark.parametrize("points", [1, 3])
+def test_methods_with_equal_numbers_are_all_seen_in_each_panel(count, points):
+    families = DISTINCT[:count]
+    cost = np.repeat(10.0 ** np.arange(1, 1 + points)[:, None], 2, axis=1)
+    equal = {"median": 1e-10, "worst": 1e-6, "wrong": 0.0}
+    table = {n: (("method", "set"), np.full((count * points, 2), v)) for n, v in equal.items()}
+    names = np.repeat(np.array(families, dtype=object), points)
+    table |= {"evaluations": (("method", "set"), np.tile(cost, (count, 1)))}
+    table |= {name: ("method", names) for name in ("name", "family")}
+    figure = study.work(scene(1, "evaluations"), xr.Dataset(table))
+    for family in families:
+        assert min(pixels_in_frames(figure, study.STYLES[family][0])) > 20
+
+
+@pytest.mark.parametrize("count", [2, 5, 8])
+def test_methods_that_fail_alike_take_turns_in_front(count):
+    families = DISTINCT[:count]
+    shares = np.full((count, 2, 13), 0.4)
+    names = {n: ("method", np.array(families, dtype=object)) for n in ("name", "family")}
+    of = {"distance": ("distance", np.arange(13)), "depth": ("depth", 2 + np.arange(13))}
+    of |= {
+        v: (("method", "side", d), shares) for v, d in (("near", "distance"), ("touch", "depth"))
+    }
+    figure = study.edges({}, xr.Dataset(names | of))
+    for family in families:
+        assert min(pixels_in_frames(figure, study.STYLES[family][0])) > 20

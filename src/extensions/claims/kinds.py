@@ -130,8 +130,9 @@ class Jumps(OfChaoticOrbits):
     energies: Energies
     """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
     sides: int = whole(4, 100_000, 4)
-    """Number of straight sides of which each curve is drawn. Its length is measured with this
-    number, half of it and a quarter of it, which gives the error of the length."""
+    """Number of straight sides of which each curve is drawn, without those that a jump of the map
+    breaks. Its length is measured with this number, half of it and a quarter of it, which gives the
+    error of the length."""
 
 
 class Flux(OfSea):

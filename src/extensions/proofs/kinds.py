@@ -46,7 +46,8 @@ class Horseshoe(OfBranches):
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
     """Side of the branches along which the orbit is connected with itself, and along which the sets
-    of the horseshoe lie. The branches of this side should be among `branches`. A run says if no
+    of the horseshoe lie. It is the side at the orbit's first point. The map carries that branch to
+    the other points, where it may be the other side, so give `branches` both. A run says if no
     horseshoe is found or proved along it."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
     """Stability of the periodic orbit. Horseshoes are proved on hyperbolic orbits only."""

@@ -62,7 +62,7 @@ def test_cells_have_the_colours_of_their_values_and_a_resonance_its_curve():
         assert commonest(row, column, UPPER) == wanted
     assert commonest(2, 3, LOWER) == style.GRID  # no sea
     across = atlas.LEFT + (np.log10(fixed_point.resonance(0.2, 1, 6)) + 1.5) / 4 * atlas.WIDE
-    up = UPPER + (0.2 - 0.05) / 0.3 * 3 * HEIGHT
+    up = UPPER + (0.2 - 0.05) / (1 / 3 - 0.05) * 3 * HEIGHT  # from a cell's edge to a shell
     for shift, drawn in ((0, True), (-37, False)):
         assert (around(image, across + shift, up, 3).sum(axis=1).max() > 700) == drawn
 
@@ -143,3 +143,36 @@ def test_minor_ticks_and_edges_lie_between():
     assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
     assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
     assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]
+
+
+@pytest.mark.parametrize(
+    ("sweep", "k", "energy"),
+    [
+        ({"k": [0.03, 0.2, 0.3], "energy": [0.2, 1.0, 2.0]}, (0, 1 / 3), (-0.2, 2.5)),
+        ({"k": [0.02, 0.3], "energy": [-1.5, 4.0]}, (0, 1 / 3), (-0.5 / 0.3, 6.75)),
+        ({"k": [0.1, 0.11], "g": 0.01, "energy": [1.0, 395.0]}, (0.095, 0.115), (None, 400)),
+        ({"k": [0.2, 0.9], "energy": [1.0, 2.0]}, (0, 1), (0.5, 2.5)),
+    ],
+)
+def test_cells_end_halfway_between_values_and_where_no_ball_is(sweep, k, energy):
+    figure = atlas.sheet_above(LOWER, sweep)
+    values = np.full((len(sweep["k"]), len(sweep["energy"])), 0.5)
+    panel = atlas.cells(figure, LOWER, sweep, values, 1.0, "viridis", "")
+    assert panel.up.limits == pytest.approx(k)
+    ends = np.array(panel.across.limits)
+    ends = 10.0**ends if panel.across.decades else ends
+    assert ends[1] == pytest.approx(energy[1])
+    assert energy[0] is None or ends[0] == pytest.approx(energy[0])
+    image, _ = figure.figure.images  # and the colour scale
+    left, bottom, right, top = panel.frame
+    assert image.get_array().shape[:2] == (top - bottom, right - left)
+
+
+def test_the_key_of_a_plane_has_what_is_drawn():
+    high = {"k": [0.1, 0.2, 0.3], "energy": [4.0, 5.0]}
+    words = [text.get_text() for text in atlas.plane(high, dataset(high)).texts]
+    assert not any("no chaotic" in text or "Figure" in text or "jumps" in text for text in words)
+    low = {"k": [0.15, 0.25], "energy": [0.5, 0.8]}
+    data = dataset(low, exponent=np.nan)
+    words = [text.get_text() for text in atlas.plane(low, data).texts]
+    assert any("no chaotic" in text for text in words) and "the paper's Figure 8" in words

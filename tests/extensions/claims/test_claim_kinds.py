@@ -30,7 +30,7 @@ AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
 SCENES = {
     "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
-    "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4]},
+    "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
 }  # fmt: skip
 # A kind, the number of one of its datasets, a variable, and a change of it that must show.
 CHANGES = [
@@ -161,3 +161,38 @@ def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
     low, high = FAMILIES["span"]
     leaves = np.interp(1.6, residue[span], energy[span])
     assert x == pytest.approx(125 + 875 * (leaves - low) / (high - low), abs=0.1)
+
+
+def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
+    held, regular = data("families")
+    near = held["event_energy"].where(held["event_family"] > 0, 0.01 + 1e-6 * held["event_order"])
+    held = held.assign(event_x=held["event_x"] + 0.1, event_energy=near)
+    falling = ("value", np.geomspace(1.0, 0.02, regular.sizes["value"]))
+    shares = regular.assign({f"regular{end}": falling for end in ("", "_low", "_high")})
+    figure = draw("families", [held, shares])
+    _, middle, _ = frames_of(figure)
+    marks = [a.get_xydata() * style.DPI for a in figure.artists if a.get_color() == style.BLACK]
+    marks = np.concatenate([m for m in marks if len(m) and middle.contains(*m[0])])
+    labels = [(*text.get_position(), text.get_text().replace("−", "-")) for text in figure.texts]
+    labels = [(y * style.DPI, label) for x, y, label in labels if x * style.DPI < middle.x0]
+    inside = [(y, label) for y, label in labels if middle.y0 <= y <= middle.y1 and "(" not in label]
+    (y0, first), *_, (y1, last) = inside
+    slope = (y1 - y0) / (float(last) - float(first))
+    low, high = FAMILIES["span"]
+    marked = 0
+    for index, span in enumerate(rows(held)):
+        for side, end in ((0, span.start), (1, span.stop - 1)):
+            if held["end_kind"].values[index, side] not in ("range", "closed", "unresolved"):
+                energy, x = (float(held[name].values[end]) for name in ("energy", "x"))
+                across = middle.x0 + (energy - low) / (high - low) * middle.width
+                place = across, y0 + slope * (x - float(first))
+                assert np.abs(marks - place).max(axis=1).min() < 1.5
+                marked += 1
+    assert marked > 3
+    order = held["event_order"].values[held["event_family"].values == 0]
+    names = [text for text in figure.texts if len(text.get_text()) == 3 and "/" in text.get_text()]
+    assert len(names) == np.sum((order > 2) & (order <= 8)) > 1
+    assert_text_is_whole_and_apart(figure, margin=1, slack=5)
+    dots = [a for a in figure.artists if a.get_color() == style.BLUE and a.get_marker() == "o"]
+    (dots,) = (a for a in dots if len(a.get_xdata()) == regular.sizes["value"])
+    assert np.unique(dots.get_ydata()).size == regular.sizes["value"]

@@ -9,7 +9,10 @@ from mpmath import mp, mpf
 from sections import BALL
 
 from extensions.claims.analyses.jumps import jumps
+from extensions.claims.figures.jumps import draw
 from pseudorigid import Ball
+from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.figures.canvas import style
 
 ENERGY = 0.01
 
@@ -89,3 +92,30 @@ def test_symmetric_flights_are_symmetric():
     back = BALL.reflect(*BALL.impact(*BALL.state_xy(x, y, ENERGY))[:3])
     np.testing.assert_allclose(back[0], x, atol=1e-9)
     np.testing.assert_allclose(back[1] - 0.2 * back[2], y, atol=1e-9)
+
+
+@pytest.mark.parametrize(("k", "g", "energy"), [(1 / 3, 0.02, 0.132), (0.1, 0.01, 0.036)])
+@pytest.mark.parametrize("sides", [4, 16])
+def test_a_side_across_a_jump_is_no_part_of_a_curve_whatever_the_number_of_sides(
+    k, g, energy, sides
+):
+    few, many = (jumps(Ball(k, g), energy, [], n) for n in (sides, 200 * sides))
+    broken = np.isnan(many["x"].values[0, 1:]).reshape(sides, -1).any(axis=1)
+    x = few["x"].values[0]
+    drawn = np.isfinite(x[1:]) & np.isfinite(x[:-1])
+    assert broken.any() and not (broken & drawn).any()
+
+
+@pytest.mark.parametrize("sides", [4, 4000])
+def test_the_symmetry_line_is_whole(sides):
+    """Its two branches meet, and both ends of it are those of the whole line."""
+    orbits = scene_orbits(BALL, ENERGY, [0.1], 50)
+    scene = {"ball": {"k": 0.2, "g": 0.04}, "energy": ENERGY}
+    data = jumps(BALL, ENERGY, [], sides).assign_attrs(k=0.2, g=0.04)
+    lines = [a for a in draw(scene, data, orbits).artists if a.get_color() == style.PURPLE]
+    lines = [a.get_xydata() * style.DPI for a in lines if np.ptp(a.get_ydata()) > 0.0]
+    assert sum(map(len, lines)) > 30
+    ends = np.concatenate([line[[0, -1]] for line in lines])
+    apart = np.abs(ends[:, None] - ends).max(axis=2)
+    free = ends[np.sum(apart < 1.0, axis=1) == 1]
+    assert len(free) == 2

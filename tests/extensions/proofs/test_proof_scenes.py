@@ -13,9 +13,19 @@ from examples import (
     no_clipping,
 )
 from keys import SCENE, texts
+from legible import assert_text_is_whole_and_apart, frames_of, pixels_in_frames
+from project import shipped
+from sections import BALL
 
+from extensions.proofs.figures.escape import draw as draw_escape
 from extensions.proofs.figures.twist import draw
+from extensions.proofs.theorems.scenes import scene_horseshoe
 from pipeline.checks.quantities import hidden
+from pipeline.config.schema.kinds import KINDS
+from pseudorigid import symmetric_orbits
+from pseudorigid.dynamics.manifolds import scene_manifolds
+from pseudorigid.dynamics.variables import chart, states_of
+from pseudorigid.figures.canvas import style
 
 MARKS = {"marks": []}
 
@@ -87,3 +97,34 @@ def test_no_mark_of_a_twist_lies_outside_its_frame():
     axes = {"energy": {"limits": [0.003, 0.006], "ticks": [0.004]}}
     figure = picture(energies, 1e3 * energies, marks=[0.001, 0.004], axes=axes)
     assert [text for text in texts(figure) if "$E$ =" in text] == ["$E$ = 0.004"]
+
+
+# ---- the pictures of escapes and of a horseshoe
+
+
+@pytest.mark.parametrize("count", [1, 4, 6])
+def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
+    impact, distance = np.array([1, 10, 100, 1000]), np.full((count, 4), 0.05)
+    data = xr.Dataset({"impact": ("i", impact), "distance": (("e", "i"), distance)})
+    scene = {"beside": [1e-4 * i for i in range(count)], "distance": 0.02}
+    figure = draw_escape(SCENE | scene, data)
+    for hue in style.HUES[:count]:
+        assert pixels_in_frames(figure, hue)[0] > 100
+    assert "at the start" in texts(figure)
+    lines = (a for a in figure.artists if a.get_color() == style.FRAME and a.get_ls() == "--")
+    (start,) = (a for a in lines if np.ptp(a.get_xdata()) > 2)
+    low = frames_of(figure)[0].y0
+    assert low + 5 < start.get_ydata()[0] * style.DPI < low + 300
+    assert_text_is_whole_and_apart(figure)
+
+
+def test_the_sets_of_the_committed_horseshoe_lie_on_branches_that_are_drawn():
+    block = shipped()["proofs"]["horseshoe"]
+    orbit = symmetric_orbits(BALL, 0.01, 6), 6, "hyperbolic"
+    resolution = {"distance": 0.02, "bend": 20}
+    manifolds = scene_manifolds(BALL, 0.01, *orbit, resolution, block["branches"])
+    sets = scene_horseshoe(BALL, 0.01, *orbit, block["connection"])
+    lines = np.stack(chart(0.2, *states_of(manifolds)))
+    for x, y in zip(sets["x"].values, sets["y"].values, strict=True):
+        off = np.abs(lines - np.array([[x], [y]])).max(axis=0)
+        assert np.nanmin(off) < 0.004

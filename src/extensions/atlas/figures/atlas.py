@@ -64,12 +64,13 @@ def plane(sweep: Sweep, data: xr.Dataset) -> Figure:
     for bottom, text, values, most, table in panels:
         panel = cells(sheet, bottom, sweep, values, most, table, text)
         frames.append(panel.frame)
-        _curves(panel, named=bottom == upper)
+        names, jumps = _curves(panel, named=bottom == upper)
         for energy in PAPER_ENERGIES.values():
             panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
             panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
     letters(sheet, *frames)
-    _plane_key(sheet, 170)
+    circles = [name for name, at in PAPER_ENERGIES.items() if panel.within(at, PAPER_K).all()]
+    _plane_key(sheet, 170, names, jumps, circles, bool(np.isnan(exponent).any()))
     return sheet.figure
 
 
@@ -91,8 +92,9 @@ def cells(
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
     first, *_, last = raster.edges(sweep["k"])
-    up = linear(first, last, 7, "$k$")
-    panel = Window(sheet, frame, _energy_axis(sweep["energy"]), up, grid=False)
+    largest = 1.0 / 3.0 if sweep["k"][-1] <= 1.0 / 3.0 else 1.0  # a shell's, or what is allowed
+    up = linear(max(first, 0.0), min(last, largest), 7, "$k$")
+    panel = Window(sheet, frame, _energy_axis(sweep), up, grid=False)
     panel.minor()
     raster.cells(panel, sweep, values / most, table)
     raster.scale(sheet, frame, most, table)
@@ -100,23 +102,31 @@ def cells(
     return panel
 
 
-def _plane_key(sheet: Sheet, top: int) -> None:
-    """Explain curves, circles and grey in rows from the height `top` down."""
-    across, rows = [LEFT, LEFT + 50], [top - 40 * i for i in range(4)]
-    texts = (
-        "rotation number of the fixed point, 1/2 to 1/10",
-        "$E/g^2 = 1 + k/2$: above it the map jumps",
-        "the paper's Figure 8 (left) and Figure 2 (right)",
-        "no chaotic orbit among those of the cell",
-    )
-    for y, text in zip(rows, texts, strict=True):
-        sheet.text(LEFT + 70, y, text, size=_SIZE)
-    _stroke(sheet, (across, [rows[0]] * 2))
-    _stroke(sheet, (across, [rows[1]] * 2), dashed=True)
+def _plane_key(
+    sheet: Sheet, top: int, names: list[str], jumps: bool, circles: list[str], grey: bool
+) -> None:
+    """Explain the curves, circles and grey cells that are drawn, in rows from `top` down."""
+    across, ends = [LEFT, LEFT + 50], " to ".join(dict.fromkeys([*names[:1], *names[-1:]]))
+    sides = (" (left)", " (right)") if len(circles) > 1 else ("", "")
+    paper = " and ".join(map("".join, zip(circles, sides, strict=False)))
     dot = {"ls": "none", "marker": "o"}
-    sheet.draw([LEFT + 25], [rows[2]], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
-    sheet.draw([LEFT + 25], [rows[2]], ms=2.5, color=style.BLACK, mew=0, **dot)
-    sheet.draw(across, [rows[3]] * 2, lw=6.0, color=style.GRID)
+    y = top
+    if names:
+        sheet.text(LEFT + 70, y, f"rotation number of the fixed point, {ends}", size=_SIZE)
+        _stroke(sheet, (across, [y] * 2))
+        y -= 40
+    if jumps:
+        sheet.text(LEFT + 70, y, "$E/g^2 = 1 + k/2$: above it the map jumps", size=_SIZE)
+        _stroke(sheet, (across, [y] * 2), dashed=True)
+        y -= 40
+    if circles:
+        sheet.text(LEFT + 70, y, f"the paper's {paper}", size=_SIZE)
+        sheet.draw([LEFT + 25], [y], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
+        sheet.draw([LEFT + 25], [y], ms=2.5, color=style.BLACK, mew=0, **dot)
+        y -= 40
+    if grey:
+        sheet.text(LEFT + 70, y, "no chaotic orbit among those of the cell", size=_SIZE)
+        sheet.draw(across, [y] * 2, lw=6.0, color=style.GRID)
 
 
 @style.pinned()
@@ -167,7 +177,7 @@ def _upright_lines(panels: Sequence[Panel], k: float, first: float, unit: float)
     energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
     energies = [(name, energy) for name, energy in energies if first < energy < last]
     lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
-    for (name, _), x in zip(energies, _apart(lines), strict=True):
+    for (name, _), x in zip(energies, apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
     onset = (1.0 + 0.5 * k) * unit
@@ -177,18 +187,22 @@ def _upright_lines(panels: Sequence[Panel], k: float, first: float, unit: float)
         sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
 
 
-def _apart(centres: list[float]) -> list[float]:
+def apart(centres: list[float]) -> list[float]:
     """Return the centres of names, moved apart where neighbours would touch."""
     order = sorted(range(len(centres)), key=lambda i: centres[i])
     moved = list(centres)
-    for left, right in pairwise(order):
+    for left, right in [*pairwise(order)] * len(order):
         push = 0.5 * max(0.0, _NAME_WIDTH - (moved[right] - moved[left]))
         moved[left], moved[right] = moved[left] - push, moved[right] + push
     return moved
 
 
-def _curves(panel: Panel, named: bool) -> None:
-    """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps."""
+def _curves(panel: Panel, named: bool) -> tuple[list[str], bool]:
+    """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps.
+
+    Return the rotation numbers of the curves that are seen, and whether the onset is.
+    """
+    seen = []
     bottom, top = panel.up.limits
     k = bottom + (top - bottom) * np.arange(1001) / 1000
     k = k[k > 0.0]
@@ -197,11 +211,14 @@ def _curves(panel: Panel, named: bool) -> None:
         visible = _is_between(panel.across, energy)
         for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
             _stroke(panel.sheet, piece)
+        seen += [f"{turns}/{impacts}"] if visible.any() else []
         if named:
             name_curve(panel, visible, energy, k, f"{turns}/{impacts}")
     ends = k[[0, -1]]
-    if _is_between(panel.across, 1.0 + 0.5 * ends).all():
+    jumps = bool(_is_between(panel.across, 1.0 + 0.5 * ends).all())
+    if jumps:
         _stroke(panel.sheet, panel.place(1.0 + 0.5 * ends, ends), dashed=True)
+    return seen, jumps
 
 
 def name_curve(
@@ -222,14 +239,18 @@ def _stroke(sheet: Sheet, points: Sequence[Any], dashed: bool = False) -> None:
     sheet.draw(*points, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
-def _energy_axis(values: Sequence[float]) -> Axis:
-    """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20."""
-    name = r"$E/g^2$"
+def _energy_axis(sweep: Sweep) -> Axis:
+    """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20.
+
+    It ends where a ball could flatten, eq. (31), if g is known, and where one would be at rest.
+    """
+    name, values, k = r"$E/g^2$", sweep["energy"], sweep["k"]
+    highest = (0.5 * k[0] / sweep["g"] - 1.0) / sweep["g"] if "g" in sweep else np.inf
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
         first, *_, last = raster.edges(values)
-        return linear(first, last, 5, name)
+        return linear(max(first, -0.5 / k[-1]), min(last, highest), 5, name)
     first, *_, last = raster.edges(log10(values)).tolist()
-    axis = decades((first, last), name)
+    axis = decades((first, min(last, float(log10(highest)[0]))), name)
     return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
 
 

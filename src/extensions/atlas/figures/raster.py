@@ -66,9 +66,9 @@ def _paste(sheet: Sheet, left: int, bottom: int, image: np.ndarray) -> None:
 
 
 def _pixels(values: np.ndarray, limits: Sequence[float], size: int) -> list[int]:
-    """Return whole pixels of values, 0 at the lower limit and `size` at the upper one."""
+    """Return whole pixels of values, 0 up to the lower limit and `size` from the upper one on."""
     low, high = limits
-    return [int((value - low) / (high - low) * size + 0.5) for value in values]
+    return [int((value - low) / (high - low) * size + 0.5) for value in np.clip(values, low, high)]
 
 
 def edges(values: Sequence[float] | np.ndarray) -> np.ndarray:

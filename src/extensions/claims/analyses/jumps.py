@@ -19,6 +19,7 @@ from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, chart, describ
 
 # Share of the arc left out at its ends: at x = -g rounding decides whether the ball leaves.
 _MARGIN = 2.0**-46
+_FINE = 4000  # the least sides of the symmetry line, and among which jumps are looked for
 _HALVINGS = 40  # of a side, after which a continuous image is as good as one point
 # The map jumps across a side if, after these halvings, the image is still longer than the first
 # share of the whole side's image, and longer than the second share, rounding, of the curve's.
@@ -54,7 +55,8 @@ def jumps(ball: Ball, energy: float, energies: Sequence[float], sides: int) -> x
     length = fine + (fine - middle) / 3.0
     error = np.abs(length - (middle + (middle - coarse) / 3.0)) + _MARGIN * length
     radii = [ball.section(level)[1] for level in levels]
-    theta = radii[0] * math.sqrt(ball.k) / ball.g * (np.arange(sides) + 0.5) / sides
+    points = max(sides, _FINE)
+    theta = radii[0] * math.sqrt(ball.k) / ball.g * (np.arange(points) + 0.5) / points
     lines = [chart(ball.k, *symmetric_flights(ball, energy, sign, theta)) for sign in (1.0, -1.0)]
     flight_x, flight_y = np.transpose(lines, (1, 2, 0))
     touched, missed = _derivatives(ball, energy, curves[2:, 0])
@@ -96,7 +98,10 @@ def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray
     high = math.sqrt(k * (1.0 + k)) * radius
     depth = (centre + g) / radius
     end = math.sqrt((1.0 - depth) / (1.0 + depth))
-    t = end * (1.0 - _MARGIN) * (1.0 - 2.0 * np.arange(points) / (points - 1.0))
+    each = -(-_FINE // (points - 1))  # parts of a side, of which one may jump while others are long
+    last = each * (points - 1.0)
+    parts = end * (1.0 - _MARGIN) * (1.0 - 2.0 * np.arange(last + 1.0) / last)
+    t = parts[::each]
 
     def rim(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         x = centre - radius * ((1.0 - t) * (1.0 + t) / (1.0 + t * t))
@@ -106,7 +111,7 @@ def _arc(ball: Ball, energy: float, points: int) -> tuple[np.ndarray, np.ndarray
         x, y = rim(t)
         return chart(k, *ball.after((x, y / (1.0 + k), -y / (1.0 + k)))[:3])
 
-    return np.stack([*rim(t), *image(t)]), _gaps(image, t)
+    return np.stack([*rim(t), *image(t)]), _gaps(image, parts).reshape(-1, each).max(axis=1)
 
 
 def _gaps(image: Callable[[np.ndarray], np.ndarray], parameters: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ docs/method.md defines the three forms of change (twist, stir and shift) and the
 import numpy as np
 import xarray as xr
 
-from pseudorigid.figures.axes.limits import decades, linear
+from pseudorigid.figures.axes.limits import linear
 from pseudorigid.figures.axes.panel import Axis, Window, key, letters, log10, title
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
@@ -25,7 +25,7 @@ _KEPT = {
     "neither": ("neither", style.ORANGE, True),
 }
 _FORMS = {"twist": "o", "stir": "s", "shift": "^"}  # in the order of the portraits' rows
-_ROWS = 690, 290  # pixels: the bottoms of the charts' rows
+_ROWS = 750, 350  # pixels: the bottoms of the charts' rows
 _HIGH = 240  # pixels: the height of a chart
 _LONG = 5  # digits of numbers of impacts that fit beside one another
 _SIDE, _APART = 282, 346  # pixels: the side of a portrait, and from one to the next below
@@ -34,20 +34,22 @@ _SIDE, _APART = 282, 346  # pixels: the side of a portrait, and from one to the 
 @style.pinned()
 def draw(scene: Scene, control: xr.Dataset) -> Figure:
     """Draw portraits of maps, and shares and rates of all maps against the strength."""
-    sheet = Sheet(style.COLUMN, 2175)
+    sheet = Sheet(style.COLUMN, 2325)
     drawn = set(control["kind"].values.ravel().tolist())
     entries = [(*_CLASSES[kind], "o", False, 3.0) for kind in range(3) if kind in drawn]
     key(sheet, entries, sheet.high - 32, 3, _LEFT, 450, 7.0)
     sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
-    text = rf"the changed maps at strength $\epsilon$ = {style.number(control.attrs['shown'])}"
-    sheet.text(_RIGHT, _ROWS[0] + _HIGH + 80, text, ha="right", va="center", size=7.0)
+    text = "$a$, $b$: $x$ and $y$ from the centre of the section, over its half axes\n"
+    text += rf"changed maps: strength $\epsilon$ = {style.number(control.attrs['shown'])}"
+    sheet.text(_LEFT, _ROWS[0] + _HIGH + 110, text, size=7.0)
     letters(sheet, _portraits(sheet, control), *_charts(sheet, control))
     entries = [(text, hue, "o", hollow, 3.4) for text, hue, hollow in _KEPT.values()]
     entries += [(form, style.SEA, mark, False, 3.4) for form, mark in _FORMS.items()]
     entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
-    key(sheet, entries, 125, 4, _LEFT - 90, 990, 7.0)
-    text = "colour and filling: what is kept; shape: form of the change; bars: 95 %"
-    sheet.text(_LEFT - 90, 30, text, size=7.0)
+    key(sheet, entries, 185, 4, _LEFT - 90, 990, 7.0)
+    text = "colour and filling: what is kept; shape: form of the change; bars: 95 %\n"
+    text += "marks side by side: one strength (b, c, d) or one number of impacts (e)"
+    sheet.text(_LEFT - 90, 70, text, size=7.0)
     return sheet.figure
 
 
@@ -66,12 +68,11 @@ def _portraits(sheet: Sheet, control: xr.Dataset) -> Frame:
         column = 0 if name == "none" else columns.index(kept)
         left, bottom = _LEFT + column * (_SIDE + 22), first[1] - row * _APART
         frame = left, bottom, left + _SIDE, bottom + _SIDE
-        across, up = (
-            Axis((-1.04, 1.04), (-0.5, 0, 0.5), labels=[style.number(-0.5), name, "0.5"])
-            for name in ("$a$", "$b$")
-        )
-        across = across if row == last else across.blank()
-        up = up if column == 0 else up.blank()
+        axis = Axis((-1.04, 1.04), (-0.5, 0, 0.5), "$a$")
+        across = axis if row == last else axis.blank()
+        up = axis.blank()
+        if column == 0:
+            up = Axis((-1.04, 1.04), (-0.5, 0, 0.5), labels=[style.number(-0.5), "$b$", "0.5"])
         panel = Window(sheet, frame, across, up, grid=False)
         sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
         panel.line(cosine, sine, color=style.BLACK, lw=0.5)
@@ -105,13 +106,12 @@ def _charts(sheet: Sheet, control: xr.Dataset) -> list[Frame]:
 
 
 def _strength_axis(strength: np.ndarray) -> Axis:
-    """Return a logarithmic axis with two ticks or more."""
+    """Return a logarithmic axis with a tick at each strength."""
     logs = log10(strength)
-    low, high = float(logs.min()), float(logs.max())
-    room = max(0.08 * (high - low), 0.15)
-    if np.ceil(low - 1e-9) + 1 > np.floor(high + 1e-9):  # there would be fewer than two ticks
-        low, high = float(np.floor(low)), float(np.ceil(high + 1e-9))
-    return decades((low - room, high + room), r"Strength $\epsilon$")
+    room = max(0.08 * float(logs[-1] - logs[0]), 0.15)
+    limits = float(logs[0]) - room, float(logs[-1]) + room
+    labels = [style.number(value) for value in strength]
+    return Axis(limits, logs.tolist(), r"Strength $\epsilon$", True, labels)
 
 
 def _class_shares(control: xr.Dataset, kind: str) -> np.ndarray:
@@ -170,8 +170,10 @@ def _maps(
 ) -> None:  # fmt: skip
     """Draw values with intervals, (3, map, abscissa), of the changed maps side by side.
 
-    Marks of neighbouring maps are apart by a factor, and joined by lines from abscissa to abscissa.
+    Marks of neighbouring maps are apart by a factor, less if abscissae are near one another, and
+    joined by lines from abscissa to abscissa.
     """
+    apart = min(apart, 1.0 + 0.08 * float((at[1:] / at[:-1] - 1.0).min(initial=1.0)))
     for i, name in enumerate(control["map"].values.tolist()):
         form, _, kept = name.partition(" ")
         _, hue, hollow = _KEPT[kept]

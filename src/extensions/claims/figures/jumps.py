@@ -20,7 +20,13 @@ def draw(scene: Scene, jumps: xr.Dataset, orbits: xr.Dataset) -> Figure:
     panel, regular, chaotic = section.over_orbits(scene, orbits, high=1500)
     dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
     panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
-    for x, y in zip(jumps["flight_x"].values.T, jumps["flight_y"].values.T, strict=True):
+    line_x, line_y = jumps["flight_x"].values, jumps["flight_y"].values
+    for x, y in zip(line_x.T, line_y.T, strict=True):
+        panel.line(x, y, **dashes)
+    count = np.isfinite(line_x).sum(axis=1)
+    both, none = count == 2, count == 0  # between them the two branches meet
+    ends = [*np.flatnonzero(both[:-1] & none[1:]), *np.flatnonzero(none[:-1] & both[1:]) + 1]
+    for x, y in zip(line_x[ends], line_y[ends], strict=True):
         panel.line(x, y, **dashes)
     _curves(panel, jumps, 0)
     jumping = (jumps["length"].values > 0.0).any()

@@ -48,9 +48,15 @@ def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     regular_turns = turns[good] if good.any() else turns
     last = min(start[good].max() + 0.03, 1.0) if good.any() else 1.0
-    across = linear(at - 0.03, last, 10, _STARTS)
-    up = around(np.append(regular_turns, fixed), 0.1, 5, "Rotation number")
+    detail, place = _regular_detail(rotation), rotation["detail_place"].values
+    first, last = max(min(at, place[0]) - 0.03, -1.0), max(last, min(place[-1] + 0.03, 1.0))
+    across = linear(first, last, 10, _STARTS)
+    up = around(np.hstack([regular_turns, fixed, detail[1]]), 0.1, 5, "Rotation number")
     panel = Panel(sheet, frames[0], across, up)
+    middle = 0.5 * (place[0] + place[-1])
+    panel.line([middle] * 2, up.limits, color=style.BACKDROP, lw=0.7, zorder=0.8)
+    panel.note(middle, up.limits[1], "(c)", (3, -5), va="top")
+    panel.dots(*detail, style.BLUE, size=1.6)
     shown = ~good & inside((across.limits, up.limits), (start, turns))
     panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
     panel.dots(start[good], turns[good], style.BLUE, size=1.6)

@@ -8,19 +8,18 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from extensions.atlas.figures.atlas import apart
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import around, inside, linear
-from pseudorigid.figures.axes.panel import Axis, Window, key, letters, title, upright
+from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 _LEFT, _RIGHT = 125, 1000  # pixels
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
-_MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^"}
-_NAMES = {"doubling": "period doubling"}  # of marks in the key
-_NAME = 50  # pixels: room for the name of a resonance
+_MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^", "grazing": "x"}
+_NAMES = {"doubling": "period doubling", "grazing": "an impact grazes"}  # of marks in the key
 _RESIDUES = -0.6, 1.6
-_BEYOND = "; triangles: beyond the axis"
 
 
 @style.pinned()
@@ -34,18 +33,17 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     (low, high), parameter = scene["span"], scene["parameter"]
     name = "Energy $E$" if parameter == "energy" else "Euler inertia $k$"
     across = linear(low, high, 7, name)
-    above = Window(sheet, (_LEFT, 1945, _RIGHT, 2250), across.blank(), _share_axis(shares))
-    highest = above.up.limits[1]
-    beyond = shares["regular"].values > highest
+    up = linear(0.0, min(1.0, 1.1 * float(shares["regular_high"].values.max())), 5)
+    above = Window(sheet, (_LEFT, 1800, _RIGHT, 2250), across.blank(), up)
     x, rim = families["x"].values, _rim(scene)
     up = around(x, 0.04, 8)
     if not inside([up.limits] * 2, rim[1:]).all():
         up = around(np.append(x, rim[1:]), 0.04, 8)
-    middle = Window(sheet, (_LEFT, 775, _RIGHT, 1865), across.blank(), up)
+    middle = Window(sheet, (_LEFT, 775, _RIGHT, 1720), across.blank(), up)
     below = Window(sheet, (_LEFT, 340, _RIGHT, 695), across, linear(*_RESIDUES, 5))
     left, bottom, right, top = above.frame  # its title stands above the names of resonances
     letters(sheet, (left, bottom, right, top + 10 * POINT), middle.frame, below.frame)
-    title(sheet, above.frame, "Regular share of the section" + _BEYOND * bool(beyond.any()), 14)
+    title(sheet, above.frame, "Regular share of the section", 14)
     title(sheet, middle.frame, "Position $x$ of the orbit's point on a symmetry line")
     for panel in (above, middle, below):
         panel.minor()
@@ -53,7 +51,6 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     at, share = (shares[name].values for name in (parameter, "regular"))
     least, most = (shares[f"regular_{end}"].values for end in ("low", "high"))
     above.estimates(at, share, least, most, style.BLUE)
-    above.dots(at[beyond], 0.0 * at[beyond] + 0.98 * highest, style.BLUE, 2.6, marker="^")
     for end in rim[1:]:
         middle.line(rim[0], end, color=style.BACKDROP, lw=1.0)
     period, spans = families["period"].values.tolist(), rows(families)
@@ -67,7 +64,9 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
         for panel, heights in ((middle, x), (below, residue)):
             _family(panel, values[span], heights[span], types[span], _hue(period[i]))
     leaves = [_exits(below, values[s], residue[s], _hue(period[i])) for i, s in shown.items()]
-    title(sheet, below.frame, "Residue $(2-$trace$)/4$" + _BEYOND * any(leaves))
+    title(
+        sheet, below.frame, "Residue $(2-$trace$)/4$" + "; triangles: beyond the axis" * any(leaves)
+    )
     marks = _events(middle, parameter, families, shown)
     stability = {str(kind) for span in shown.values() for kind in types[span]}
     _keys(sheet, stability, marks, sorted({period[i] for i in shown}))
@@ -75,13 +74,6 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     setting = style.setting(scene | {"ball": fixed}, energy=parameter == "k")
     sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
     return sheet.figure
-
-
-def _share_axis(shares: xr.Dataset) -> Axis:
-    """Return an axis to above the largest share, or that of the upper two thirds if far smaller."""
-    values = shares["regular_high"].values
-    largest, later = float(values.max()), float(values[values.size // 3 :].max())
-    return linear(0.0, min(1.0, 1.1 * (later if 4.0 * later < largest else largest)), 4)
 
 
 def _family(panel: Window, across: np.ndarray, up: np.ndarray, types: np.ndarray, hue: str) -> None:
@@ -114,7 +106,7 @@ def _hue(period: int) -> str:
 def _events(
     panel: Window, parameter: str, families: xr.Dataset, shown: dict[int, slice]
 ) -> set[str]:
-    """Mark events, and ends where an impact grazes; return which kinds there are."""
+    """Mark events and ends of families; return which kinds there are."""
     marked = set()
     number, order = (families[f"event_{name}"].values for name in ("family", "order"))
     across, up, kinds = (families[f"event_{name}"].values for name in (parameter, "x", "kind"))
@@ -127,10 +119,12 @@ def _events(
         marked |= {kind} if chosen.any() else set()
     for index, span in shown.items():
         for side, last in ((0, span.start), (1, span.stop - 1)):
-            if families["end_kind"].values[index, side] in ("touch", "rim"):
+            end = families["end_kind"].values[index, side]
+            kind = "grazing" if end in ("touch", "rim") else str(end)
+            if kind in _MARKS:
                 x, y = (families[name].values[last] for name in (parameter, "x"))
-                panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker="x")
-                marked.add("grazing")
+                panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker=_MARKS[kind])
+                marked.add(kind)
     return marked
 
 
@@ -150,13 +144,11 @@ def _resonances(panels: Sequence[Window], parameter: str, families: xr.Dataset) 
     chosen = (families["event_family"].values == 0) & (order > 2) & (order <= 8)
     names = f"event_{parameter}", "event_turns", "event_order"
     resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
-    reach = -np.inf
-    for value, p, q in sorted(resonances):
-        x = upright(panels, value, color=style.BACKDROP, lw=0.5)
-        if x - reach >= _NAME:
-            up = panels[0].frame[3] + 3 * POINT
-            panels[0].sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
-            reach = x
+    drawn = sorted(resonances)
+    lines = [upright(panels, value, color=style.BACKDROP, lw=0.5) for value, *_ in drawn]
+    for (_, p, q), x in zip(drawn, apart(lines), strict=True):
+        up = panels[0].frame[3] + 3 * POINT
+        panels[0].sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
 
 
 def _keys(sheet: Sheet, types: set[str], marks: set[str], periods: list[int]) -> None:
@@ -166,7 +158,6 @@ def _keys(sheet: Sheet, types: set[str], marks: set[str], periods: list[int]) ->
         *((kind, style.BLACK, "", "inverse" in kind, width) for kind, width in widths),
         ("rim of the section", style.BACKDROP, "", False, 1.0),
         *((_NAMES.get(k, k), style.BLACK, mark, True) for k, mark in _MARKS.items() if k in marks),
-        *[("an impact grazes", style.BLACK, "x", True)] * ("grazing" in marks),
     ]
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
     entries = [(f"{n}", _hue(n), "", False, 1.7) for n in periods]

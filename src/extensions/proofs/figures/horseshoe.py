@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from pseudorigid.dynamics.variables import chart, rows, states_of
+from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty
 from pseudorigid.figures.axes.panel import Axis, Window, corner, key, letters
 from pseudorigid.figures.canvas import style
@@ -15,6 +16,7 @@ from pseudorigid.figures.canvas.sheet import Sheet
 
 _HIGH = 1500  # pixels
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
+_HALF = "${}$, in half sides of the middle set"
 _ROOM = 1.3  # height of the lower panel over that of its square; the square's name stands above it
 
 
@@ -36,7 +38,8 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
     for name in "pq":
         refuse_empty(scene["axes"], {name: horseshoe[f"image_{name}"].values})
     sheet = Sheet(style.COLUMN, _HIGH)
-    x, y, p, q = (Axis(**scene["axes"][name], name=f"${name}$") for name in "xypq")
+    names = {"x": "$x$", "y": section.NAME, "p": _HALF.format("p"), "q": _HALF.format("q")}
+    x, y, p, q = (Axis(**scene["axes"][axis], name=name) for axis, name in names.items())
     panel = Window(sheet, _ABOVE, x, y)
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
         hue = style.pale(style.MANIFOLDS[stable])
