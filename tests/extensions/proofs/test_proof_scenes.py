@@ -21,7 +21,6 @@ from extensions.proofs.figures.escape import draw as draw_escape
 from extensions.proofs.figures.twist import draw
 from extensions.proofs.theorems.scenes import scene_horseshoe
 from pipeline.checks.quantities import hidden
-from pipeline.config.schema.kinds import KINDS
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.variables import chart, states_of
