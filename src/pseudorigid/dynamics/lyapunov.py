@@ -9,14 +9,14 @@ import xarray as xr
 from ..kernel import spectrum
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import GROUP
-from .ball import Ball
+from .ball import Ball, require_ball
 from .ensemble import in_threads
-from .inputs import not_allowed, state_of, whole_number
+from .inputs import StateLike, not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
 from .variables import TIME, described, orbit_dims
 
 
-def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) -> xr.Dataset:
+def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
     """Compute the Lyapunov exponents, in nats an impact, and their convergence.
 
     Parameters
@@ -58,6 +58,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     >>> lyapunov_spectrum(ball, ball.start(0.6, 0.01), 1000, 10)["exponent"].dims
     ('impact', 'index')
     """
+    require_ball(ball)
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
     state = ball.on_section(*state_of(state))
