@@ -1,4 +1,5 @@
 # The plan of a run, and the functions that the rules use.
+import re
 import sys
 from functools import cache
 
@@ -70,6 +71,24 @@ def reason(result):
 def made(result):
     """Return a job's outputs. `update` keeps the old ones: the job may find them current."""
     return {"result": update(result), "record": update(record_path(result))}
+
+
+def shown(drawing):
+    """Mark a drawing for `snakemake --report FILE`."""
+    labels = {"figure": "{scene}", "format": "{extension}"}
+    return report(drawing, ROOT / "workflow" / "caption.rst", "{variant}", labels=labels)
+
+
+def caption(wildcards):
+    """Return the caption of a drawing as reStructuredText."""
+    from pipeline.checks.report.captions import caption_of
+
+    block = VARIANTS[wildcards.variant][wildcards.scene].as_mapping()
+    name, title, *texts = caption_of(wildcards.scene, block)
+    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
+
+
+config["caption"] = caption  # for workflow/caption.rst
 
 
 @cache
