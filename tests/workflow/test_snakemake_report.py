@@ -8,6 +8,7 @@ import zipfile
 import pytest
 from slowly import slowly
 
+from pipeline.checks.quantities import facts, measured
 from pipeline.checks.report.captions import caption_of
 from pipeline.config import load
 
@@ -33,7 +34,9 @@ def test_the_report_has_each_figure_with_its_caption(extension, done):
     for path, shown in results.items():
         labels, caption = shown["labels"], html.unescape(shown["caption"])
         assert path.endswith("figures/{figure}.{format}".format(**labels))
-        words = caption_of(labels["figure"], scenes[labels["figure"]].as_mapping())
+        scene = labels["figure"]
+        known = measured(done.path, {"paper": scenes}, "paper", scene, facts)
+        words = caption_of(scene, scenes[scene].as_mapping(), known)
         first, *others = re.findall(r"<p>(.*?)</p>", caption, re.DOTALL)
         assert first == f"{words.name}: {words.title}"
         assert others == [words.shows, words.see, words.details]

@@ -81,10 +81,13 @@ def shown(drawing):
 
 def caption(wildcards):
     """Return the caption of a drawing as reStructuredText."""
+    from pipeline.checks.quantities import facts, measured
     from pipeline.checks.report.captions import caption_of
 
-    block = VARIANTS[wildcards.variant][wildcards.scene].as_mapping()
-    name, title, *texts = caption_of(wildcards.scene, block)
+    variant, scene = wildcards.variant, wildcards.scene
+    known = measured(ROOT, VARIANTS, variant, scene, facts)
+    name = scene if variant == paths.PAPER else f"{variant}/{scene}"
+    name, title, *texts = caption_of(name, VARIANTS[variant][scene].as_mapping(), known)
     return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
 
 
