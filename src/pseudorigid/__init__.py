@@ -21,24 +21,15 @@ All functions read numbers by one rule:
 import importlib
 from typing import Any
 
-_MODULES = {
-    "Ball": "dynamics.ball",
-    "orbit": "dynamics.orbits",
-    "symmetric_orbits": "dynamics.periodic",
-    "motion": "dynamics.motion",
-    "trace_manifold": "dynamics.manifolds",
-    "lyapunov_spectrum": "dynamics.lyapunov",
-    "rotation_number": "dynamics.quantities",
-    "residue": "dynamics.quantities",
-    "classify_orbits": "dynamics.quantities",
-    "Picture": "figures.picture",
-}
+with open(f"{__file__}i", encoding="utf-8") as _stub:  # the names are declared there alone
+    _IMPORTS = [line.split() for line in _stub if line.startswith("from .")]
+_MODULES = {name: module for _, module, _, name, *_ in _IMPORTS}
 __all__ = list(_MODULES)
 
 
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
-        return getattr(importlib.import_module(f".{_MODULES[name]}", __name__), name)
+        return getattr(importlib.import_module(_MODULES[name], __name__), name)
     if name == "__version__":
         return _version()
     from importlib import resources  # these imports take longer than that of this package

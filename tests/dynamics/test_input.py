@@ -12,7 +12,17 @@ import pandas
 import pytest
 import xarray as xr
 
-from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
+from pseudorigid import (
+    Ball,
+    classify_orbits,
+    lyapunov_spectrum,
+    motion,
+    orbit,
+    residue,
+    rotation_number,
+    symmetric_orbits,
+    trace_manifold,
+)
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.orbits import scene_orbits
 
@@ -187,6 +197,17 @@ def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array
         assert np.isfinite(x.isel(orbit=1)).all()
 
 
+OF_A_BALL = [
+    *(
+        partial(function, state=START, impacts=100)
+        for function in (orbit, lyapunov_spectrum, rotation_number, classify_orbits)
+    ),
+    partial(motion, start=START, duration=1.0),
+    partial(symmetric_orbits, energy=0.01, period=1),
+    partial(trace_manifold, energy=0.01, orbit=SADDLE),
+]
+
+
 @pytest.mark.parametrize(
     ("name", "function", "allowed", "values"),
     [
@@ -197,8 +218,14 @@ def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array
          (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1]))),
         ("orbit", partial(trace_manifold, BALL, 0.01), "a Dataset with x",
          (None, "orbit", SADDLE.drop_vars("udot"))),
+        ("orbits", residue, "a Dataset with trace", (None, 3, SADDLE.drop_vars("trace"))),
+        ("start", partial(motion, BALL, duration=1.0), "one state or one orbit",
+         (SADDLE.drop_vars("x"), SADDLE.isel(point=[]), SADDLE.expand_dims("orbit"),
+          SADDLE.drop_vars("multiplier"))),
+        ("state", partial(BALL.after, impacts=3), r"\(x, xdot, udot\)", (None, 3, (1, 2), "ab")),
         ("scan", ImpactMap, r"None, or \(step", (3, (0.1,))),
         ("map", partial(Ball, 0.2, 0.04), "an ImpactMap", (None, (0.1, 1e-6))),
+        *(("ball", call, "a Ball", (None, (0.2, 0.04), 0.2, Ball, SADDLE)) for call in OF_A_BALL),
     ],
 )  # fmt: skip
 def test_other_words_and_objects_are_rejected(name, function, allowed, values):

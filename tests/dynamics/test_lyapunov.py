@@ -1,12 +1,14 @@
 """Lyapunov exponents: an independent computation, known limits, history and bits."""
 
+import math
+
 import numpy as np
 import pytest
 from cycles import SETTINGS
 from sections import BALL
 
 from pipeline.checks.compare import datasets
-from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.kinds import reports
@@ -87,3 +89,49 @@ def test_the_largest_exponent_is_the_largest_by_value():
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):
     monkeypatch.setattr(spectrum, "exponents_of_group", None)
     assert final(BALL.start([0.6, 0.62, 0.65], 0.01), 100).shape == (3, 3)
+
+
+def test_the_time_is_the_sum_of_the_times_of_flight():
+    """Its rounding errors are those of a plain sum."""
+    for start in (0.534522, 0.6, -0.2):
+        state = BALL.start(start, 0.01)
+        found = lyapunov_spectrum(BALL, state, 200_000, 5)["time"]
+        assert found.dims == ("impact",) and found.attrs["scale"] == "1/omega"
+        flights = orbit(BALL, state, 200_000)["tau"].values
+        assert np.array_equal(found, np.cumsum(flights)[found["impact"].values - 1])
+        exact = math.fsum(flights)
+        assert abs(float(found[-1]) - exact) < 2e-14 * exact
+
+
+def test_the_time_of_a_periodic_orbit_is_a_multiple_of_its_period():
+    elliptic = symmetric_orbits(BALL, 0.01, 6).isel(orbit=0)
+    state = [float(elliptic[name][0]) for name in ("x", "xdot", "udot")]
+    found = lyapunov_spectrum(BALL, state, 60_000, 10)["time"]
+    expected = float(elliptic["total_time"]) * found["impact"] / 6
+    assert np.allclose(found, expected, rtol=1e-12)
+
+
+def test_exponents_per_time_are_those_per_impact_over_the_mean_flight():
+    """Of many orbits, each has the bits that it has alone."""
+    states = BALL.start(np.linspace(0.5, 0.7, 40), 0.01)
+    found = lyapunov_spectrum(BALL, states, 1000, 4)
+    flow = found["exponent"] * found["impact"] / found["time"]
+    mean_flight = orbit(BALL, states, 1000)["tau"].mean("impact")
+    assert np.allclose(flow[-1], found["exponent"][-1] / mean_flight, rtol=1e-12)
+    for i in (0, 17, 39):
+        alone = lyapunov_spectrum(BALL, [a[i] for a in states], 1000, 4)
+        assert np.array_equal(alone["time"], found["time"][:, i])
+
+
+def test_exponents_and_time_are_unknown_together():
+    """After grazing, for a state that is not finite, and at the records of other orbits."""
+    rim = BALL.start([1.0, 0.6, np.nan], 0.01)
+    found = lyapunov_spectrum(BALL, rim, 10, 5)
+    unknown = np.isnan(found["exponent"].values)
+    assert unknown.any(axis=(0, 2)).tolist() == [True, False, True]
+    many = lyapunov_spectrum(BALL, BALL.start([1.0] * 30 + [0.6] * 10, 0.01), 10, 5)
+    scene = scene_exponents(BALL, 0.01, [0.6, 0.62], [10, 12], 4)
+    assert np.isnan(scene["exponent"].values).any()
+    for each in (found, many, scene):
+        exponents, time = each["exponent"].values, each["time"].values
+        assert np.array_equal(np.isnan(exponents).any(axis=-1), np.isnan(time))

@@ -42,6 +42,13 @@ def edit_unseen(file, old, new):
     os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
+def test_a_name_of_the_api_is_imported_when_it_is_used(printed):
+    loaded = "print(*sorted(m for m in sys.modules if m.startswith('pseudorigid.')))"
+    assert printed(f"import sys, pseudorigid; {loaded}", "") == ""
+    modules = printed(f"import sys; from pseudorigid import Ball; {loaded}", "").split()
+    assert "pseudorigid.dynamics.ball" in modules and "pseudorigid.figures" not in modules
+
+
 def test_a_stale_pyc_is_not_run(src, printed):
     file = src / "pseudorigid/dynamics/paper.py"
     file.write_text(f"{file.read_text()}\nPLANTED = 1\n")

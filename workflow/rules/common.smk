@@ -1,4 +1,5 @@
 # The plan of a run, and the functions that the rules use.
+import re
 import sys
 from functools import cache
 
@@ -70,6 +71,27 @@ def reason(result):
 def made(result):
     """Return a job's outputs. `update` keeps the old ones: the job may find them current."""
     return {"result": update(result), "record": update(record_path(result))}
+
+
+def shown(drawing):
+    """Mark a drawing for `snakemake --report FILE`."""
+    labels = {"figure": "{scene}", "format": "{extension}"}
+    return report(drawing, ROOT / "workflow" / "caption.rst", "{variant}", labels=labels)
+
+
+def caption(wildcards):
+    """Return the caption of a drawing as reStructuredText."""
+    from pipeline.checks.quantities import facts, measured
+    from pipeline.checks.report.captions import caption_of
+
+    variant, scene = wildcards.variant, wildcards.scene
+    known = measured(ROOT, VARIANTS, variant, scene, facts)
+    name = scene if variant == paths.PAPER else f"{variant}/{scene}"
+    name, title, *texts = caption_of(name, VARIANTS[variant][scene].as_mapping(), known)
+    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
+
+
+config["caption"] = caption  # for workflow/caption.rst
 
 
 @cache

@@ -9,7 +9,7 @@ use rule orbits as draw_portrait with:
         orbits=dataset("orbits"),
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     output:
-        **made("results/{variant}/figures/{scene}.{extension}"),
+        **made(shown("results/{variant}/figures/{scene}.{extension}")),
     log:
         log_path("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:

@@ -2,19 +2,18 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, SupportsFloat
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..kernel import formulas
 from ..kernel import impact as kernel
 from ..kernel.formulas import impact_coefficients, rebound
 from .ensemble import ImpactMap
-from .inputs import coordinates, not_allowed, number, whole_number
+from .inputs import Reals, coordinates, not_allowed, number, state_of, whole_number
 
-# A number for numbers, an array for arrays.
-Result = float | np.ndarray
+# A float for numbers, an array for arrays: a checker of types cannot tell which.
+Result = Any
 State = tuple[Result, Result, Result]
 Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 NextState = tuple[Result, Result, Result, Result]
@@ -66,6 +65,10 @@ class Ball:
     g: float
     map: ImpactMap = field(default_factory=ImpactMap)
 
+    if TYPE_CHECKING:  # other numbers become floats
+
+        def __init__(self, k: SupportsFloat, g: SupportsFloat, map: ImpactMap = ...) -> None: ...
+
     def __post_init__(self) -> None:
         k = number("k", self.k, "0 < k <= 1", lambda v: 0.0 < v <= 1.0)
         g = number("g", self.g, "g > 0, finite", lambda v: v > 0.0)
@@ -75,7 +78,7 @@ class Ball:
             raise not_allowed("map", self.map, "an ImpactMap")
 
     @np.errstate(over="ignore", invalid="ignore")
-    def energy(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Result:
+    def energy(self, x: Reals, xdot: Reals, udot: Reals) -> Result:
         """Return the total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
@@ -89,7 +92,7 @@ class Ball:
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
     @np.errstate(over="ignore")
-    def section(self, energy: ArrayLike) -> tuple[float, Any]:
+    def section(self, energy: Reals) -> tuple[float, Any]:
         """Return the section's centre and radius along y = 0; ValueError below the lowest energy.
 
         There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
@@ -104,7 +107,7 @@ class Ball:
         return self.g / self.k, _plain(np.sqrt(square))
 
     @np.errstate(over="ignore", invalid="ignore")
-    def state(self, x: ArrayLike, xdot: ArrayLike, energy: ArrayLike, branch: float = 1) -> State:
+    def state(self, x: Reals, xdot: Reals, energy: Reals, branch: float = 1) -> State:
         """Return (x, xdot, udot) with this energy, eq. (29).
 
         Two states may have this x, xdot and energy; `branch` = 1 selects the one with the larger
@@ -122,7 +125,7 @@ class Ball:
         return _plain(x), _plain(xdot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
-    def state_xy(self, x: ArrayLike, y: ArrayLike, energy: ArrayLike) -> State:
+    def state_xy(self, x: Reals, y: Reals, energy: Reals) -> State:
         """Return (x, xdot, udot) at a point of the chart (x, y = xdot - k udot).
 
         The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
@@ -134,7 +137,7 @@ class Ball:
         x, xdot, udot = formulas.chart_state(self.k, self.g, energy, x, y)
         return _plain(x), _plain(xdot), _plain(udot)
 
-    def start(self, fraction: ArrayLike, energy: ArrayLike) -> State:
+    def start(self, fraction: Reals, energy: Reals) -> State:
         """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
 
         Raises ValueError beyond the rim, and for an energy below the lowest one.
@@ -147,7 +150,7 @@ class Ball:
         return _plain(x), _plain(xdot), _plain(udot)
 
     @np.errstate(over="ignore", invalid="ignore")
-    def reflect(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> State:
+    def reflect(self, x: Reals, xdot: Reals, udot: Reals) -> State:
         """Apply the reversor R, (x, y) -> (x, -y).
 
         It reverses the velocities after the impact, eq. (25). R is its own inverse, and R F R is
@@ -157,7 +160,7 @@ class Ball:
         b, c, _ = rebound(xdot, udot, self.k, impact_coefficients(self.k))
         return _plain(x), _plain(-b), _plain(np.maximum(-c, b))
 
-    def time_to_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Result:
+    def time_to_impact(self, x: Reals, xdot: Reals, udot: Reals) -> Result:
         """Return the time to the next impact: the smallest positive root of eq. (21) with (26).
 
         It is 0 where the ball does not leave the floor: at rest on it, or pressed down on the rim
@@ -165,7 +168,7 @@ class Ball:
         """
         return self.impact(x, xdot, udot)[3]
 
-    def impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
+    def impact(self, x: Reals, xdot: Reals, udot: Reals) -> NextState:
         """Apply the impact map, eq. (28): return x, xdot, udot and tau.
 
         They are the state just before the next impact, and the time of flight, eq. (27). Where the
@@ -176,7 +179,7 @@ class Ball:
         require_short_flights(state, after)
         return tuple(after)
 
-    def inverse_impact(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> NextState:
+    def inverse_impact(self, x: Reals, xdot: Reals, udot: Reals) -> NextState:
         """Apply the inverse of the impact map, F^-1 = R F R.
 
         It returns x, xdot, udot just before the previous impact, and the time of flight since then.
@@ -184,9 +187,7 @@ class Ball:
         *state, tau = self.impact(*self.reflect(x, xdot, udot))
         return *self.reflect(*state), tau
 
-    def jacobian(
-        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
-    ) -> np.ndarray:
+    def jacobian(self, x: Reals, xdot: Reals, udot: Reals, impacts: int = 1) -> np.ndarray:
         """Return the Jacobian of `impacts` iterates of the map by (x, xdot, udot), eq. (33).
 
         The shape is (..., 3, 3). Row i, column j has the derivative of the i-th new variable by the
@@ -202,9 +203,7 @@ class Ball:
         return out.reshape(*state[0].shape, 3, 3)
 
     @np.errstate(all="ignore")
-    def chart_jacobian(
-        self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike, impacts: int = 1
-    ) -> Rows:
+    def chart_jacobian(self, x: Reals, xdot: Reals, udot: Reals, impacts: int = 1) -> Rows:
         """Return the Jacobian in the chart (x, y = xdot - k udot) at one state and a fixed energy.
 
         The map is iterated `impacts` times. The result is two rows of two floats with determinant
@@ -223,33 +222,39 @@ class Ball:
         dx, dv, dw = (j[:, :, None] * along).sum(axis=1)
         return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
-    def on_section(self, x: ArrayLike, xdot: ArrayLike, udot: ArrayLike) -> Arrays:
+    def on_section(self, x: Reals, xdot: Reals, udot: Reals) -> Arrays:
         """Read a state as arrays of one shape; raise ValueError if xdot + udot < 0, eq. (22)."""
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         if np.any(xdot < -udot):  # the sum could overflow
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
-    def after(self, states: Iterable[ArrayLike], impacts: int = 1) -> np.ndarray:
+    def after(self, states: Iterable[Reals], impacts: int = 1) -> np.ndarray:
         """Return x, xdot, udot and tau, (4, n), some impacts after n states (x, xdot, udot)."""
         return np.stack(self._advanced(states, impacts, 0)[0])
 
-    def history(self, states: Iterable[ArrayLike], impacts: int) -> np.ndarray:
+    def history(self, states: Iterable[Reals], impacts: int) -> np.ndarray:
         """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after n states."""
         return self._advanced(states, impacts, impacts)[1]
 
     def _advanced(
-        self, states: Iterable[ArrayLike], impacts: int, kept: int
+        self, states: Iterable[Reals], impacts: int, kept: int
     ) -> tuple[list[np.ndarray], np.ndarray]:
         """Return the last impact of each state, and `kept` impacts: none, or all."""
-        columns = [a.flatten() for a in self.on_section(*states)]
+        columns = [a.flatten() for a in self.on_section(*state_of(states))]
         columns.append(np.empty(columns[0].size))
         out = np.empty((columns[0].size, kept, 4))
         self.map.steps(columns, self.k, self.g, impacts, out)
         return columns, out
 
 
-def require_short_flights(state: Arrays, after: Iterable[ArrayLike]) -> None:
+def require_ball(ball: Any) -> None:
+    """Raise ValueError for what is no ball."""
+    if not isinstance(ball, Ball):
+        raise not_allowed("ball", ball, "a Ball")
+
+
+def require_short_flights(state: Arrays, after: Iterable[Any]) -> None:
     """Raise ValueError if the flights after one state, which is finite, end in NaN."""
     if not state[0].shape and np.isfinite(state[0]) and any(np.isnan(a) for a in after):
         raise ValueError("a flight lasts 2^20/omega or longer: take a larger g or a lower energy")

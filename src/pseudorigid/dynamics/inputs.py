@@ -5,12 +5,15 @@ import reprlib
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from numbers import Real
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 import xarray as xr
 
 Condition = Callable[[float], bool]
+# Real numbers, also Fractions and arrays, and lists of them. The ArrayLike of numpy includes text.
+Reals = SupportsFloat | Sequence[SupportsFloat | Sequence[SupportsFloat]]
+StateLike = tuple[Reals, Reals, Reals] | list[Any] | np.ndarray | xr.Dataset
 _STATE = ("x", "xdot", "udot")
 _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 
@@ -89,11 +92,15 @@ def state_of(state: Any) -> tuple[Any, ...]:
 
 def not_allowed(name: str, value: Any, allowed: str) -> ValueError:
     """Return the ValueError, of one line, for an argument."""
+    return ValueError(f"{name} = {in_one_line(value)} is not allowed: {allowed}")
+
+
+def in_one_line(value: Any) -> str:
+    """Return a short text for a value."""
     try:
-        text = " ".join(reprlib.repr(value).split())
+        return " ".join(reprlib.repr(value).split())
     except ValueError:  # an integer with more digits than Python prints
-        text = f"<{type(value).__name__}>"
-    return ValueError(f"{name} = {text} is not allowed: {allowed}")
+        return f"<{type(value).__name__}>"
 
 
 def _converted(value: Any) -> np.ndarray:

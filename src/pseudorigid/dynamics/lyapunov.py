@@ -9,14 +9,14 @@ import xarray as xr
 from ..kernel import spectrum
 from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import GROUP
-from .ball import Ball
+from .ball import Ball, require_ball
 from .ensemble import in_threads
-from .inputs import not_allowed, state_of, whole_number
+from .inputs import StateLike, not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
-from .variables import described, orbit_dims
+from .variables import TIME, described, orbit_dims
 
 
-def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) -> xr.Dataset:
+def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
     """Compute the Lyapunov exponents, in nats an impact, and their convergence.
 
     Parameters
@@ -34,11 +34,12 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     -------
     xarray.Dataset
         exponent, dims (impact, ..., index); its last entry is the final value. `impact` holds the
-        number of impacts. `index` counts the vectors of the frame in the order in which they are
-        orthogonalized. The exponents tend to descending order, but need not be in it after a finite
-        number of impacts: the largest one is `exponent.max("index")`. Arrays of states have the dim
-        `orbit`, or orbit_0, orbit_1, ... From a grazing impact on, where the map has no derivative,
-        exponents are NaN.
+        number of impacts, and time, dims (impact, ...), the time since the start (1/omega).
+        exponent * impact / time is the flow's exponent, in nats per 1/omega. `index` counts the
+        vectors of the frame in the order in which they are orthogonalized. The exponents tend to
+        descending order, but need not be in it after a finite number of impacts: the largest one is
+        `exponent.max("index")`. Arrays of states have the dim `orbit`, or orbit_0, orbit_1, ...
+        From a grazing impact on, where the map has no derivative, exponents and time are NaN.
 
     Raises
     ------
@@ -57,6 +58,7 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     >>> lyapunov_spectrum(ball, ball.start(0.6, 0.01), 1000, 10)["exponent"].dims
     ('impact', 'index')
     """
+    require_ball(ball)
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
     state = ball.on_section(*state_of(state))
@@ -64,12 +66,12 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
     dims = orbit_dims(shape)
     try:
         at = (np.arange(1, records + 1) * impacts) // records
-        out = np.empty((state[0].size, records, 3))
+        out = np.empty((state[0].size, records, 4))
     except (MemoryError, ValueError):
         raise not_allowed("records", records, "fewer: memory is short") from None
 
     def exponents_of_piece(x: np.ndarray, v: np.ndarray, w: np.ndarray, piece: np.ndarray) -> int:
-        """Write the exponents of some orbits, and return how many impacts a scan missed."""
+        """Write exponents and times of some orbits, and return how many impacts a scan missed."""
         parts: Sequence[Any] = range(x.size)  # one orbit each, or slices of several
         compute = spectrum.exponents_of_orbit
         if x.size >= MIN_ORBITS_FOR_LANES:  # fewer are faster one after the other
@@ -80,10 +82,16 @@ def lyapunov_spectrum(ball: Ball, state: Any, impacts: int, records: int = 400) 
 
     missed = in_threads(exponents_of_piece, impacts, *(a.flatten() for a in state), out)
     ball.map.count(impacts * state[0].size, missed)
-    values = np.ascontiguousarray(out.swapaxes(0, 1)).reshape(records, *shape, 3)
+    values = out.swapaxes(0, 1).reshape(records, *shape, 4)
+    exponents, time = np.ascontiguousarray(values[..., :3]), values[..., 3]
+    time = np.where(np.isnan(exponents).any(axis=-1), np.nan, time)
     meaning = "Lyapunov exponent an impact, of each vector of the frame"
-    exponent = described({"exponent": (("impact", *dims, "index"), values, meaning)})
-    return xr.Dataset(exponent, coords=described({"impact": ("impact", at, "number of impacts")}))
+    table = {
+        "exponent": (("impact", *dims, "index"), exponents, meaning),
+        "time": (("impact", *dims), time, "time elapsed since the start", TIME),
+    }
+    impact = described({"impact": ("impact", at, "number of impacts")})
+    return xr.Dataset(described(table), coords=impact)
 
 
 def scene_exponents(
@@ -92,7 +100,7 @@ def scene_exponents(
     """Compute the Lyapunov exponents of the orbits of a scene, and their convergence (Figure 7).
 
     Starts are as in `orbits.start_state`. `impacts` is one number for all orbits, or one for each.
-    Then each orbit has records of its own, and `exponent` is NaN at those of the others.
+    Then each orbit has records of its own; `exponent` and `time` are NaN at those of the others.
 
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)

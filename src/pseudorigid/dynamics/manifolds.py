@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 from itertools import product
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 import xarray as xr
 
-from .ball import Ball
+from .ball import Ball, require_ball
 from .branch import Branch, Window
 from .inputs import coordinates, not_allowed, number, one_of
 from .variables import NAMES, of_rows, of_type, variables
@@ -24,16 +24,16 @@ _BRANCHES = {
 
 def trace_manifold(
     ball: Ball,
-    energy: float,
+    energy: SupportsFloat,
     orbit: xr.Dataset,
     saddle: int = 0,
     *,
     stable: bool = False,
     side: str = "outer",
-    length: float = 1.0,
-    distance: float = 0.01,
-    bend: float = 10.0,
-    window: Sequence[float] | None = None,
+    length: SupportsFloat = 1.0,
+    distance: SupportsFloat = 0.01,
+    bend: SupportsFloat = 10.0,
+    window: Sequence[SupportsFloat] | None = None,
 ) -> xr.Dataset:
     """Trace one branch of the manifolds of a hyperbolic orbit's point, from the point outwards.
 
@@ -84,6 +84,7 @@ def trace_manifold(
     >>> sorted(branch.data_vars)
     ['udot', 'x', 'xdot']
     """
+    require_ball(ball)
     points = _points(orbit)
     energy = number("energy", energy)
     errors = np.abs(ball.energy(*points) - energy)

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 from itertools import cycle, pairwise
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
-from .ball import Ball
-from .inputs import not_allowed, number, state_of
+from .ball import Ball, require_ball
+from .inputs import StateLike, not_allowed, number, state_of
 from .variables import LENGTH, NAMES, TIME, of_type, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
@@ -29,7 +29,7 @@ _IMPACT_NAMES = {
 }
 
 
-def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
+def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
     """Compute x(t) and u(t), eq. (26), from an impact on.
 
     Parameters
@@ -59,11 +59,13 @@ def motion(ball: Ball, start: Any, duration: float) -> xr.Dataset:
     >>> motion(ball, ball.start(0.6, energy=0.01), duration=16).sizes["impact"]
     7
     """
+    require_ball(ball)
     duration = number("duration", duration, "0 or more", lambda value: value >= 0.0)
     points: list[tuple[Any, ...]] = []
-    if "point" in getattr(start, "dims", ()):
+    if isinstance(start, xr.Dataset) and "point" in start.dims:
         # Elsewhere tau is the time since the previous impact, not that to the next one.
-        if "multiplier" not in start:
+        complete = all(name in start and start[name].dims == ("point",) for name in NAMES)
+        if not (complete and start["x"].size and "multiplier" in start):
             raise not_allowed("start", start, _ALLOWED)
         points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
         start = points[0][:3]

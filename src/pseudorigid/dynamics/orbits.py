@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .ball import Ball, State, require_short_flights
-from .inputs import not_allowed, one_of, state_of, whole_number
+from .ball import Ball, State, require_ball, require_short_flights
+from .inputs import StateLike, not_allowed, one_of, state_of, whole_number
 from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
 
-def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset:
+def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.Dataset:
     """Compute the orbit of one state, or of many, under the impact map, eq. (28).
 
     Parameters
@@ -50,6 +50,7 @@ def orbit(ball: Ball, state: Any, impacts: int, keep: str = "all") -> xr.Dataset
     >>> bool(np.all(rest["x"].values == five["x"].values[3:]))
     True
     """
+    require_ball(ball)
     one_of("keep", keep, ("all", "last"))
     impacts = whole_number("impacts", impacts)
     state = ball.on_section(*state_of(state))

@@ -9,6 +9,7 @@ in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import SupportsFloat
 
 import numpy as np
 import xarray as xr
@@ -16,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
-from .ball import Ball
+from .ball import Ball, require_ball
 from .inputs import number, whole_number
 from .variables import NAMES, TIME, described, variables
 
@@ -38,7 +39,7 @@ JUMP = 1e-6
 NEWTON_STEPS = 5  # at those energies and periods no more than three helped
 
 
-def symmetric_orbits(ball: Ball, energy: float, period: int) -> xr.Dataset:
+def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Dataset:
     """Find all symmetric orbits of a prime period that the resolution of the search shows.
 
     Parameters
@@ -78,6 +79,7 @@ def symmetric_orbits(ball: Ball, energy: float, period: int) -> xr.Dataset:
     >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
     ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """
+    require_ball(ball)
     period, energy = whole_number("period", period), number("energy", energy)
     _, radius = ball.section(energy)
     solved, unsolved = [], 0

@@ -8,15 +8,15 @@ import xarray as xr
 
 from ..kernel.tangents import turns_and_growth
 from . import fixed_point
-from .ball import Ball
-from .inputs import not_allowed, state_of, whole_number
+from .ball import Ball, require_ball
+from .inputs import StateLike, not_allowed, state_of, whole_number
 from .variables import attributes_of, described, orbit_dims
 from .verdict import classify_orbits as follow_until_decided
 
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
 
 
-def rotation_number(ball: Ball, state: Any, impacts: int = 10_000) -> Any:
+def rotation_number(ball: Ball, state: StateLike, impacts: int = 10_000) -> Any:
     """Rotation number of orbits around the symmetric fixed point, in turns per impact.
 
     It converges fast on quasi-periodic orbits. The rotation number of a chaotic orbit is not
@@ -99,7 +99,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
     return values.rename("residue").assign_attrs(attributes_of("Greene's residue"))
 
 
-def classify_orbits(ball: Ball, state: Any, impacts: int = 10_000) -> xr.Dataset:
+def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.Dataset:
     """Decide which orbits are regular and which are chaotic.
 
     Each orbit is followed until the decision is safe: along a regular orbit a tangent vector grows
@@ -164,8 +164,7 @@ def classify_orbits(ball: Ball, state: Any, impacts: int = 10_000) -> xr.Dataset
 
 def require_default_map(ball: Ball) -> None:
     """Raise ValueError for a ball whose map is not the default one, which misses no impact."""
-    if not isinstance(ball, Ball):
-        raise not_allowed("ball", ball, "a Ball")
+    require_ball(ball)
     if not ball.map.certified:
         raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
 

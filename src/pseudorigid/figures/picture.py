@@ -1,17 +1,31 @@
 """A picture with one pair of axes, for scripts and notebooks."""
 
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, SupportsFloat
 
+import numpy as np
+from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.colors import to_hex
+from matplotlib.lines import Line2D
+
+from ..dynamics.inputs import Reals, coordinates, doubles, not_allowed, number, one_of
 from .axes.limits import of_data
 from .axes.plane import Plane
 from .canvas import style
 from .canvas.render import render
 from .canvas.sheet import POINT, width
 
+_FORMATS = ("png", "svg", "pdf")
 
-class Picture(Plane):
+
+class Picture:
     """A picture with one pair of axes, whose files have the same bytes on every machine.
+
+    Coordinates are read by the rule in `help(pseudorigid)`. Colours are matplotlib's, and other
+    keywords are properties of its Line2D. A refused argument raises ValueError with one line.
 
     Parameters
     ----------
@@ -34,44 +48,133 @@ class Picture(Plane):
 
     @style.pinned()
     def __init__(
-        self, x: Any, y: Any, names: tuple[str, str] = ("$x$", "$y$"), title: str = ""
+        self, x: Reals, y: Reals, names: tuple[str, str] = ("$x$", "$y$"), title: str = ""
     ) -> None:
         self._labelled: dict[str, dict[str, Any]] = {}
-        scene = {"axes": {"x": of_data(x, room=0.02), "y": of_data(y, room=0.02)}, "ball": {}}
-        super().__init__(scene, ("x", "y"), names, energy=False)
-        self.sheet.text(self.frame[0], self.sheet.high - 4 * POINT, title, va="top", size=9.0)
+        scene = {"axes": {"x": _axis("x", x), "y": _axis("y", y)}, "ball": {}}
+        names = _pair("names", names, _text)
+        self._plane = Plane(scene, ("x", "y"), names, energy=False)
+        self.figure, sheet = self._plane.figure, self._plane.sheet
+        at = self._plane.frame[0], sheet.high - 4 * POINT
+        sheet.text(*at, _text("title", title), va="top", size=9.0)
 
     @style.pinned()
-    def line(self, x: Any, y: Any, label: str = "", **line_style: Any) -> None:
-        """Draw a line, broken where a coordinate is NaN; keywords are those of Line2D.
+    def line(self, x: Reals, y: Reals, label: str = "", **line_style: Any) -> None:
+        """Draw a line, broken where a coordinate is not finite.
 
         Above the frame each label stands once, beside the style that it was given first.
         """
+        _text("label", label)
+        x, y = coordinates(x=x, y=y)
+        if x.ndim > 1:
+            raise not_allowed("x", x, "numbers along one dimension")
+        with _checked(line_style):
+            self._plane.line(x, y, **line_style)
         self._labelled.setdefault(label, line_style)
-        super().line(x, y, **line_style)
 
     @style.pinned()
     def dots(
-        self, x: Any, y: Any, color: Any, size: float = 1.0, label: str = "", **line_style: Any
-    ) -> None:
+        self, x: Reals, y: Reals, color: Any, size: SupportsFloat = 1.0, label: str = "",
+        **line_style: Any,
+    ) -> None:  # fmt: skip
         """Draw dots of `size` points."""
+        _text("label", label)
+        size = number("size", size, "0 to 1000 points", lambda v: 0.0 <= v <= 1000.0)
+        x, y = _columns(x=x, y=y)
+        with _checked(line_style | {"color": color}):
+            self._plane.dots(x, y, color, size, **line_style)
         self._labelled.setdefault(label, {"color": color, "dots": max(size, 2.0)})
-        super().dots(x, y, color, size, **line_style)
 
-    note = style.pinned()(Plane.note)
+    def bars(self, x: Reals, low: Reals, high: Reals, **line_style: Any) -> None:
+        """Draw an upright line from low to high at each x, with the keywords of `line`."""
+        for at, *span in zip(*_columns(x=x, low=low, high=high), strict=True):
+            self.line([at, at], span, **line_style)
+
+    @style.pinned()
+    def estimates(self, x: Reals, values: Reals, low: Reals, high: Reals, color: Any) -> None:
+        """Draw a dot for each value, joined by a line, with its bar from low to high."""
+        x, values, low, high = _columns(x=x, values=values, low=low, high=high)
+        with _checked({"color": color}):
+            self._plane.estimates(x, values, low, high, to_hex(color))
+
+    @style.pinned()
+    def note(
+        self, x: SupportsFloat, y: SupportsFloat, text: str,
+        shift: tuple[SupportsFloat, SupportsFloat] = (0, 0),
+        ha: str = "left", va: str = "center",
+    ) -> None:  # fmt: skip
+        """Write `text` beside a point, `shift` points away, on the other side if only that fits.
+
+        Beside a point beyond the axes nothing is written.
+        """
+        one_of("ha", ha, ("left", "center", "right"))
+        one_of("va", va, ("bottom", "center", "top"))
+        x, y, away = number("x", x), number("y", y), _pair("shift", shift, number)
+        _text("text", text)
+        if self._plane.shows(x, y):
+            self._plane.note(x, y, text, away, ha, va)
 
     @style.pinned()
     def render(self, extension: str) -> bytes:
         """Return the bytes of a file; `extension` is png, svg or pdf."""
+        one_of("extension", extension, _FORMATS)
         labels, self._labelled = self._labelled, {}
         entries = [(text, width(text, style.PLAIN) / POINT, labels[text]) for text in labels]
-        self.legend(*(entry for entry in entries if entry[0]))
+        self._plane.legend(*(entry for entry in entries if entry[0]))
         return render(self.figure, extension)
 
-    def save(self, file: str | Path) -> "Picture":
+    def save(self, file: str | os.PathLike[str]) -> "Picture":
         """Write a PNG, SVG or PDF file, and return the picture, which a notebook shows."""
-        Path(file).write_bytes(self.render(Path(file).suffix[1:]))
+        extension = Path(str(file)).suffix[1:]
+        if extension not in _FORMATS:
+            raise not_allowed("file", file, "a path that ends with .png, .svg or .pdf")
+        Path(file).write_bytes(self.render(extension))
         return self
 
     def _repr_png_(self) -> bytes:
         return self.render("png")
+
+
+def _axis(name: str, values: Any) -> dict[str, list[float]]:
+    """Return the axis around the values of an argument."""
+    array = doubles(name, values)
+    if np.isnan(array).all() or np.any(np.abs(array) > 1e300):
+        raise not_allowed(name, values, "finite numbers up to 1e300, or NaN; at least one number")
+    return of_data(array, room=0.02)
+
+
+def _columns(**values: Any) -> list[np.ndarray]:
+    """Return the coordinates of marks as arrays (n,)."""
+    return [array.ravel() for array in coordinates(**values)]
+
+
+def _text(name: str, value: Any) -> str:
+    """Return a text; raise ValueError if matplotlib cannot write it."""
+    try:
+        width(value, style.PLAIN)
+    except (AttributeError, TypeError, ValueError):
+        allowed = "text, with matplotlib's formulas between dollar signs"
+        raise not_allowed(name, value, allowed) from None
+    return str(value)
+
+
+def _pair(name: str, value: Any, read: Callable[[str, Any], Any]) -> tuple[Any, Any]:
+    """Return the two parts of an argument, as a function of its name and a part reads them."""
+    if not (isinstance(value, (tuple, list)) and len(value) == 2):
+        raise not_allowed(name, value, "two values")
+    return read(name, value[0]), read(name, value[1])
+
+
+@contextmanager
+def _checked(line_style: dict[str, Any]) -> Iterator[None]:
+    """Turn what matplotlib says about properties of a line into a ValueError of one line."""
+    try:
+        mark = Line2D([0.0], [0.0], **{"marker": "o"} | line_style)
+        mark.draw(RendererAgg(1, 1, 72.0))  # it looks at some properties only now
+        sizes = mark.get_linewidth(), mark.get_markersize(), mark.get_markeredgewidth()
+        if not all(-np.inf < size < np.inf for size in (*sizes, mark.zorder)):
+            raise ValueError
+        yield
+    except Exception:
+        allowed = "properties of matplotlib's Line2D"
+        raise not_allowed("line_style", line_style, allowed) from None

@@ -4,8 +4,9 @@ The analytic Jacobian, eq. (33), carries the frame over an impact, and Gram and 
 makes it orthonormal again. The lengths are multiplied, and their logarithms are added to sums only
 where a product nears the limits of a double, and at the end.
 
-`exponents_of_orbit` and `exponents_of_group` write the exponents after each of the impacts `at`
-(m,) to `out`, (m, 3) or (n, m, 3), and return how many impacts were missed, as in `impact`.
+`exponents_of_orbit` and `exponents_of_group` write the three exponents and the time elapsed, after
+each of the impacts `at` (m,), to `out`, (m, 4) or (n, m, 4), and return how many impacts were
+missed, as in `impact`.
 """
 
 import math
@@ -15,7 +16,7 @@ import numpy as np
 from .arithmetic import log
 from .compiled import jit
 from .impact import impact_coefficients, step_with_flight, tangent
-from .tangents import CHUNK, GROUP, advance_chunk, allocate_buffers, push_tangent
+from .tangents import CHUNK, GROUP, TAU, advance_chunk, allocate_buffers, push_tangent
 
 # Offsets of each orbit's frame, three vectors, and the products of their lengths; rows as in
 # `tangents`.
@@ -115,20 +116,22 @@ def exponents_of_orbit(x, v, w, k, g, at, out, root_finder):
     coefficients = impact_coefficients(k)
     a, b, c = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     sums, lengths = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
-    missed, done = 0, 0
+    missed, done, time = 0, 0, 0.0
     for m in range(at.size):
         while done < at[m]:
-            x, v, w, _, sine, cosine, tau_x, tau_s, tau_c, missed_one = step_with_flight(
+            x, v, w, tau, sine, cosine, tau_x, tau_s, tau_c, missed_one = step_with_flight(
                 x, v, w, k, g, coefficients, root_finder
             )
             a, b, c, lengths, sums = push_frame(
                 a, b, c, lengths, sums, k, g, coefficients, x, w, sine, cosine, tau_x, tau_s, tau_c
             )
             missed += missed_one
+            time += tau
             done += 1
         sums, lengths = with_logarithms(sums, lengths), (1.0, 1.0, 1.0)
         for j in range(3):
             out[m, j] = sums[j] / done
+        out[m, 3] = time
     return missed
 
 
@@ -139,7 +142,7 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
     missed, done = 0, 0
     coefficients = impact_coefficients(k)
     states, flights = allocate_buffers()
-    frames, total = np.zeros(_SIZE), np.zeros((3, n))
+    frames, total, time = np.zeros(_SIZE), np.zeros((3, n)), np.zeros(n)
     for i in range(n):
         frames[_A + i] = frames[_B + GROUP + i] = frames[_C + 2 * GROUP + i] = 1.0
         frames[_GROWN + i] = frames[_GROWN + GROUP + i] = frames[_GROWN + 2 * GROUP + i] = 1.0
@@ -150,11 +153,14 @@ def exponents_of_group(x, v, w, k, g, at, out, root_finder):
             for row in range(0, impacts * GROUP, GROUP):
                 if _advance(frames, n, k, g, coefficients, states, flights, row):
                     _collect(total, frames, n, False)
+                for i in range(n):
+                    time[i] += states[TAU + GROUP + row + i]
             done += impacts
         _collect(total, frames, n, True)
         for i in range(n):
             for j in range(3):
                 out[i, m, j] = total[j, i] / done
+            out[i, m, 3] = time[i]
     return missed
 
 

@@ -1,5 +1,7 @@
 """Proofs on request, proofs of impacts, and the data of the pictures."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from certificates import numbers
@@ -10,7 +12,7 @@ from slowly import slowly
 from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
-from extensions.proofs import THEOREMS, Surface, prove_horseshoe, prove_orbit
+from extensions.proofs import THEOREMS, Surface, prove_curve, prove_horseshoe, prove_orbit
 from extensions.proofs.proved_impacts import Impacts, _impacts_behind, of_orbits, prove_impacts
 from extensions.proofs.theorems import scenes
 from pipeline import config
@@ -66,10 +68,27 @@ def test_a_request_that_cannot_be_proved_is_refused_in_one_line(six):
         "isel": lambda: prove_orbit(PAPER, six),
         "side = 'left'": lambda: prove_horseshoe(PAPER, hyperbolic, side="left"),
         "energy|cannot be proved": lambda: prove_orbit(PAPER, moved),
+        "energy = None": lambda: prove_orbit(BALL, hyperbolic.drop_attrs()),
+        "energy = <xarray": lambda: prove_orbit(BALL, hyperbolic, six),
+        "rotation_number = <xarray": lambda: prove_curve(BALL, 0.01, six),
     }.items():
         with pytest.raises(ValueError, match=match) as error:
             request()
         assert "\n" not in str(error.value)
+
+
+def test_what_is_no_ball_or_orbit_is_refused_in_one_line(six):
+    orbit = of_type(six, "hyperbolic")
+    for ball in (None, (0.2, 0.04), six):
+        for call in (prove_orbit, partial(prove_horseshoe, side="outer")):
+            with pytest.raises(ValueError, match=r"^ball = .* is not allowed: a Ball$"):
+                call(ball, orbit)
+        with pytest.raises(ValueError, match=r"^ball = .* is not allowed: a Ball$"):
+            prove_curve(ball, 0.01, 0.17)
+    for other in (None, 3, "orbit", orbit.drop_vars("x"), orbit.isel(point=[]), orbit["x"]):
+        for call in (prove_orbit, partial(prove_horseshoe, side="outer")):
+            with pytest.raises(ValueError, match=r"^orbit = .* is not allowed: one orbit of"):
+                call(BALL, other)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from typing import Any, Generic, NamedTuple, overload
 
 from flint import acb, arb, ctx, fmpq
 
+from pseudorigid.dynamics.inputs import in_one_line
 from study.flight import Flight, UndecidedError
 
 from .jets import Jet, Real, Value, square_root
@@ -37,7 +38,8 @@ def exact(name: str, value: Exact) -> Fraction:
             return Fraction(value)
     except (ValueError, ZeroDivisionError, OverflowError):
         pass
-    raise ValueError(f"{name} = {value!r} is not an exact number, such as '1/5' or '0.2'")
+    text = in_one_line(value)
+    raise ValueError(f"{name} = {text} is not an exact number, such as '1/5' or '0.2'")
 
 
 def _shortened(value: Fraction) -> Fraction | float:

@@ -8,8 +8,8 @@ from fractions import Fraction
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.inputs import number
+from pseudorigid.dynamics.ball import Ball, require_ball
+from pseudorigid.dynamics.inputs import not_allowed, number, one_of
 from pseudorigid.dynamics.variables import chart, states_of
 from study.flight import NotProvedError
 
@@ -94,8 +94,7 @@ def prove_horseshoe(
     Differential Equations 202 (2004). Kokubu, Wilczak and Zgliczynski, Rigorous verification of
     cocoon bifurcations in the Michelson system, Nonlinearity 20 (2007).
     """
-    if side not in ("outer", "inner"):
-        raise ValueError(f"side = {side!r} is not allowed: 'outer' or 'inner'")
+    one_of("side", side, ("outer", "inner"))
     surface, points, kind = _request(ball, orbit, energy)
     if kind != "hyperbolic":
         raise ValueError(f"no horseshoe can be proved on the orbit: it is {kind}, not hyperbolic")
@@ -155,6 +154,8 @@ def prove_curve(
     )
     if isinstance(energy, float) and not math.isfinite(energy):
         raise ValueError(f"energy = {energy} is not allowed: a finite number")
+    if not isinstance(ball, Surface):
+        require_ball(ball)
     exact_energy = exact("energy", Fraction(energy) if isinstance(energy, float) else energy)
     k, g = (ball.k, ball.g) if isinstance(ball, Surface) else (Fraction(ball.k), Fraction(ball.g))
     surface = Surface(k, g, exact_energy)
@@ -181,12 +182,21 @@ def _request(
 
     Raises ValueError if the dataset has several orbits, or if the orbit's energy is another one.
     """
+    if not isinstance(ball, Surface):
+        require_ball(ball)
+    names = {"x", "xdot", "udot", "type"}
+    if not (isinstance(orbit, xr.Dataset) and names <= {*orbit} and orbit.sizes.get("point")):
+        raise not_allowed("orbit", orbit, "one orbit of symmetric_orbits")
     if "orbit" in orbit.dims:
         raise ValueError("one orbit is needed: choose it with .isel(orbit=...)")
     if isinstance(ball, Surface):
         surface = ball
     else:
         if energy is None:
+            if "energy" not in orbit.attrs:
+                raise not_allowed(
+                    "energy", energy, "that of the orbit, which has no such attribute"
+                )
             energy = Fraction(float(orbit.attrs["energy"]))
         surface = Surface(Fraction(ball.k), Fraction(ball.g), exact("energy", energy))
     rounded, states = orbit_search.nearest_ball(surface), states_of(orbit)

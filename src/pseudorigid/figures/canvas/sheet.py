@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from matplotlib.cbook import is_math_text
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
@@ -83,7 +84,7 @@ class Sheet:
 def width(text: str, size: float) -> float:
     """Return the width in pixels of `text` at `size` points."""
     font = FontProperties(size=size)
-    extent = text_to_path.get_text_width_height_descent(text, font, "$" in text)
+    extent = text_to_path.get_text_width_height_descent(text, font, is_math_text(text))
     return float(extent[0]) * POINT
 
 
