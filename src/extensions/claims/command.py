@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.running import INTERRUPTED
 from pipeline.cli.session import UsageError, interruptible, locked
 from pipeline.config import PAPER, Config, paths
 from pipeline.records import artifacts
@@ -17,14 +18,24 @@ from .ledger.schema import Verdict
 
 
 def run(args: Arguments) -> int:
-    """Compute missing data, draw the pictures and write the verdicts."""
-    config = args.config
+    """Compute missing data, draw the pictures and write the verdicts.
+
+    The verdicts stay as they are if config.yaml lacks scenes that they need.
+    """
+    config, lacking, data = args.config, "", list[str]()
+    try:
+        data += dataset_paths(config, claims.required_datasets()).values()
+        data += theorem_paths(config, claims.required_theorems()).values()
+    except UsageError as error:
+        data, lacking = [], str(error)
     with locked():
         files = figures.drawings_of(config, "claims")
-        data = [*dataset_paths(config, claims.required_datasets()).values()]
-        data += theorem_paths(config, claims.required_theorems()).values()
+        if lacking and not files:
+            raise UsageError(lacking)
         status = figures.make(config, "claims", files, args, data)
-        if status or args.makes_nothing:
+        if lacking and status != INTERRUPTED:
+            print(f"\n{claims.FILE} stays as it is: {lacking}")
+        if status or lacking or args.makes_nothing:
             return status
         with interruptible():
             verdicts = write(config)

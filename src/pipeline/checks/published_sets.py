@@ -5,7 +5,7 @@ the pictures of extensions.
 """
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -45,6 +45,7 @@ class PublishedSet(NamedTuple):
     data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
+    impossible: Mapping[str, str] = {}  # scene that is left out -> why it cannot exist
 
     def sources(self, scene: str) -> list[str]:
         """Return the project's files that decide a scene's figures."""
@@ -52,18 +53,20 @@ class PublishedSet(NamedTuple):
         results = [*self.data[scene].values(), *drawn]
         return sorted({file for path in results for file in self.build_specs[path].sources})
 
-    def without(self, scenes: Collection[str]) -> "PublishedSet":
-        """Return the set without some scenes."""
+    def without(self, scenes: Mapping[str, str]) -> "PublishedSet":
+        """Return the set without some scenes, which cannot exist for the given reasons."""
         return self._replace(
             drawn={n: path for n, path in self.drawn.items() if Path(n).stem not in scenes},
             config={scene: block for scene, block in self.config.items() if scene not in scenes},
             data={scene: stages for scene, stages in self.data.items() if scene not in scenes},
             build_specs={p: s for p, s in self.build_specs.items() if s.scene not in scenes},
+            impossible=scenes,
         )
 
     def unlisted(self, root: Path) -> list[str]:
         """Return a line for each picture in the folder that no scene of the set makes."""
-        return unlisted_files(root, self.folder, {*self.drawn, *self.measured})
+        names = {*self.drawn, *self.measured}
+        return unlisted_files(root, self.folder, names, self.impossible)
 
 
 def committed_sets(config: Config) -> list[PublishedSet]:
@@ -140,14 +143,22 @@ def edited_lists(root: Path) -> list[str]:
     return names.decode().split("\0")[:-1]
 
 
-def unlisted_files(root: Path, folder: str, names: Iterable[str]) -> list[str]:
-    """Return a line for each picture in a published folder whose name is not in `names`."""
+def unlisted_files(
+    root: Path, folder: str, names: Iterable[str], impossible: Mapping[str, str] = {}
+) -> list[str]:
+    """Return a line for each picture in a published folder whose name is not in `names`.
+
+    `impossible` maps scenes that cannot exist to the reasons.
+    """
     files = (root / folder).glob("[!.]*")
     pictures = {path.name for path in files if path.suffix[1:] in paths.SHOWN}
-    return [
-        f"{folder}/{name}: no scene makes it: delete it, or put its scene back"
-        for name in sorted(pictures - set(names))
-    ]
+    lines = []
+    for name in sorted(pictures - set(names)):
+        why = impossible.get(Path(name).stem)
+        words = f"its scene cannot exist: {why}" if why else "no scene makes it"
+        end = "change its scene" if why else "put its scene back"
+        lines.append(f"{folder}/{name}: {words}: delete it, or {end}")
+    return lines
 
 
 def read_published_text(root: Path, name: str) -> str:

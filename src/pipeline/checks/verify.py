@@ -182,10 +182,10 @@ def _other_files(
     """Yield a line for each file that nothing makes, and for each text that is not as committed."""
     for name in manifest.sums(committed):
         if name not in published_set.drawn:
-            yield (
-                f"{published_set.folder}/{MANIFEST}: lists {name}, which config.yaml does "
-                "not publish: ./reproduce accept takes it out"
-            )
+            cannot = Path(name).stem in published_set.impossible
+            words = "whose scene cannot exist" if cannot else "which config.yaml does not publish"
+            file = f"{published_set.folder}/{MANIFEST}"
+            yield f"{file}: lists {name}, {words}: ./reproduce accept takes it out"
     yield from published_set.unlisted(root)
     for path in published_set.text_files:
         if file_hash(root / path) != committed["texts"].get(path):

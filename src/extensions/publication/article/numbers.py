@@ -121,7 +121,7 @@ def _rows(root: Path, config: Config, scene: str) -> Table:
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
     axes = config.scenes[scene].given_axes()
     for axis, ticks in PRINTED_TICKS.get(scene, {}).items():
-        labels = {"paper": ticks, "ours": axes[axis].ticks}
+        labels = {"paper": ticks, "ours": axes[axis].ticks if axis in axes else []}
         rows[f"ticks, {axis}"] = {
             who: ", ".join(f"{tick:g}" for tick in given) for who, given in labels.items()
         }

@@ -14,7 +14,8 @@ ARTICLE = "results/article.pdf"
 def run(args: Arguments) -> int:
     """Set the article; results must be current, and figures the committed ones."""
     with locked(), interruptible(), one_line("article: "):
-        archive.refuse_unpublished(ROOT, args.config)  # before the download
+        left_out = archive.refuse_unpublished(ROOT, args.config)  # before the download
+        print(*left_out, sep="\n", end="\n" * bool(left_out))
     add_packages("article")
     from ..article import numbers, typesetting
 
