@@ -123,7 +123,7 @@ class Curves(OfChaoticOrbits):
     ]
     """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. Each
     curve has a number close to the given one, which must not be too close to a fraction of small
-    integers. A run says if it finds or proves no such curve, and the numbers near the fixed point.
+    integers. A run says if it finds or proves no such curve, and names the nearest that it found.
     Proved curves around longer orbits at the scene's energy are added."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:

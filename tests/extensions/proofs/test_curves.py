@@ -3,7 +3,7 @@
 import re
 from fractions import Fraction
 from functools import cache
-from math import pi, sqrt
+from math import exp, pi, sqrt
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +11,7 @@ import pytest
 from certificates import numbers, refused, with_bounds, with_field, with_rows
 from flint import acb, arb, ctx
 from matplotlib.path import Path
+from project import ROOT
 from sections import BALL
 from slowly import slowly
 from small_curve import SMALL
@@ -20,6 +21,7 @@ from extensions.proofs import THEOREMS, Surface, prove_curve
 from extensions.proofs.checkers import circle, complex_flight, curve
 from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.search import curve as search
+from extensions.proofs.search.rotation_numbers import quotients_near
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of
 
@@ -159,6 +161,91 @@ def test_other_coefficients_are_refused(change, reason):
     assert re.search(reason, refused(SMALL, with_rows(TEXT, "coefficients", rows)))
 
 
+def with_sign(rows, place):
+    """The rows with the opposite signs in one of them."""
+    return [*rows[:place], [f"-{a}".replace("--", "") for a in rows[place]], *rows[place + 1 :]]
+
+
+@pytest.mark.parametrize(("change", "accepted"), [
+    *slowly((lambda rows: rows[:52], True), (lambda rows: rows[:50], False)),
+    (lambda rows: with_sign(rows, 53), True), (lambda rows: with_sign(rows, 48), False),
+    (lambda rows: [*rows[:-2], *rows[:-3:-1]], True),
+])  # fmt: skip
+def test_coefficients_below_the_error_in_the_strip_do_not_matter(change, accepted):
+    rows = change(numbers(TEXT, "coefficients"))
+    result = SMALL.check(with_rows(TEXT, "coefficients", rows))
+    assert (result.verdict == "proved") == accepted
+    assert accepted or "error is not proved" in result.reason
+
+
+def test_the_strip_weighs_a_change_of_a_coefficient():
+    """A change is accepted or refused by its size times exp(2 pi rho0 q) against the error."""
+    strip, error = 0.06, 1e-35
+    for place, factor in ((2, 12), (2, 0.1), (40, 12), (40, 0.1)):
+        rows = numbers(TEXT, "coefficients")
+        change = error / factor / exp(2 * pi * strip * place)
+        rows[place][0] = f'"{Fraction(rows[place][0]) + Fraction(f"{change:.3e}")}"'
+        verdict = SMALL.check(with_rows(TEXT, "coefficients", rows)).verdict
+        assert (verdict == "proved") == (factor > 1)
+
+
+@pytest.fixture(scope="module")
+def outer_error():
+    """A function that bounds the error of the outer theorem's curve with other rows."""
+    theorem, kept = THEOREMS["curve-fixed-point-outer"], {}
+    of_strip, of_error = curve._bounds, curve._bound_of_error
+
+    def bounds(*given):  # they change with the curve by less than it changes
+        if "strip" not in kept:
+            kept["strip"] = of_strip(*given)
+        return kept["strip"]
+
+    def recorded(*given):
+        kept["error"] = of_error(*given)
+        return kept["error"]
+
+    def bound(rows):
+        theorem.check(with_rows(theorem.text(), "coefficients", rows))
+        return float(kept["error"].upper())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(curve, "_bounds", bounds)
+        patch.setattr(curve, "_bound_of_error", recorded)
+        patch.setattr(curve, "_prove_discs", lambda *_: [])
+        yield bound
+
+
+@pytest.mark.slow
+def test_the_page_says_which_coefficients_of_the_outer_curve_matter(outer_error):
+    page = (ROOT / "src/extensions/proofs/README.md").read_text(encoding="utf-8")
+    section = " ".join(
+        page.partition("*Which coefficients matter.*")[2].partition("\n\n")[0].split()
+    )
+    rows = numbers(THEOREMS["curve-fixed-point-outer"].text(), "coefficients")
+    before, most = re.search(r"from (\S+) to (\S+)\. So", section).groups()
+    assert float(before) == pytest.approx(outer_error(rows), rel=0.01)
+    limits = re.findall(r"(\S+) for q = (\d+)", section)
+    assert len(limits) == 5
+    for relative, place in limits:
+        for factor in (0.95, 1.05):
+            changed, q = [list(row) for row in rows], int(place)
+            change = Fraction(relative) * Fraction(str(factor))
+            changed[q][0] = f'"{Fraction(rows[q][0]) * (1 + change)}"'
+            assert (outer_error(changed) < float(most)) == (factor < 1)
+    count, needed = map(int, re.search(r"(\d+) rows the first (\d+) are needed", section).groups())
+    assert count == len(rows) and f"the last {count - needed} rows" in section
+    assert outer_error(rows[:needed]) < float(most) < outer_error(rows[: needed - 1])
+    assert outer_error(with_sign(rows, 1600)) < float(most)
+    assert outer_error([*rows[:-2], *rows[:-3:-1]]) < float(most)
+
+
+@pytest.mark.slow
+def test_the_outer_curve_is_proved_without_the_last_coefficients():
+    theorem = THEOREMS["curve-fixed-point-outer"]
+    rows = numbers(theorem.text(), "coefficients")[:1443]
+    assert theorem.check(with_rows(theorem.text(), "coefficients", rows)).verdict == "proved"
+
+
 def test_the_curve_run_through_twice_is_refused():
     """K(2t) with omega/2 = [0; 11, 1, 1, 1, ...]-like passes all but the count of its turns."""
     rows = numbers(TEXT, "coefficients")
@@ -277,11 +364,24 @@ def test_cells_enclose_a_polynomial():
 
 
 @pytest.mark.slow
-def test_a_curve_of_another_ball_and_energy_is_proved_on_request():
-    certificate, finding = prove_curve(Ball(0.1, 0.03), 0.02, 0.150528)
-    assert float(finding.digits["rotation number"]) == pytest.approx(0.150528, abs=5e-4)
-    assert 0.115 < float(finding.digits["share"]) < 0.12
+def test_the_curve_of_docs_api_is_proved_and_within_the_bounds_of_the_energy():
+    page = (ROOT / "docs/api.md").read_text(encoding="utf-8")
+    of, encloses = r"at k = (\S+), g = (\S+) and E = (\S+) ", r"the curve .* (\S+) encloses (\S+) "
+    page = " ".join(page.split())
+    k, g, energy, rotation, share = map(float, re.search(of + encloses, page).groups())
+    ball = Ball(k, g)
+    low, high = ball.energy_bounds()
+    assert low < energy < high
+    certificate, finding = prove_curve(ball, energy, rotation)
+    assert float(finding.digits["rotation number"]) == pytest.approx(rotation, abs=5e-4)
+    assert share < float(finding.digits["share"]) < share + 1e-4
     assert 'kind = "invariant curve"' in certificate
+
+
+@pytest.mark.slow
+def test_a_curve_whose_coefficients_fall_slower_than_they_begin_gets_more_modes():
+    """A resonance with 1/6 shows in the coefficients only below the noise of doubles."""
+    assert float(prove_curve(BALL, 0.01, 0.171)[1].digits["share"]) > 0.14
 
 
 @pytest.mark.parametrize(("energy", "rotation", "reason"), [
@@ -292,9 +392,33 @@ def test_a_curve_of_another_ball_and_energy_is_proved_on_request():
     ("x", 0.17, "energy = 'x' is not an exact number"),
     (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
     (5.0, 0.17, "no elliptic orbit of period 1"),
-    (0.01, 0.41, "no curve with the rotation number 0.409955 was found on y = 0: near the point"),
+    (0.01, 0.1301, "no curve with the rotation number 0.130118 was found on y = 0; nearest smooth"),
+    *slowly(
+        # chaos, islands, and the island of another orbit; above the fixed point's number
+        *((0.01, number, "was found on y = 0; nearest smooth curves found: 0.1")
+          for number in (0.0201, 0.1612, 0.1675, 0.1688, 0.1789, 0.41, 0.9201)),
+        *((0.001, number, "was found on y = 0; nearest smooth curves found: 0.1")
+          for number in (0.0503, 0.0909, 0.1001, 0.1221, 0.3105)),
+        (0.01, 0.16885, "found, but it is too rough: it has more than 130 Fourier modes; nearest"),
+    ),
 ])  # fmt: skip
 def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, reason):
     with pytest.raises(ValueError, match=re.escape(reason)) as error:
         prove_curve(BALL, energy, rotation)
     assert "\n" not in str(error.value)
+
+
+def test_the_nearest_numbers_are_those_of_curves():
+    """Those on both sides of a resonance that breaks the curves between them."""
+    bounds = THEOREMS["curve-fixed-point-low"].bounds
+    scan = search._scan(with_bounds(SMALL, surface=bounds["surface"]))
+    words = search._nearest(scan, 0.1001)
+    below, above = map(float, re.findall(r"[\d.]+", words))
+    assert below < 0.1001 < above
+    for number in (below, above):
+        start = search._curve_in_doubles(scan, quotients_near(number))
+        assert len(start.xs) <= search._ROUGH
+        x = sum(start.xs)
+        turns = search.turns(bounds["surface"], x, start.points, 20_000)
+        assert turns == pytest.approx(number, abs=5e-4)
+        assert turns == pytest.approx(search._omega(start.quotients), abs=1e-7)

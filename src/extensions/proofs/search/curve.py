@@ -7,6 +7,7 @@ midpoints: `checkers.curve` proves the result. A curve is a pair of polynomials 
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -31,10 +32,15 @@ from .rotation_numbers import quotients_near
 BITS = 320
 _IMPACTS = 40_000  # of the orbit whose averages start Newton's method
 _SCAN, _SCAN_IMPACTS = 120, 4000  # starts between the centre and the rim, and impacts of each
-_LARGEST_STEP = 0.05  # of the rotation number from one start to the next, without a jump
+_MOST_TRIED = 20  # numbers of a scan on each side of the wanted one, to name the nearest curve
+_CHAOS = 1e-4  # difference of the turns of an orbit's halves, during the scan
+_SETTLED = 1e-9  # difference from the wanted rotation number on a curve, with all impacts
 _NOISE = 1e-11  # Fourier coefficients from the orbit below this are rounding errors
+_ROUGH = 130  # coefficients above the noise: with more, `search` would take minutes and fail
 _SPARE_DIGITS = 4  # of a coefficient with weight 1, beyond the error
 _STEPS = 6
+# The last coefficients in the strip, as a part of the error, and how often modes are added to it.
+_LARGEST_LAST, _MOST_ENLARGED = 0.25, 3
 # Of the sizes that `search` tries: the strip as a part of that in which the coefficients decay,
 # cells along it, the share of the rest that its modes use, and more digits of the error.
 _TRIALS = (0.4, 6, 0.6, 0.0), (0.3, 9, 0.5, 4.0)
@@ -50,6 +56,14 @@ class Sizes(NamedTuple):
     rows: int  # cells from the real axis to the strip's edge
     more_rows: int  # cells beyond it
     modes: int  # Fourier modes of the curve
+
+
+class _Scan(NamedTuple):
+    """Orbits that start on y = 0 beyond a point of an elliptic orbit."""
+
+    surface: Surface
+    points: list[list[float]]  # of the elliptic orbit, the first one on y = 0
+    regular: list[tuple[float, float]]  # x and rotation number of those that are not chaotic
 
 
 class _Start(NamedTuple):
@@ -68,29 +82,41 @@ def propose(theorem: Theorem, quotients: Sequence[int], strips: Sequence, error:
     orbit's points on y = 0 the one with the greatest x is taken.
     """
     share = str(float(theorem.bounds["share"]))
-    return _certificate(theorem, _start(theorem, quotients), Sizes(*strips), share, error)
+    start = _start(_scan(theorem), quotients)
+    text, _ = _certificate(theorem, start, Sizes(*strips), share, error)
+    return text
 
 
 def search(theorem: Theorem, rotation: float) -> tuple[str, Finding]:
     """Return a certificate for a curve, and the checker's finding, with sizes that are tried.
 
-    The rotation number is close to the given one. Raises ValueError if no curve is found, or the
-    checker's NotProvedError if the last sizes fail.
+    The rotation number is close to the given one. Raises ValueError if no curve is found, and
+    NotProvedError, with the checker's reason, if the last sizes fail. Both name the nearest numbers
+    with which curves were found.
     """
-    start = _start(theorem, quotients_near(rotation))
+    quotients, scan = quotients_near(rotation), _scan(theorem)
+    start = _start(scan, quotients)
     xs, ys = start.xs, start.ys
+    if len(xs) > _ROUGH:
+        words = f"a curve was found, but it is too rough: it has more than {_ROUGH} Fourier modes"
+        raise NotProvedError(f"{words}{_nearest(scan, _omega(quotients))}")
     decay = -math.log(_NOISE / abs(xs[1])) / len(xs)  # of the coefficients per mode
     area = math.pi * abs(sum(q * x * y for q, (x, y) in enumerate(zip(xs, ys, strict=True))))
     with ctx.workprec(64):  # rounding adds less than 1e-4
         share = f"{0.9999 * area / float(theorem.bounds['surface'].area()):.5g}"
     for trial in _TRIALS:
         sizes, error = _sizes(decay, *trial)
-        text = _certificate(theorem, start, sizes, share, error)
+        for _ in range(_MOST_ENLARGED):  # few modes would be refused, after a long check
+            text, last = _certificate(theorem, start, sizes, share, error)
+            if last < _LARGEST_LAST * float(error):
+                break
+            sizes = sizes._replace(modes=sizes.modes * 3 // 2)
         try:
             return text, theorem.prove(text)
         except NotProvedError as refusal:
             reason = refusal
-    raise reason
+    near = _nearest(scan, _omega(quotients), len(xs) - 1)
+    raise NotProvedError(f"a curve was found, but {reason}{near}")
 
 
 def _sizes(decay: float, part: float, cells: float, room: float, spare: float) -> tuple[Sizes, str]:
@@ -105,58 +131,95 @@ def _sizes(decay: float, part: float, cells: float, room: float, spare: float) -
     return Sizes(f"{strip:.4g}", f"{loss:.3g}", columns, rows, more_rows, modes), f"1e-{digits}"
 
 
-def _start(theorem: Theorem, quotients: Sequence[int]) -> _Start:
-    """Find a curve in doubles, around the orbit's point with y = 0 and the greatest x."""
+def _scan(theorem: Theorem) -> _Scan:
+    """Find the regular orbits on y = 0, around the orbit's point with y = 0 and the greatest x."""
     surface, points = theorem.bounds["surface"], points_of(theorem, "elliptic")
     symmetric = [i for i, point in enumerate(points) if abs(point[1]) < 1e-9]
     if not symmetric:
         raise ValueError("the orbit has no point on y = 0")
     first = max(symmetric, key=lambda i: points[i][0])
     points = points[first:] + points[:first]
-    with ctx.workprec(BITS):
-        omega = float(noble(quotients)[0])
-    x = _start_on_curve(surface, points, omega)
-    return _Start(points, quotients, *_coefficients_of_orbit(surface, x, len(points), omega))
-
-
-def _start_on_curve(surface: Surface, points: Sequence, omega: float) -> float:
-    """Return the x > that of the first point at which y = 0 meets the curve of a rotation number.
-
-    The curve nearest to the point is taken. Raises ValueError if there is none.
-    """
-    centre, period = points[0][0], len(points)
+    centre = points[0][0]
     with ctx.workprec(53):
         k, g, _ = surface.constants()
         rim = float(g / k + surface.radius())
     reach = rim - centre
-    if period > 1:  # half way to the nearest of the other points
+    if len(points) > 1:  # half way to the nearest of the other points
         others = np.asarray(points[1:], dtype=float)
         reach = 0.5 * float(np.abs(others - points[0]).max(axis=1).min())
-
-    def excess(x: float, impacts: int = _IMPACTS) -> float:
-        return turns(surface, x, points, impacts) - omega
-
     places = [centre + reach * i / _SCAN for i in range(1, _SCAN)]
-    values: list[float] = []
-    for i, x in enumerate(places):
-        values.append(excess(x, _SCAN_IMPACTS))
-        if i and values[-2] * values[-1] < 0.0 and abs(values[-1]) < _LARGEST_STEP:
-            return float(bisect(excess, places[i - 1], x, xtol=1e-17))
-    steps = enumerate(pairwise(values), 1)
-    jump = next((i for i, (a, b) in steps if not abs(b - a) < _LARGEST_STEP), len(values))
-    low, high = omega + min(values[:jump]), omega + max(values[:jump])
-    raise ValueError(
-        f"no curve with the rotation number {omega:.6g} was found on y = 0: "
-        f"near the point the numbers go from {low:.4f} to {high:.4f}"
-    )
+    numbers = [turns(surface, x, points, _SCAN_IMPACTS, _CHAOS) for x in places]
+    pairs = zip(places, numbers, strict=True)
+    return _Scan(surface, points, [(x, number) for x, number in pairs if math.isfinite(number)])
 
 
-def turns(surface: Surface, x: float, points: Sequence, impacts: int) -> float:
-    """Return the clockwise turns of P^n around the first point, per n impacts, modulo 1."""
+def _start(scan: _Scan, quotients: Sequence[int]) -> _Start:
+    """Find a curve in doubles; raises ValueError, with the nearest found, if there is none."""
+    if start := _curve_in_doubles(scan, quotients):
+        return start
+    omega = _omega(quotients)
+    words = f"no curve with the rotation number {omega:.6g} was found on y = 0"
+    raise ValueError(f"{words}{_nearest(scan, omega)}")
+
+
+def _nearest(scan: _Scan, omega: float, most: int = _ROUGH) -> str:
+    """Name the nearest numbers with curves that are found, and have at most `most` modes."""
+    known: dict[tuple[int, ...], bool] = {}
+
+    def is_found(number: float) -> bool:
+        try:
+            quotients = quotients_near(number)
+        except ValueError:
+            return False
+        if (key := tuple(quotients)) not in known:
+            start = _curve_in_doubles(scan, quotients)
+            known[key] = start is not None and len(start.xs) <= most
+        return known[key]
+
+    numbers = sorted({round(n, 4) for _, n in scan.regular}, key=lambda n: abs(n - omega))
+    sides = [n for n in numbers if n < omega], [n for n in numbers if n > omega]
+    near = [next(filter(is_found, side[:_MOST_TRIED]), None) for side in sides]
+    words = " and ".join(f"{n:g}" for n in near if n)
+    return f"; nearest smooth curves found: {words}" * bool(words)
+
+
+def _omega(quotients: Sequence[int]) -> float:
+    """Return the double nearest to a rotation number."""
+    with ctx.workprec(BITS):
+        return float(noble(quotients)[0])
+
+
+def _curve_in_doubles(scan: _Scan, quotients: Sequence[int]) -> _Start | None:
+    """Find the curve of a rotation number that is nearest to the point; None if there is none."""
+    surface, points, regular = scan
+    omega = _omega(quotients)
+
+    def excess(x: float) -> float:
+        return turns(surface, x, points, _IMPACTS) - omega
+
+    for (x, number), (x_after, number_after) in pairwise(regular):
+        if min(number, number_after) < omega < max(number, number_after):
+            with suppress(ValueError):  # longer orbits may have numbers on the same side of omega
+                root = float(bisect(excess, x, x_after, xtol=1e-17))
+                if abs(excess(root)) < _SETTLED:
+                    waves = _coefficients_of_orbit(surface, root, len(points), omega)
+                    return _Start(points, quotients, *waves)
+    return None
+
+
+def turns(
+    surface: Surface, x: float, points: Sequence, impacts: int, tolerance: float = math.inf
+) -> float:
+    """Return the clockwise turns of P^n around the first point, per n impacts, modulo 1.
+
+    NaN if the two halves of the orbit differ by more than the tolerance, as they do in chaos.
+    """
     z = _orbit(surface, x, len(points), impacts)
     angles = np.angle(z[0] - points[0][0] + 1j * (z[1] - points[0][1])) / (2.0 * math.pi)
     steps = np.mod(-np.diff(angles), 1.0)
-    return float(_weights(steps.size) @ steps)
+    first, second = (_weights(half.size) @ half for half in np.array_split(steps, 2))
+    settled = abs(first - second) <= tolerance
+    return float(_weights(steps.size) @ steps) if settled else math.nan
 
 
 def _weights(size: int) -> np.ndarray:
@@ -183,23 +246,32 @@ def _coefficients_of_orbit(
     phases = np.mod(omega * np.arange(1, z.shape[1] + 1), 1.0)
     weights = _weights(z.shape[1])
     xs, ys = [float(weights @ z[0])], [0.0]
-    for q in range(1, 2000):
-        angle = 2.0 * math.pi * q * phases
-        xs.append(float(2.0 * (weights * z[0]) @ np.cos(angle)))
-        ys.append(float(2.0 * (weights * z[1]) @ np.sin(angle)))
+    turn = np.exp(2j * math.pi * phases)
+    wave = np.ones_like(turn)
+    for q in range(1, 400):
+        wave *= turn
+        xs.append(float(2.0 * (weights * z[0]) @ wave.real))
+        ys.append(float(2.0 * (weights * z[1]) @ wave.imag))
         if q > 4 and max(abs(a) for a in (*xs[-3:], *ys[-3:])) < _NOISE:
             break
     return xs[:-3], ys[:-3]
 
 
-def _certificate(theorem: Theorem, start: _Start, sizes: Sizes, share: str, error: str) -> str:
-    """Return a certificate of the curve that Newton's method finds from a start."""
+def _certificate(
+    theorem: Theorem, start: _Start, sizes: Sizes, share: str, error: str
+) -> tuple[str, float]:
+    """Return a certificate of the curve that Newton's method finds from a start.
+
+    The second result is the size of its last coefficients in the strip.
+    """
     surface, radius = theorem.bounds["surface"], f"{float(theorem.bounds['radius']):g}"
     with ctx.workprec(CENTRE_BITS):
         centres = polished(surface, start.points)
     with ctx.workprec(BITS):
-        coefficients = _formatted(_curve(surface, centres, start, sizes.modes), sizes.strip, error)
-    return (
+        curve = _curve(surface, centres, start, sizes.modes)
+        coefficients = _formatted(curve, sizes.strip, error)
+        last = max(abs(float(abs(c))) for waves in curve for c in waves[-5:])
+    text = (
         header("invariant curve", surface)
         + f"radius = {radius}\n"
         + centre_rows(centres)
@@ -210,6 +282,7 @@ def _certificate(theorem: Theorem, start: _Start, sizes: Sizes, share: str, erro
         + "# The curve is the sum of x_q cos(2 pi q t), y_q sin(2 pi q t), q = 0, ...\n"
         + rows("coefficients", coefficients)
     )
+    return text, 2 * last * math.exp(2 * math.pi * float(sizes.strip) * sizes.modes)
 
 
 def _formatted(curve: Curve, strip: str, error: str) -> list[str]:

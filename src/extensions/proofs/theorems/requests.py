@@ -134,7 +134,8 @@ def prove_curve(
     Raises
     ------
     ValueError
-        One line that says what cannot be proved and why.
+        One line that says what cannot be proved and why. If no curve is found, or it is not proved,
+        the line names the nearest rotation numbers with which curves are found, or smoother ones.
 
     References
     ----------
