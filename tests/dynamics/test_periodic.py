@@ -154,6 +154,14 @@ def test_unstable_and_almost_parabolic_orbits_are_right_to_the_last_bit(
         state = tuple(after)
 
 
+def test_orbits_on_a_chain_alternate_in_type_although_their_traces_are_2_to_rounding():
+    """Resonances of high order split curves by less than a rounding; 2 - trace is +-2.4e-17."""
+    orbits = symmetric_orbits(BALL, 0.001, 25)
+    on_chain = np.abs(orbits["trace"].values - 2.0) < 1e-12
+    assert orbits["type"].values[on_chain].tolist() == ["elliptic", "hyperbolic"]
+    assert orbits.attrs["unsolved"] == 0
+
+
 def fixed_points(k, g, energy):
     """Return (theta, x, v, w) of all fixed points, by the closed form of `dynamics.fixed_point`.
 

@@ -14,7 +14,7 @@ from .ball import Ball
 
 DIGITS = 38
 CLOSE = 1e-20  # largest change in the last step, in section radii
-NEWTON_STEPS = 50  # two or three are needed, but near a fold each may only halve the error
+NEWTON_STEPS = 50  # two or three suffice, but near a fold a step only halves the error
 _Numbers = tuple[Decimal, ...]
 # A point (x, y), the next point and the time of flight to it, and their derivatives by x and by y.
 _Flight = tuple[_Numbers, _Numbers, _Numbers, _Numbers]
@@ -32,23 +32,39 @@ def polished(
         k, g, e = Decimal(ball.k), Decimal(ball.g), Decimal(energy)
         states = [[Decimal(a) for a in state] for state in orbit.T.tolist()]
         points: list[_Numbers] = [(x, v - k * w, tau) for x, v, w, tau in states]
-        # Flights i and (line - 1 - i) % n are mirror images; `line` is 1 for a start on Fix RP.
+        # Points i and (line - i) % n are mirror images; `line` is 1 for a start on Fix RP. Their y
+        # have the sum 0: this keeps the equations of half the orbit regular where the trace is 2.
         line = int(abs(points[0][1]) > abs(points[0][1] + points[1 % n][1]))
+        half = (n + line + 1) // 2
+        points = [points[i % n] for i in range(half + 1)]
         for _ in range(NEWTON_STEPS):
-            flights = [_flight(k, g, e, *point) for point in points[: (n + line + 1) // 2]]
-            flights += [_mirrored(*flights[(line - 1 - i) % n]) for i in range(len(flights), n)]
+            flights = [_flight(k, g, e, *point) for point in points[:half]]
             x, y, _ = points[0]
-            starts = (x, y), (x + 1, y), (x, y + 1)
-            (p, q, _), (a, c, _), (b, d, _) = (_path(flights, *start)[n] for start in starts)
-            a, b, c, d, p, q = a - p, b - p, c - q, d - q, p - x, q - y
-            x += ((1 - d) * p + b * q) / (2 - a - d)
-            y += ((1 - a) * q + c * p) / (2 - a - d)
-            before, points = points, _path(flights, x, y)[:n]
+            (p, q), (a, c), (b, d) = (
+                (path[0][1] + path[line][1], path[half][1] + path[(line - half) % n][1])
+                for path in _paths(flights, x, y)
+            )
+            a, b, c, d = a - p, b - p, c - q, d - q
+            x += (b * q - d * p) / (a * d - b * c)
+            y += (c * p - a * q) / (a * d - b * c)
+            before, points = points, _path(flights, x, y)
             both = zip(before, points, strict=True)
             if max(abs(u - v) for two in both for u, v in zip(*two, strict=True)) < CLOSE * radius:
-                rows = [(x, *_velocities(k, g, e, x, y)[:2], tau) for x, y, tau in points]
-                return float(a + d), np.array(rows, dtype=float).T
-    raise ArithmeticError("Newton's method does not converge")
+                break
+        else:
+            raise ArithmeticError("Newton's method does not converge")
+        flights += [_mirrored(*flights[(line - 1 - i) % n]) for i in range(half, n)]
+        points, along, across = _paths(flights, x, y)
+        trace = along[n][0] - points[n][0] + across[n][1] - points[n][1]
+        rows = [(x, *_velocities(k, g, e, x, y)[:2], tau) for x, y, tau in points[:n]]
+        below = np.nextafter(2.0, 0.0)  # a trace is not rounded to that of another type
+        rounded = np.clip(float(trace), -below, below) if abs(trace) < 2 else trace
+        return float(rounded), np.array(rows, dtype=float).T
+
+
+def _paths(flights: list[_Flight], x: Decimal, y: Decimal) -> list[list[_Numbers]]:
+    """Return the paths from (x, y), (x + 1, y) and (x, y + 1)."""
+    return [_path(flights, x + i, y + j) for i, j in ((0, 0), (1, 0), (0, 1))]
 
 
 def _path(flights: list[_Flight], x: Decimal, y: Decimal) -> list[_Numbers]:

@@ -61,7 +61,9 @@ def test_digits_of_points_times_and_traces(k, g, energy, periods, step):
                 if growth > 51.0 or abs(trace - 2.0) < 0.99e-3:
                     polished += 1
                     assert np.all(off <= 0.51 * np.spacing(np.abs(points.T))), (period, trace)
-                    assert wrong <= 0.51 * np.spacing(abs(trace)), (period, trace)
+                    # The trace of an elliptic orbit is below 2, even if 2 is nearer.
+                    last_bits = 1.01 if abs(trace) == np.nextafter(2.0, 0.0) else 0.51
+                    assert wrong <= last_bits * np.spacing(abs(trace)), (period, trace)
                 elif growth < 49.0:
                     assert np.max(off) < OF_POINTS * radius * 10, (period, trace)
                     assert wrong < OF_TRACES * max(2.0, abs(trace)), (period, trace)
