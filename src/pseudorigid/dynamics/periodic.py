@@ -19,6 +19,7 @@ from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball, require_ball
 from .inputs import number, whole_number
+from .polish import polished
 from .variables import NAMES, TIME, described, variables
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -30,9 +31,10 @@ RESOLUTION = 20_000
 # Distance in section radii below which two points are the same. The error of a solution is smaller,
 # and the cells of the search are wider.
 SAME = 1e-9
-# Largest |P^n z - z| of a solution, in section radii: about fifty roundings. If |multiplier| > 50
-# it is multiplied by |multiplier|/50, because the map multiplies the error of z.
-CLOSURE = 1e-14
+# An orbit is polished in decimals if derivatives of P^n at its points exceed MOST_GROWTH, because
+# they multiply the error of a point, if its trace is closer to 2 than PARABOLIC, by which an error
+# is divided, or if |P^n z - z| exceeds CLOSURE, in section radii: about fifty roundings.
+MOST_GROWTH, PARABOLIC, CLOSURE = 50.0, 1e-3, 1e-14
 # |P^n z - z|, in section radii, above which a sign change is a jump of the map. At a root between
 # neighbouring doubles it is 1e-16 times the multiplier.
 JUMP = 1e-6
@@ -58,9 +60,12 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
         hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface;
         multiplier, its eigenvalue of largest modulus, or the modulus, 1, of an elliptic orbit;
         rotation_number, the argument of the multiplier over 2 pi, 0 to 1/2; total_time, the sum of
-        tau. `orbit` has length 0 if none is found. The first point lies on a symmetry line, unless
-        the orbit is too sensitive there to be closed. Attributes: resolution, the number of cells
-        of each line; unsolved, the number of orbits that were seen but do not close to CLOSURE.
+        tau. `orbit` has length 0 if none is found. The first point lies on a symmetry line.
+        Points, times and traces of orbits that are unstable (MOST_GROWTH) or almost parabolic are
+        right to the last bit. Those of others are right to rounding times up to MOST_GROWTH and
+        1/|trace - 2|; for periods up to 40 all tried were good to 2e-12 section radii and traces
+        to 1e-12. Attributes: resolution, the number of cells of each line; unsolved, the number of
+        orbits that were seen but on which Newton's method does not converge.
 
     Raises
     ------
@@ -85,16 +90,18 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
     solved, unsolved = [], 0
     for orbit in _distinct_orbits(ball, energy, period, radius):
         # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
-        x, xdot, udot, _ = orbit[:, 0]
-        trace = float(np.trace(ball.jacobian(x, xdot, udot, period)) - 1.0)
-        limit = CLOSURE * radius * max(1.0, abs(_multiplier(trace)) / 50.0)
-        # If the orbit is too sensitive at its first point, begin it at another one.
-        nearest = (_closest(ball, energy, point, period) for point in orbit[:3].T)
-        first = next((state for state, gap in nearest if gap <= limit), None)
-        if first is None:
+        x, xdot, udot, _ = orbit
+        jacobians = ball.jacobian(x, xdot, udot, period)
+        trace = float(np.trace(jacobians[0]) - 1.0)
+        if np.max(np.abs(jacobians)) <= MOST_GROWTH and abs(trace - 2.0) >= PARABOLIC:
+            first, gap = _closest(ball, energy, orbit[:3, 0], period)
+            if gap <= CLOSURE * radius:
+                solved.append((trace, _orbit_from(ball, first, period)))
+                continue
+        try:
+            solved.append(polished(ball, energy, orbit, radius))
+        except ArithmeticError:
             unsolved += 1
-        else:
-            solved.append((trace, _orbit_from(ball, first, period)))
     solved.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
     traces = np.array([trace for trace, _ in solved])
     points = np.array([orbit for _, orbit in solved]).reshape(len(solved), 4, period)
