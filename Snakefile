@@ -25,8 +25,10 @@ include: "workflow/rules/study.smk"
 # Rules of extensions.
 for name in extensions():
     if (EXTENSIONS / name / "rules.smk").is_file():
-
-        include: EXTENSIONS / name / "rules.smk"
+        try:
+            workflow.include(EXTENSIONS / name / "rules.smk")
+        except Exception as error:
+            sys.exit(f"src/extensions/{name}/rules.smk: {error}")
 
 
 rule all:

@@ -1,11 +1,16 @@
 """The workflow: it turns config.yaml into files and checks them."""
 
+import os
 import sys
 
 from .loading import Finder
 
 if Finder not in sys.meta_path:
     sys.meta_path.insert(0, Finder)
+
+# Read when netCDF4 is loaded. Files are written whole, so that HDF5 need not lock them, which fails
+# on file systems without locks.
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 
 from pseudorigid.kernel import compiled  # loaded from its text
 

@@ -19,12 +19,24 @@ and in each `extension.py`.
 """
 
 import importlib
+import os
+import traceback
 from collections.abc import Mapping
 from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 FOLDER = Path(__file__).resolve().parents[1] / "extensions"
+
+
+class SourceError(ValueError):
+    """A source file that is missing or cannot be loaded: one line that names it."""
+
+    def __init__(self, path: str | os.PathLike[str], reason: Exception | str) -> None:
+        frames = traceback.extract_tb(getattr(reason, "__traceback__", None))
+        lines = [f"line {frame.lineno}: " for frame in frames if frame.filename == str(path)]
+        place = os.path.relpath(path, FOLDER.parents[1])
+        super().__init__(f"{place}: {''.join(lines[-1:])}{reason}")
 
 
 class Stage(NamedTuple):
@@ -129,9 +141,7 @@ class Extension(NamedTuple):
 def _declared() -> dict[str, Extension]:
     """Return what each folder of src/extensions declares."""
     folders = [file.parent.name for file in sorted(FOLDER.glob("*/extension.py"))]
-    return {
-        name: importlib.import_module(f"extensions.{name}.extension").EXTENSION for name in folders
-    }
+    return {name: imported(f"extensions.{name}.extension.EXTENSION") for name in folders}
 
 
 @cache
@@ -159,9 +169,13 @@ def lacking(command: str) -> str | None:
 
 
 def imported(name: str) -> Any:
-    """Return what a name MODULE.NAME stands for."""
+    """Return what a name MODULE.NAME stands for; raises SourceError if there is none."""
     module, _, last = name.rpartition(".")
-    return getattr(importlib.import_module(module), last)
+    try:
+        return getattr(importlib.import_module(module), last)
+    except (ModuleNotFoundError, AttributeError) as error:
+        path = FOLDER.parent.joinpath(*module.split(".")).with_suffix(".py")
+        raise SourceError(path, error) from error
 
 
 def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]:

@@ -24,6 +24,14 @@ def note_loaded(path: str | os.PathLike[str], data: bytes) -> None:
 class _Loader(SourceFileLoader):
     """Compile a module from the text that its file has now."""
 
+    def exec_module(self, module: ModuleType) -> None:
+        try:
+            super().exec_module(module)
+        except (SyntaxError, ImportError, NameError, AttributeError, TypeError) as error:
+            from .declaration import SourceError  # when modules are loaded from their text
+
+            raise SourceError(self.path, error) from error
+
     def get_code(self, fullname: str) -> CodeType:
         path = self.get_filename(fullname)
         data = self.get_data(path)

@@ -17,7 +17,7 @@ from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.jobs.plan import plan
 from pipeline.jobs.server import ADDRESS
 from pipeline.records.build_spec import BuildSpec
-from pipeline.records.files import disk_is_full, inode
+from pipeline.records.files import disk_is_full, inode, memory_is_short
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
@@ -78,7 +78,9 @@ class LogHandler(LogHandlerBase):
     def close(self) -> None:
         """Print snakemake's own messages if it ended before any job failed."""
         if self.errors and not self.failed:
-            print(*self.errors, sep="\n", file=sys.stderr, flush=True)
+            text = "\n".join(self.errors)
+            print(memory_is_short(text) or text, file=sys.stderr, flush=True)
+            self.errors.clear()  # it is called twice
         super().close()
 
     def _running(self) -> str:

@@ -2,18 +2,19 @@
 
 import io
 import json
+import shutil
 from contextlib import nullcontext
 
 import pytest
 import yaml
-from project import of_scenes
+from project import ROOT, of_scenes
 from verdicts import commit
 
 from pipeline import config
 from pipeline.cli import arguments
 from pipeline.cli.commands import clean
 from pipeline.cli.session import CommandLineError, UsageError
-from pipeline.records.record import record_path
+from pipeline.records.record import git, record_path
 
 DOCUMENT = of_scenes("fig3", variants={"near": {"energy": 0.009}})
 RECORDED = [
@@ -137,8 +138,56 @@ def test_no_path_in_a_record_is_followed(root):
         assert left(root) == KEPT, output
 
 
-@pytest.mark.parametrize("name", ["results", "results/paper", "results/paper/logs", ".snakemake"])
-def test_no_link_is_followed(root, tmp_path, name):
+def test_results_may_be_a_link(root, tmp_path, capsys):
+    """As on a cluster; git may track files of the folder elsewhere."""
+    outside = tmp_path / "scratch" / "of mine"
+    outside.parent.mkdir()
+    (root / "results").rename(outside)
+    (root / "results").symlink_to(outside)
+    write(outside / "explorer.html")
+    (outside / "mine" / "link").symlink_to("orbits.nc")
+    commit(outside.parent, "of mine/paper/motion_fig3.nc")
+    assert run("--yes", root=root) == 0
+    assert left(root) == KEPT | {"results/paper/motion_fig3.nc"}
+    assert (root / "results").is_symlink() and not (outside / "explorer.html").exists()
+    first, *others = capsys.readouterr().out.splitlines()
+    assert first.startswith("deleted 13 files, ")
+    kept = {f"stays: {name}" for name in left(root) if name.startswith("results/")}
+    assert {*others} == kept | {"stays: results/mine/link"}
+
+
+def test_files_of_others_stay_behind_a_link(root, tmp_path, monkeypatch):
+    """A folder that has more than results may have folders of such names."""
+    home = tmp_path / "home"
+    names = ["paper/logs/build.log", "report/index.html", "logs/a.nc.log", "other/logs/a.nc.log"]
+    names += ["paper/why.txt", "compare/a/b.png", ".x.part", "other/.x.part"]
+    for name in names:
+        write(home / name)
+    results = (root / "results").rename(root / "kept")
+    (root / "results").symlink_to(home)
+    assert run("--yes", root=root) == 0
+    assert all((home / name).exists() for name in names)
+    monkeypatch.setenv("HOME", str(home))
+    for folder in (home, root, root.parent, "/"):
+        (root / "results").unlink()
+        (root / "results").symlink_to(folder)
+        with pytest.raises(UsageError, match=r"^results is a link to .*, which has other files"):
+            run("--yes", root=root)
+    assert results.is_dir() and all((home / name).exists() for name in names)
+
+
+def test_a_link_in_the_place_of_results_is_ignored_by_git(root):
+    shutil.copy(ROOT / ".gitignore", root)
+    commit(root, "config.yaml")
+    for name in ("results", ".snakemake"):
+        (root / name).rename(root.parent / name)
+        (root / name).symlink_to(root.parent / name)
+    untracked = git("status", "--porcelain", "--untracked-files=all", root=root)
+    assert b"results" not in untracked and b".snakemake" not in untracked
+
+
+@pytest.mark.parametrize("name", ["results/paper", "results/paper/logs", ".snakemake"])
+def test_no_other_link_is_followed(root, tmp_path, name):
     outside, link = tmp_path / "outside", root / name
     link.rename(outside)
     link.symlink_to(outside)

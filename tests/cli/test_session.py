@@ -1,5 +1,6 @@
 """The lock of a folder outlives a killed run for as long as the snakemake that it started."""
 
+import errno
 import os
 import signal
 import subprocess
@@ -57,6 +58,56 @@ def test_output_that_cannot_be_written_is_one_line(words):
     with open("/dev/full", "w") as full:
         lines = ["reproduce: cannot write to stdout: No space left on device"]
         assert started(ROOT, *words, stdout=full) == (1, lines)
+
+
+@pytest.mark.parametrize("closed", ["", "<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_a_closed_stream_is_no_failure(tmp_path, closed):
+    """A file that is opened later must not become the stream either."""
+    (tmp_path / "streams.py").write_text(
+        "import os\nfrom pipeline.cli import main\n"
+        f"number = os.open({str(tmp_path / 'file')!r}, os.O_RDWR | os.O_CREAT)\n"
+        "print('said')\nprint('said', file=main.sys.stderr)\n"
+        "raise SystemExit(main.main(['--version']) or 10 * (number < 3))\n"
+    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    command = f'"$0" streams.py {closed}'
+    how = {"cwd": tmp_path, "env": environment, "capture_output": True}
+    result = subprocess.run(["sh", "-c", command, sys.executable], check=False, **how)
+    assert result.returncode == 0
+    assert result.stdout.startswith(b"said\n") == (">&- " not in f" {closed} ".replace("2>&-", ""))
+    assert result.stderr == (b"" if "2>&-" in closed else b"said\n")
+    assert (tmp_path / "file").read_text() == ""
+
+
+def test_list_with_its_output_closed_succeeds(tmp_path):
+    assert started(ROOT, "list", preexec_fn=lambda: os.close(1)) == (0, [])
+
+
+def test_help_that_cannot_be_written_is_one_line():
+    with open("/dev/full", "w") as full:
+        lines = ["reproduce: cannot write to stdout: No space left on device"]
+        assert started(ROOT, "help", stdout=full) == (1, lines)
+
+
+def test_a_file_system_without_locks_is_said_once(tmp_path, monkeypatch, capsys):
+    def refuse(file, how):
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr(session, "ROOT", tmp_path)
+    monkeypatch.setattr(session.fcntl, "flock", refuse)
+    monkeypatch.setenv(session._NO_LOCKS, "")  # as before any command
+    for _ in range(2):  # as after an installation
+        with session.locked():
+            pass
+    line = "reproduce: no locks here (No locks available): run one command at a time\n"
+    assert capsys.readouterr().err == line
+
+
+def test_results_that_are_no_folder_are_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(session, "ROOT", tmp_path)
+    (tmp_path / "results").symlink_to("nowhere")
+    with pytest.raises(session.UsageError, match=r"^results is no folder"), session.locked():
+        pass
 
 
 def test_a_deleted_working_folder_is_one_line(tmp_path):

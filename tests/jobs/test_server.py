@@ -13,6 +13,7 @@ PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
     "bad": "raise ValueError('bad input')",
     "bug": "1 / 0",
+    "short": "raise MemoryError",
     "killed": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
     "modules": "import sys; print(*[name in sys.modules for name in ('xarray', 'numba')])",
 }
@@ -55,21 +56,22 @@ def tree(tmp_path):
 
 
 def test_many_jobs_at_once_end_as_they_should(tree):
-    programs = ("good", "bad", "bug", "killed", "modules")
+    programs = ("good", "bad", "bug", "killed", "modules", "short")
     result = tree.python("main.py", "2", "nc", *programs)
     assert (result.returncode, result.stderr) == (0, "")
     words = result.stdout.split()
     assert words[:4] == ["True", "True"] * 2  # jobs of a run that computes data find numba loaded
-    assert words[4:] == ["0", "1", "1", "1", "0"] * 2
+    assert words[4:] == ["0", "1", "1", "1", "0", "1"] * 2
     assert (tree.path / "count").read_text() == "x" * 2
     folder = tree.path / "results/paper"
-    logs = [folder / f"logs/{i}.nc.log" for i in range(4)]
+    logs = [folder / f"logs/{i}.nc.log" for i in (0, 1, 2, 3, 5)]
     assert not logs[0].exists()
     last = [log.read_text().splitlines()[-1] for log in logs[1:]]
     assert last[0] == "pseudorigid: fig: bad input"
     assert last[1].startswith("pseudorigid: fig: ZeroDivisionError: division by zero (traceback in")
-    assert last[2].startswith("pseudorigid: fig: the job was killed")
-    assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "5.nc"}
+    assert last[2] == "pseudorigid: fig: the job was killed (SIGKILL): memory may be short"
+    assert last[3].startswith("pseudorigid: fig: memory is short")
+    assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "6.nc"}
 
 
 def test_jobs_start_as_usual_without_a_server(monkeypatch):

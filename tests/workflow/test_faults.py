@@ -5,6 +5,8 @@ import errno
 import fcntl
 import os
 import re
+import resource
+import shutil
 import signal
 import subprocess
 import types
@@ -197,6 +199,85 @@ def test_a_run_on_a_full_disk_says_so_before_it_starts(start, monkeypatch):
     monkeypatch.setattr("shutil.disk_usage", lambda path: free)
     with pytest.raises(UsageError, match=r"^the disk is full, 0\.3 MB are left$"):
         start()
+
+
+def test_short_memory_is_one_line(tree):
+    """Python's traceback and three sentences of a library would not say so."""
+    how = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    limit = (300_000_000, 300_000_000)
+    run = tree.start(**how, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit))
+    output, _ = run.communicate(timeout=60)
+    line = "reproduce: memory is short: the limit is 300 MB (ulimit -v)\n"
+    assert (run.returncode, output) == (1, line)
+
+
+NO_LOCKS = """
+#include <errno.h>
+int flock(int file, int how) { errno = ENOLCK; return -1; }
+"""
+
+
+@pytest.mark.skipif(not shutil.which("cc"), reason="needs a C compiler")
+def test_a_run_goes_on_without_locks(done, tmp_path):
+    """Neither ./reproduce nor HDF5 needs them."""
+    library = tmp_path / "no_locks.so"
+    command = ["cc", "-shared", "-fPIC", "-xc", "-", "-o", library]
+    subprocess.run(command, input=NO_LOCKS, text=True, check=True)
+    (done.path / "results/paper/motion_fig3.nc").unlink()
+    result = done.run("paper_figures/fig3.png", LD_PRELOAD=str(library))
+    assert result.returncode == 0, result.stdout
+    line = "reproduce: no locks here (No locks available): run one command at a time\n"
+    assert result.stdout.count("no locks") == 1 and result.stdout.startswith(line)
+
+
+# File of src/ -> text with a mistake, or None for no file; and the line about it.
+BROKEN = {
+    "pseudorigid/figures/kinds/portrait.py": (None, "no module pseudorigid.figures.kinds.portrait"),
+    "pseudorigid/figures/kinds/motion.py": (
+        b"\ndef draw(:\n",
+        "invalid syntax (motion.py, line 2)",
+    ),
+    "pseudorigid/dynamics/orbits.py": (None, "no module pseudorigid.dynamics.orbits"),
+    "pipeline/config/schema/kinds/paper.py": (b"\n\nx\n", "line 3: name 'x' is not defined"),
+    "pipeline/cli/commands/list.py": (None, "No module named 'pipeline.cli.commands.list'"),
+    "extensions/atlas/extension.py": (
+        b"",
+        "module 'extensions.atlas.extension' has no attribute 'EXTENSION'",
+    ),
+    "extensions/atlas/kinds.py": (
+        b"x = '\xe4'\n",
+        "(unicode error) 'utf-8' codec can't decode byte 0xe4 in position 0: unexpected end of "
+        "data (kinds.py, line 1)",
+    ),
+    "extensions/atlas/scenes.yaml": (b"sweeps: [1]\n", "'list' object is not a mapping"),
+    "pipeline/config/study.yaml": (
+        b"x: {\n",
+        "line 2, column 1: not valid YAML: expected the node content, but found '<stream end>'",
+    ),
+}
+
+
+def test_a_broken_source_is_a_line_that_names_it(tree):
+    for name, (text, line) in BROKEN.items():
+        file = tree.path / "src" / name
+        kept = file.read_bytes()
+        file.unlink()
+        if text is not None:
+            file.write_bytes(text)
+        result = tree.run("list")
+        assert (result.returncode, result.stdout) == (1, f"reproduce: src/{name}: {line}\n")
+        file.write_bytes(kept)
+
+
+@pytest.mark.slow
+def test_broken_rules_and_captions_of_an_extension_are_named(done):
+    for name, command in {"captions.toml": "report", "rules.smk": "fig3"}.items():
+        (done.path / "results/paper/figures/fig3.png").unlink()
+        with (done.path / "src/extensions/atlas" / name).open("a") as file:
+            file.write("rule broken:\n    inpu: 3\n")
+        result = done.run(command)
+        assert result.returncode == 1 and "Traceback" not in result.stdout
+        assert f"src/extensions/atlas/{name}: " in result.stdout
 
 
 def test_a_reader_that_has_seen_enough_ends_a_plan(tree):

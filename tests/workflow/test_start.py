@@ -1,5 +1,6 @@
 """Refusals before anything starts, and the installation of .venv."""
 
+import fcntl
 import os
 import re
 import shutil
@@ -7,6 +8,7 @@ import signal
 import subprocess
 import sys
 import zipfile
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
@@ -242,6 +244,39 @@ def test_a_signal_to_the_set_up_ends_its_installer(set_up):
     wait_for(lambda: not Path(f"/proc/{installer}").exists(), seconds=30)
 
 
+def test_a_signal_while_the_installer_starts_leaves_none(set_up):
+    """Popen has then started a process that nobody knows."""
+    interrupted = """
+_Popen = subprocess.Popen
+
+
+class _Interrupted(_Popen):
+    def __init__(self, command, **how):
+        super().__init__(command, **how)
+        if "install" in command:
+            signal.raise_signal(signal.SIGTERM)
+
+
+subprocess.Popen = _Interrupted
+"""
+    with (set_up.tree / "src/pipeline/cli/packages.py").open("a") as module:
+        module.write(interrupted)
+    (set_up.folder / "bin" / "uv").write_text("#!/bin/sh\nexec sleep 60\n")
+    (set_up.folder / "bin" / "uv").chmod(0o755)
+    process = set_up.start()
+    _, output = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert without_waits(output).endswith("reproduce: interrupted: run it again to go on\n")
+    with (set_up.tree / ".lock").open("w") as lock:
+
+        def free():
+            with suppress(BlockingIOError):
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return True
+
+        wait_for(free, seconds=10)
+
+
 @pytest.mark.slow
 def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     process, installer = start_slowly(set_up)
@@ -263,7 +298,7 @@ def test_the_venv_works_in_a_folder_with_a_space_and_is_made_anew_where_it_is_mo
     for name in ("the first, é", "moved"):
         place = set_up.venv.parent.rename(set_up.folder / name)
         set_up.venv = place / ".venv"
-        assert set_up.run() == MADE
+        assert set_up.run(LC_ALL="C") == MADE
         require_installed(set_up, set_up.installer)
         assert set_up.shell(".venv/bin/needed-where 'a b'") == f"{set_up.venv} a b\n"
         for shell in ("sh", "bash", "zsh"):
@@ -271,8 +306,12 @@ def test_the_venv_works_in_a_folder_with_a_space_and_is_made_anew_where_it_is_mo
                 activated = set_up.shell(". ./.venv/bin/activate; needed-where", shell)
                 assert activated == f"{set_up.venv}\n"
         assert set_up.run() == READY
-    output = set_up.shell(".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'")
-    assert output == f"{set_up.venv.parent}/src/pipeline\n"
+    place = set_up.venv.parent.rename(set_up.folder / "größer, 日")
+    for locale in ("C", "xx_YY.UTF-8", "C.UTF-8"):  # the second is not installed
+        command = ".venv/bin/python -c 'import pipeline; print(*pipeline.__path__)'"
+        environment = {"PATH": "/usr/bin:/bin", "LC_ALL": locale}
+        result = run("sh", "-c", command, env=environment, cwd=place, encoding="utf-8")
+        assert (result.stdout, result.stderr) == (f"{place}/src/pipeline\n", "")
 
 
 def test_a_folder_that_installers_cannot_take_is_refused_in_one_line(set_up):

@@ -6,7 +6,7 @@ from functools import cache
 from pipeline.config import ConfigError, paths
 from pipeline.config.build_specs import with_dependencies
 from pipeline.declaration import FOLDER as EXTENSIONS
-from pipeline.declaration import extensions
+from pipeline.declaration import SourceError, extensions
 from pipeline.jobs.plan import plan
 from pipeline.records.files import FileError
 from pipeline.records.record import log_path, record_path
@@ -24,7 +24,7 @@ try:
     PLAN = plan()
     if workflow.is_main_process:  # and not a job on a cluster
         PLAN.write_reasons()
-except (ConfigError, FileError) as error:
+except (ConfigError, FileError, SourceError) as error:
     sys.exit(str(error))
 
 SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config.variants

@@ -58,6 +58,10 @@ class Arguments(argparse.Namespace):
 class _Parser(argparse.ArgumentParser):
     """A parser that reports a mistake in one line."""
 
+    def print_help(self, file: Any = None) -> None:
+        """Print the help; argparse itself is silent if it cannot be written."""
+        print(self.format_help(), end="", file=file)
+
     def error(self, message: str) -> NoReturn:
         message = explain(self, message)
         _refuse(message[0].lower() + message[1:], self.prog)

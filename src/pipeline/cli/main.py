@@ -1,11 +1,12 @@
 """Run a command of ./reproduce."""
 
-import importlib
 import os
 import sys
 from pathlib import Path
 
 from ..commands import DEFAULT_COMMAND, all_commands, module_of
+from ..declaration import SourceError, imported
+from ..records.files import memory_is_short
 from . import arguments
 
 
@@ -18,8 +19,13 @@ def main(words: list[str]) -> int:
             sys.stdout.flush()  # an error that comes at the end of the process cannot be reported
     except BrokenPipeError:  # the reader has ended, for instance `| head`
         reason = None
+    except SourceError as error:
+        reason = memory_is_short(error) or str(error)
     except OSError as error:
         reason = f"{error.filename or 'cannot write to stdout'}: {error.strerror}"
+    except Exception as error:
+        if (reason := memory_is_short(error)) is None:
+            raise
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if reason:
         print(f"reproduce: {reason}", file=sys.stderr)
@@ -53,8 +59,8 @@ def _run(words: list[str]) -> int:
             from .packages import add_packages
 
             add_packages(command.packages)
-        module = importlib.import_module(module_of(command, args.word, vars(args)))
-        return int(module.run(args))
+        run = imported(f"{module_of(command, args.word, vars(args))}.run")
+        return int(run(args))
     except ConfigError as error:
         print(error, file=sys.stderr)
     except (UsageError, FileError, ChangedError) as error:

@@ -83,6 +83,9 @@ def set_up(stamp: str, *arguments: str) -> None:
                 _make()
                 write_whole(STAMP, stamp)
     except KeyboardInterrupt:
+        with suppress(OSError):  # Popen, if interrupted, leaves the process that it has started
+            for child in Path("/proc/thread-self/children").read_text().split():
+                os.kill(int(child), signal.SIGKILL)
         print_error("interrupted: run it again to go on")
         sys.exit(130)
     except (UsageError, FileError, OSError) as error:
@@ -111,7 +114,8 @@ def _make() -> None:
     print_error("installing the locked packages into .venv (once)")
     _check(_run([sys.executable, "-I", "-m", "venv", "--without-pip", VENV]))
     _install("build", "lock")
-    next(VENV.glob("lib/*/site-packages")).joinpath("pseudorigid.pth").write_text(f"{ROOT}/src\n")
+    # Python reads it in the locale's encoding: a relative path is ASCII.
+    write_whole(next(VENV.glob("lib/*/site-packages")) / "pseudorigid.pth", "../../../../src\n")
 
 
 def _install(*names: str, again: bool = False) -> None:

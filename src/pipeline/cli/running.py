@@ -11,7 +11,7 @@ from typing import Any
 from ..checks.freshness import DAMAGED, Freshness
 from ..config.build_specs import with_dependencies
 from ..jobs.server import job_server
-from ..records.files import disk_is_full, why_not_a_file
+from ..records.files import disk_is_full, memory_is_short, why_not_a_file
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import Arguments
@@ -49,7 +49,7 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         return 0
     if not outdated and not args.options:
         return 0
-    if words := disk_is_full(ROOT):
+    if words := disk_is_full(ROOT) or memory_is_short():
         raise UsageError(words)
     _require_folders(outdated)
     command = [sys.executable, "-P", "-m", "snakemake", *OPTIONS, "--cores", args.cores]
@@ -85,6 +85,8 @@ def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | No
     if caught:
         print_error("interrupted: run it again to go on")
         return INTERRUPTED
+    if status < 0:
+        print_error(f"snakemake was killed ({signal.Signals(-status).name}): memory may be short")
     if status and (logs := sorted(ROOT.glob(".snakemake/log/*.log"))):
         newest = logs[-1]  # names begin with the time
         print_error(f"snakemake's log: {newest.relative_to(ROOT)}")

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import TracebackType
 
 from ..records.build_spec import BuildSpec
-from ..records.files import write_whole
+from ..records.files import memory_is_short, write_whole
 from ..records.record import log_path, recorded, refusal_path
 
 
@@ -36,7 +36,9 @@ def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
             output.update(import_module(f"pipeline.jobs.{spec.program}").make(spec) or {})
     except Exception as error:
         message = " ".join(str(error).split())
-        if not isinstance(error, (ValueError, MemoryError)):  # whose messages are for users
+        if words := memory_is_short(error):
+            message = f"{words} (traceback in {log})"
+        elif not isinstance(error, ValueError):  # whose messages are for users
             message = f"{type(error).__name__}: {message} (traceback in {log})"
         last_line = f"pseudorigid: {spec.scene}: {message}"
         with suppress(OSError, ValueError):  # the disk may be full

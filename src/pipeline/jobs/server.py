@@ -38,18 +38,20 @@ def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
     # The exit status is no answer: multiprocessing may lose it if other threads start jobs.
     receiver, answer = context.Pipe(duplex=False)
     process = context.Process(target=job.make, args=(spec, answer))
-    process.start()
-    answer.close()
-    made = False
-    with receiver, suppress(EOFError):
+    made, reason = False, "it could not start"
+    with receiver, suppress(OSError, EOFError):
+        process.start()
+        answer.close()
         made = receiver.recv()
-    process.join()
-    log = Path(log_path(spec.result))
-    if not made and not log.exists():
+    if process.pid:
+        process.join()
         status = process.exitcode or 0
         reason = signal.Signals(-status).name if status < 0 else "it ended without a message"
+    log = Path(log_path(spec.result))
+    if not made and not log.exists():
+        words = f"the job was killed ({reason}): memory may be short"
         with suppress(ValueError):  # the disk may be full
-            write_whole(log, f"pseudorigid: {spec.scene}: the job was killed ({reason})\n")
+            write_whole(log, f"pseudorigid: {spec.scene}: {words}\n")
     return made
 
 

@@ -3,8 +3,11 @@
 import errno
 import hashlib
 import os
+import re
+import resource
 import shutil
 import stat
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from io import BufferedReader
@@ -13,6 +16,9 @@ from pathlib import Path
 _Path = str | os.PathLike[str]
 ABSENT = (FileNotFoundError, NotADirectoryError)  # errors of a path without a file
 _FULL_MB = 1.0  # a disk with less free space counts as full
+# What Python and the system's loader say where memory is short.
+_LEAST_MEMORY = 600e6  # bytes of addresses that a run takes on two cores; fewer end in tracebacks
+_NO_MEMORY = "MemoryError|Cannot allocate memory|failed to map segment"
 _KINDS = {
     stat.S_IFDIR: "a folder",
     stat.S_IFIFO: "a FIFO",
@@ -75,6 +81,21 @@ def disk_is_full(path: _Path) -> str | None:
     free = usage.free / 1e6
     # Some file systems, /proc among them, have no size.
     return f"the disk is full, {free:.1f} MB are left" if usage.total and free < _FULL_MB else None
+
+
+def memory_is_short(error: BaseException | str = "") -> str | None:
+    """Say that memory is short if an error, its cause or a text says so, else None.
+
+    Without one, say so if the limit of this process is less than a run takes.
+    """
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    limited = limit != resource.RLIM_INFINITY
+    text = error if isinstance(error, str) else "".join(traceback.format_exception(error))
+    # A new thread needs memory; without a limit of memory, too many processes run.
+    signs = _NO_MEMORY + "|can't start new thread" * limited
+    if re.search(signs, text) or (limited and not text and limit < _LEAST_MEMORY):
+        return "memory is short" + f": the limit is {limit / 1e6:,.0f} MB (ulimit -v)" * limited
+    return None
 
 
 @contextmanager

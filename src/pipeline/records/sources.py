@@ -19,6 +19,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..declaration import SourceError
 from ..loading import LOADED, PACKAGES
 from .files import read_text, write_whole
 
@@ -64,9 +65,9 @@ def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> li
 
     These are the files of the modules (dotted names), of all that they import directly or
     indirectly, also inside functions, and of the packages around them. Import statements are read
-    and not run. Modules in `leave_out` are not followed. Raises ValueError if a module does not
-    exist, or if a name is imported from a package that imports its names lazily, which hides the
-    module that defines the name.
+    and not run. Modules in `leave_out` are not followed. Raises SourceError if a module does not
+    exist or is no Python, and ValueError if a name is imported from a package that imports its
+    names lazily, which hides the module that defines the name.
     """
     files, seen, pending = set(), set(leave_out), [*starts]
     while pending:
@@ -78,7 +79,8 @@ def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> li
         seen.add(name)
         file = _file(src, name)
         if file is None:
-            raise ValueError(f"no module {name} in {src}")
+            path = src.joinpath(*name.split(".")).with_suffix(".py")
+            raise SourceError(path, f"no module {name}")
         if file not in files:
             files.add(file)
             pending += _imported_modules(src, file, name if file.name == "__init__.py" else parent)
@@ -88,7 +90,10 @@ def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> li
 
 def _imported_modules(src: Path, file: Path, package: str) -> Iterator[str]:
     """Yield the modules of the packages that `file`, a member of `package`, imports anywhere."""
-    for level, module, names in parsed(file.name, file.read_bytes()).imports:
+    imports = parsed(file.name, file.read_bytes()).imports
+    if isinstance(imports, str):
+        raise SourceError(file, imports)
+    for level, module, names in imports:
         if not (level or module.split(".")[0] in PACKAGES):
             continue
         base = resolve_name("." * level + module, package)
@@ -145,10 +150,13 @@ def compiled_subfolder(module: str, src: Path = SRC) -> str | None:
 
 
 class ParsedSource(NamedTuple):
-    """The hash of a source file, and its imports: number of dots, module and names of each."""
+    """The hash of a source file, and its imports: number of dots, module and names of each.
+
+    Those of a Python file with mistakes are the line about the first mistake.
+    """
 
     syntax_hash: str
-    imports: list[tuple[int, str, list[str]]]
+    imports: list[tuple[int, str, list[str]]] | str
 
 
 def syntax_hash(path: str | os.PathLike[str]) -> str | None:
@@ -166,16 +174,17 @@ def parsed(name: str, data: bytes) -> ParsedSource:
     suffix, results = Path(name).suffix, _results()
     key = f"{suffix} {_sha256(data)}"
     if key not in results:
-        words, imports = [f"{SCHEME}"], []
+        words: list[str] = [f"{SCHEME}"]
+        imports: list[Any] | str = []
         try:
             if suffix == ".py":
-                tree = ast.parse(data)
+                tree = ast.parse(data, name)
                 _describe(tree, words, in_function=False)
                 imports = list(_imports(tree))
             else:
                 words.append(data.hex())
-        except (SyntaxError, ValueError, RecursionError):
-            words = [f"{SCHEME}", "unreadable", data.hex()]
+        except (SyntaxError, ValueError, RecursionError) as error:
+            words, imports = [f"{SCHEME}", "unreadable", data.hex()], str(error)
         results[key] = _sha256("\n".join(words).encode()), imports
         results["new"] = True
     return ParsedSource(*results[key])

@@ -8,11 +8,15 @@ from typing import Any, NamedTuple
 import jinja2
 
 from ...config.schema.kinds import KINDS
-from ...declaration import files
+from ...declaration import SourceError, files
+from ...records.files import read_text
 
 CAPTIONS: dict[str, dict[str, str]] = {}  # kind of picture -> its templates
 for _file in (Path(__file__).with_name("captions.toml"), *files("captions.toml")):
-    CAPTIONS |= tomllib.loads(_file.read_text(encoding="utf-8"))["kinds"]
+    try:
+        CAPTIONS |= tomllib.loads(read_text(_file))["kinds"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise SourceError(_file, error) from error
 
 
 class Caption(NamedTuple):

@@ -1,42 +1,46 @@
 """./reproduce clean: delete generated files in results/, and .snakemake."""
 
 import json
+import os
 import shutil
 import sys
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
 from ...config import ConfigError
 from ...config.build_specs import build_specs
-from ...declaration import extensions
+from ...config.schema.sets import SETS
+from ...declaration import SourceError, extensions
 from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
-from ..session import CommandLineError, UsageError, locked
+from ..session import CommandLineError, UsageError, locked, print_error
 
 RESULTS = ROOT / "results"
-# Files that commands and jobs write besides results and their records. Files named .part are those
-# of killed processes, or finished parts of unfinished datasets.
-_OTHER_FILES = (
-    "*/differences/*.png",
-    "*/logs/*.log",
-    "*/logs/*.json",
-    "*/why/*.txt",
-    "*/.*.part",
-    "*/*/.*.part",
-    "*/*.nc.part/*",
-    "report/*.html",
-    "compare/*/*.png",
+# Files that jobs write in the folder of a set or variant, besides results and their records. Files
+# named .part are those of killed processes, or finished parts of unfinished datasets.
+_BESIDE_RESULTS = (
+    *("differences/*.png", "logs/*.*.log", "logs/*.*.json", "why/*.*.txt"),
+    *(".*.part", "*/.*.part", "*.nc.part/*"),
+)
+# Files that commands write elsewhere in results/.
+_OF_COMMANDS = (
+    *("report/report.html", "compare/*..*/*.png"),
     *(pattern for extension in extensions().values() for pattern in extension.generated),
 )
+_MOST_NAMED = 20  # files that stay
 
 
 def run(args: Arguments) -> int:
-    """Delete the generated files of the named folders of results/.
+    """Delete the generated files of the named folders of results/, which may itself be a link.
 
-    Without names, those of all folders are deleted, and .snakemake too.
+    Without names, those of all folders are deleted, and .snakemake too. Other files are listed.
     """
+    place = RESULTS.resolve()
+    if any(p.resolve().is_relative_to(place) for p in (ROOT, Path(os.path.expanduser("~")))):
+        raise UsageError(f"results is a link to {place}, which has other files: delete by hand")
     existing = sorted(f.name for f in RESULTS.glob("*/") if _has_no_links(f))
     for name in args.folder:
         if name not in existing:
@@ -47,12 +51,14 @@ def run(args: Arguments) -> int:
         files = _generated_files(args, names)
         cache = ROOT / ".snakemake"
         folders = [cache] if not args.folder and cache.is_dir() and not cache.is_symlink() else []
+        kept = [*_kept(names if args.folder else [""], {*files})]
         if not files and not folders:
             print("nothing to delete")
+            print_error(*kept)
             return 0
         size = sum(file.lstat().st_size for file in files) / 1e6
-        top_files = [str(file.relative_to(ROOT)) for file in files if file.parent == RESULTS]
-        where = [f"results/{name}" for name in names] + top_files + [f.name for f in folders]
+        tops = sorted({file.relative_to(RESULTS).parts[0] for file in files})
+        where = [f"results/{name}" for name in tops] + [f.name for f in folders]
         summary = f"{len(files)} files, {size:.1f} MB, in {', '.join(where)}"
         if not args.yes:
             _ask(f"delete {summary}? [y/N] ")
@@ -61,10 +67,10 @@ def run(args: Arguments) -> int:
                 file.unlink()
             for folder in folders:
                 shutil.rmtree(folder)
-            _delete_empty_folders(names)
+            _delete_empty_folders(tops)
         except OSError as error:
             raise UsageError(f"{error.filename}: cannot be deleted: {error.strerror}") from None
-        print(f"deleted {summary}")
+        print(f"deleted {summary}", *kept, sep="\n")
     return 0
 
 
@@ -86,11 +92,26 @@ def _delete_empty_folders(names: list[str]) -> None:
             folder.rmdir()
 
 
+def _kept(names: list[str], deleted: set[Path]) -> Iterator[str]:
+    """Yield a line for each other file in these folders of results/, up to a number."""
+    others = [
+        str(path.relative_to(ROOT))
+        for top in names
+        for path in sorted((RESULTS / top).rglob("*"))
+        if path not in deleted and (path.is_symlink() or not path.is_dir())
+    ]
+    yield from (f"stays: {repr(other)[1:-1]}" for other in others[:_MOST_NAMED])
+    if more := others[_MOST_NAMED:]:
+        yield f"and {len(more)} more files stay"
+
+
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
-    committed = (git("ls-files", "-z", "results", root=ROOT) or b"").decode().split("\0")
-    candidates = {file for pattern in _OTHER_FILES for file in RESULTS.glob(pattern)}
-    with suppress(ConfigError):  # records alone then say which files are results
+    # The folder may be in another repository.
+    committed = (git("ls-files", "-z", root=RESULTS) or b"").decode().split("\0")
+    candidates, known = set[Path](), {*SETS}
+    with suppress(ConfigError, SourceError):  # records alone then say which files are results
+        known |= args.config.variants.keys()
         specs = build_specs(args.config)
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
@@ -100,12 +121,16 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
             result = ROOT / json.loads(read_text(record))["output"]["file"]
             if result in (folder / name, folder / "figures" / name):
                 candidates |= {record, result}
+                known.add(folder.name)
+    for name in known:
+        candidates |= {f for each in _BESIDE_RESULTS for f in (RESULTS / name).glob(each)}
+    candidates |= {file for pattern in _OF_COMMANDS for file in RESULTS.glob(pattern)}
     return [
         file
         for file in sorted(candidates)
         if file.is_file()
         and _has_no_links(file.parent)
-        and str(file.relative_to(ROOT)) not in committed
+        and str(file.relative_to(RESULTS)) not in committed
         and (
             file.relative_to(RESULTS).parts[0] in names
             or (file.parent == RESULTS and not args.folder)
@@ -114,5 +139,5 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
 
 
 def _has_no_links(folder: Path) -> bool:
-    """Return whether a folder of the project lies where its path says, without symbolic links."""
-    return folder.resolve() == ROOT.resolve() / folder.relative_to(ROOT)
+    """Return whether a folder in results/ lies where its path says, without symbolic links."""
+    return folder.resolve() == RESULTS.resolve() / folder.relative_to(RESULTS)

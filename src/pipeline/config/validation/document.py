@@ -9,7 +9,7 @@ import yaml
 from pydantic import create_model
 
 from ...commands import all_commands
-from ...declaration import extensions, files, imported
+from ...declaration import SourceError, extensions, files, imported
 from ...loading import note_loaded
 from ...records.files import FileError, read_bytes
 from ..paths import Config, Variants
@@ -123,7 +123,11 @@ def with_shipped(document: object) -> object:
         return document
     shipped: YamlMapping = {}
     for file in (_STUDY, *files("scenes.yaml")):
-        parsed: Any = _parse(file)
+        try:
+            parsed: Any = _parse(file)
+            parsed = {key: {**block} for key, block in {**parsed}.items()}
+        except (ConfigError, TypeError) as error:  # TypeError: no mapping
+            raise SourceError(file, error) from None
         ball = parsed.pop("ball", None)
         for key, block in parsed.items():
             own = ball if key != "variants" else None
