@@ -7,6 +7,7 @@ from extensions.atlas import cell
 from extensions.atlas.last_curve import last_curve
 from extensions.claims.analyses.clusters import clusters
 from extensions.claims.analyses.control import control
+from extensions.claims.analyses.exclusion import exclusion
 from extensions.claims.analyses.flux import flux
 from extensions.claims.analyses.jumps import jumps
 from extensions.claims.analyses.rotation import rotation
@@ -16,7 +17,6 @@ from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, paper
 from pseudorigid.dynamics.ensemble import ImpactMap
 
 BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
-SEA = (0.55, 0.68)
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
 CONTROL = {
     "strengths": [0.05], "orbits": 120, "impacts": 8000, "period": 6, "starts": STARTS_2,
@@ -49,7 +49,7 @@ def flux_of_the_paper():
     """
     few = {"_BITS": (1200, 900), "_PERIODS_EARLIER": (6, 9)}
     with patch.multiple("extensions.claims.analyses.flux", **few):
-        return made(flux, period=6, distance=3e-4, grid=400, between=SEA, orbits=24, impacts=6000)
+        return made(flux, period=6, distance=3e-4, grid=400, orbits=29, impacts=6000)
 
 
 def datasets(derived, flowing):
@@ -94,11 +94,12 @@ def datasets(derived, flowing):
         "atlas/line": sweep([0.2], line, 300, 3000),
         "atlas/plane": sweep([0.1, 0.2, 0.3], [1.0, 4.0, 10.0], 240, 1500),
         "clusters/clusters": made(
-            clusters, between=SEA, orbits=96, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
+            clusters, orbits=116, impacts=3000, cuts=[4, 6], lags=2, resamples=40,
             seed=1,
         ),
         "control/control": made(control, **CONTROL),
         "control_low/control": made(control, energy=LOW, **CONTROL | {"impacts": 4000}),
+        "exclusion/exclusion": made(exclusion, grid=60, followed=80),
         "jumps/jumps": made(jumps, energies=[0.0018], sides=200),
         "rotation/rotation": made(
             rotation, energies=[0.001, 0.026], starts=200, impacts=6000, detail=(-0.8344, -0.8341),

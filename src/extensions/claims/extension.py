@@ -10,10 +10,11 @@ EXTENSION = Extension(
             name: Stage(f"{_ANALYSES}.{name}.{name}", fields)
             for name, fields in {  # stage -> the fields of a scene that it takes
                 "spread": "orbits length blocks regular regular_impacts cells visits",
-                "clusters": "between orbits impacts cuts lags resamples seed",
+                "clusters": "orbits impacts cuts lags resamples seed",
                 "rotation": "energies starts impacts detail detail_impacts",
                 "jumps": "energies sides",
-                "flux": "period distance grid between orbits impacts",
+                "flux": "period distance grid orbits impacts",
+                "exclusion": "grid followed",
                 "control": "strengths orbits impacts period starts shown drawn resamples seed",
             }.items()
         },

@@ -5,6 +5,7 @@ from typing import Annotated
 
 from annotated_types import Predicate
 
+from extensions.proofs.kinds import Curves
 from pipeline.config.schema.fields import (
     ABSENT,
     LARGEST,
@@ -69,8 +70,8 @@ class Clusters(OfSea):
         "a list of 1 to 7 times", min_length=1, max_length=7
     )
     """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
-    is repeated for each cut, to show what depends on the choice. A run refuses a cut that leaves an
-    orbit fewer than lags + 2 clusters, and names the largest that does not."""
+    is repeated for each cut, to show what depends on the choice. A run refuses a cut that leaves no
+    orbit lags + 2 clusters, and names the largest that does not."""
     lags: int = whole(1, 100)
     """A cluster is compared with this many later ones: the next, the next but one, and so on."""
     resamples: int = whole(10, 100_000)
@@ -80,9 +81,10 @@ class Clusters(OfSea):
     shifts their ends a little, and nothing else. Any number will do."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
-        """Check that samples fit into memory, and that cuts are below the longest flight."""
+        """Check that all fits into memory, and that cuts are below the longest flight."""
         yield from super().cross_field_errors()
         yield from bounded(self, "orbits", "resamples", "orbits drawn")
+        yield from bounded(self, "orbits", "impacts", "impacts in all", 10 * LARGEST)
         if self.lags > self.impacts - 2:
             yield ("lags",), self.lags, f"at most impacts - 2 = {self.impacts - 2}"
         if not is_sound(self):
@@ -151,6 +153,11 @@ class Flux(OfSea):
     """The flux is counted along the orbits, and over a grid of this many points to a side, in the
     rectangle around the section. The work grows with its square."""
 
+    def cross_field_errors(self) -> Iterator[CrossFieldError]:
+        """Check that all impacts fit into memory."""
+        yield from super().cross_field_errors()
+        yield from bounded(self, "orbits", "impacts", "impacts in all")
+
 
 class LastCurve(Scene):
     """residues of the convergents of noble rotation numbers"""
@@ -197,6 +204,20 @@ class LastCurve(Scene):
         if self.drawn * len(nobles) > LARGEST:
             words = f"at most {LARGEST} points drawn, counted over all nobles"
             yield ("drawn",), self.drawn, words
+
+
+class Exclusion(Curves):
+    """where no invariant circle around the fixed point can be"""
+
+    stages = ("exclusion", "curves", "orbits")
+    headline = "excluded share"
+
+    grid: int = whole(10, 4000, 2)
+    """Number of points across the section; they are as far apart in the other direction, where the
+    section is drawn as a disk. 1128 make a million points."""
+    followed: int = whole(1, 10_000)
+    """Number of impacts forwards and backwards after which a point that is not excluded is given
+    up. Where most motion is regular, more impacts exclude more points."""
 
 
 class Control(Scene):

@@ -4,6 +4,9 @@ SECONDS |= {
     "results/claims/rotation_rotation.nc": 8,
     "results/claims/control_control.nc": 8,
     "results/claims/flux_flux.nc": 6,
+    "results/claims/clusters_clusters.nc": 25,
+    "results/claims/exclusion_exclusion.nc": 15,
+    "results/claims/exclusion_exclusion_low.nc": 40,
 }
 
 
@@ -65,6 +68,16 @@ use rule orbits as last_curve with:
         **made("results/{variant}/last_curve_{scene}.nc"),
     log:
         log_path("results/{variant}/last_curve_{scene}.nc"),
+
+
+use rule orbits as exclusion with:
+    """extensions.claims.analyses.exclusion.exclusion"""
+    input:
+        why=reason("results/{variant}/exclusion_{scene}.nc"),
+    output:
+        **made("results/{variant}/exclusion_{scene}.nc"),
+    log:
+        log_path("results/{variant}/exclusion_{scene}.nc"),
 
 
 use rule orbits as control with:
@@ -131,6 +144,17 @@ use rule draw_portrait as draw_last_curve with:
         why=reason("results/{variant}/figures/{scene}.{extension}"),
     wildcard_constraints:
         **of_kind("last_curve"),
+
+
+use rule draw_portrait as draw_exclusion with:
+    """extensions.claims.figures.exclusion.draw"""
+    input:
+        exclusion=dataset("exclusion"),
+        curves=dataset("curves"),
+        orbits=dataset("orbits"),
+        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    wildcard_constraints:
+        **of_kind("exclusion"),
 
 
 use rule draw_portrait as draw_control with:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from annotated_types import Predicate
 
@@ -114,7 +114,7 @@ class Escape(Scene):
 class Curves(OfChaoticOrbits):
     """proved invariant curves on the section"""
 
-    stages = ("curves", "orbits")
+    stages: ClassVar[tuple[str, ...]] = ("curves", "orbits")
     headline = "proved share"
 
     rotation_numbers: Annotated[

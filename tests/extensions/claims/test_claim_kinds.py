@@ -10,6 +10,7 @@ from sections import BALL
 from slowly import slowly
 from small_curve import SMALL
 
+from extensions.claims.analyses.exclusion import exclusion
 from extensions.families.families import families
 from extensions.families.shares import shares
 from extensions.proofs.escape import escape
@@ -31,6 +32,7 @@ SCENES = {
     "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
     "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
+    "exclusion": SCENE | {"followed": 40},
 }  # fmt: skip
 # A kind, the number of one of its datasets, a variable, and a change of it that must show.
 CHANGES = [
@@ -41,6 +43,9 @@ CHANGES = [
     ("flux", 0, "branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
     ("last_curve", 0, "residue", lambda v: 3.0 * v),
     ("control", 0, "class_share", lambda v: 0.5 * v),
+    ("exclusion", 0, "excluded", lambda v: np.minimum(v, 5)),
+    ("exclusion", 0, "share", lambda v: 0.9 * v),
+    ("exclusion", 1, "x", lambda v: v + 0.005),
     ("twist", 0, "twist", lambda v: 1.1 * v),
     ("curves", 0, "x", lambda v: v + 0.005),
     ("horseshoe", 1, "image_p", lambda v: 1.1 * v),
@@ -78,6 +83,7 @@ def horseshoe():
 
 
 OTHERS = {
+    "exclusion": lambda: [exclusion(BALL, 0.01, 60, 40), *curves()],
     "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
     "curves": curves,
     "horseshoe": horseshoe,

@@ -10,26 +10,30 @@ from sections import BALL
 
 from extensions.claims.analyses import clusters as clusters_module
 from extensions.claims.analyses.clusters import clusters
-from pseudorigid import orbit
+from extensions.claims.analyses.sea import ratio, sea_states, section_points
+from pseudorigid import classify_orbits, orbit
 
 ENERGY = 0.01
-SEA = (0.55, 0.68)
+ORBITS = 29  # of which these are chaotic
+CHAOTIC = 24
 
 
 @pytest.fixture(scope="module")
 def clustering():
-    return clusters(BALL, ENERGY, SEA, 24, 1500, [4.0, 6.5], 2, 80, 7)
+    with pytest.MonkeyPatch.context() as patch:  # five groups of orbits
+        patch.setattr(clusters_module, "_IMPACTS_TOGETHER", 5 * 1500)
+        return clusters(BALL, ENERGY, ORBITS, 1500, [4.0, 6.5], 2, 80, 7)
 
 
 def start_of(i):
-    """Start of one of the 24 orbits of `clustering`."""
-    return BALL.start(SEA[0] + (SEA[1] - SEA[0]) * (i + 0.5) / 24, ENERGY)
+    """Start of one of the chaotic orbits of `clustering`."""
+    return sea_states(BALL, ENERGY, ORBITS)[:, i].tolist()
 
 
 @pytest.mark.parametrize("row, cut", [(0, 4.0), (1, 6.5)])
 def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
     count, sizes, periods, pairs = 0, [], [], []
-    for i in range(24):
+    for i in range(CHAOTIC):
         path = orbit(BALL, start_of(i), 1500)
         x, tau = path["x"].values, path["tau"].values
         y = path["xdot"].values - 0.2 * path["udot"].values
@@ -42,6 +46,7 @@ def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
     assert int(clustering["count"].values[row]) == count
     assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(np.mean(sizes))
     assert float(clustering["period"].values[row]) == pytest.approx(np.mean(periods))
+    assert clustering.sizes["orbit"] == CHAOTIC
     expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
     np.testing.assert_allclose(clustering["correlation"].values[row, 0], expected, atol=1e-10)
     for measure in ("correlation", "dependence"):
@@ -71,7 +76,7 @@ def test_energies_and_strains_are_those_of_quadrature(clustering):
     assert float(first["least_strain"]) == pytest.approx(low, abs=1e-6)
     assert float(first["largest_strain"]) == pytest.approx(high, abs=1e-6)
     assert np.all(clustering["energy_error"].values < 1e-14)
-    assert int(clustering["flights"].sum()) == 24 * 1500
+    assert int(clustering["flights"].sum()) == CHAOTIC * 1500
 
 
 @pytest.mark.parametrize("memory", [0.0, 0.6])
@@ -91,3 +96,32 @@ def test_memory_of_an_autoregressive_process(memory):
         assert np.all(low - 0.02 < expected) and np.all(expected < high + 0.02)
         # eight bins of a coordinate explain a little less than its value does
         np.testing.assert_allclose(dependence[0, lag - 1], memory ** (2 * lag), atol=0.03)
+
+
+def test_the_sea_leaves_out_the_starts_in_islands():
+    x, y = section_points(BALL, ENERGY, ORBITS)
+    regular = classify_orbits(BALL, BALL.state_xy(x, y, ENERGY))["type"].values == "regular"
+    assert ORBITS - regular.sum() == CHAOTIC == sea_states(BALL, ENERGY, ORBITS).shape[1]
+    with pytest.raises(ValueError, match="orbits = 1 is not allowed: "):
+        sea_states(BALL, ENERGY, 1)
+
+
+@pytest.mark.slow
+def test_averages_agree_with_those_of_runs_of_twice_the_length():
+    short, long = (clusters(BALL, ENERGY, 200, n, [4.0, 6.5], 1, 40, 1) for n in (50_000, 100_000))
+    bounds = 2.0 * short["period_error"].values
+    assert np.all(np.abs(short["period"].values - long["period"].values) < bounds)
+    shares = []
+    for data in (short, long):
+        strain, kinetic = (data[f"{name}_energy"].values for name in ("strain", "kinetic"))
+        time = data["time"].values
+        shares.append(ratio(strain * time, (strain + kinetic) * time))
+    assert abs(shares[0][0] - shares[1][0]) < 2.0 * shares[0][1]
+
+
+def test_a_ratio_of_sums_has_the_error_of_its_spread():
+    random = np.random.default_rng(2)
+    parts = random.uniform(1.0, 3.0, (400, 50))
+    values, errors = zip(*(ratio(row + random.normal(size=50), row) for row in parts), strict=True)
+    assert np.mean(values) == pytest.approx(1.0, abs=0.01)
+    assert np.std(values) == pytest.approx(np.mean(errors), rel=0.1)

@@ -10,16 +10,19 @@ from project import ROOT
 SMALL = """
 from dataset_hash import content_hash
 from pseudorigid import Ball
-from extensions.claims.analyses import clusters, control, flux, jumps, rotation, spread
+from extensions.claims.analyses import (
+    clusters, control, exclusion, flux, jumps, rotation, spread,
+)
 from extensions.atlas import cell, last_curve
-ball, sea = Ball(0.2, 0.04), (0.55, 0.68)
+ball = Ball(0.2, 0.04)
 for dataset in (
     spread.spread(ball, 0.01, 13, 2000, 4, [-0.44], 256, 8, 256),
-    clusters.clusters(ball, 0.01, sea, 13, 400, [4.0, 6.0], 2, 20, 1),
+    clusters.clusters(ball, 0.01, 16, 400, [4.0, 6.0], 2, 20, 1),
     control.control(ball, 0.01, [0.03], 20, 400, 6, [0.1], 0.03, 20, 20, 1),
     rotation.rotation(ball, 0.01, [0.026], 15, 600, (-0.8344, -0.8341), 600),
     jumps.jumps(ball, 0.01, [0.0018], 60),
-    flux.flux(ball, 0.01, 6, 5e-3, 60, sea, 13, 300),
+    flux.flux(ball, 0.01, 6, 5e-3, 60, 16, 300),
+    exclusion.exclusion(ball, 0.01, 20, 50),
     last_curve.last_curve(ball, 0.01, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
     cell.block_of_cells_of_a_sweep([[0.2, 6.25], [0.1, 0.3]], 20, 2000),
 ):
@@ -39,7 +42,7 @@ def hashes(**environment):
 @pytest.mark.slow
 def test_same_bits_on_another_machine(tmp_path):
     here = hashes()
-    assert len(set(here)) == 8
+    assert len(set(here)) == 9
     there = hashes(
         OMP_NUM_THREADS="1",
         NUMBA_CPU_NAME="generic",

@@ -30,7 +30,7 @@ def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -
     colors = palette(table)[steps]
     colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
     image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
-    _paste(panel.sheet, left, bottom, image)
+    paste(panel.sheet, left, bottom, image)
 
 
 def scale(sheet: Sheet, frame: Sequence[int], largest: float, table: str) -> None:
@@ -39,7 +39,7 @@ def scale(sheet: Sheet, frame: Sequence[int], largest: float, table: str) -> Non
     left, right = edge + 25, edge + 55
     bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), top - bottom)
     column = np.repeat(palette(table), np.diff(bounds), axis=0)
-    _paste(sheet, left, bottom, np.repeat(column[:, None], right - left, axis=1))
+    paste(sheet, left, bottom, np.repeat(column[:, None], right - left, axis=1))
     for tick in ticks(0.0, largest, 5):
         y = bottom + tick / largest * (top - bottom)
         sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
@@ -60,7 +60,7 @@ def palette(name: str) -> np.ndarray:
     return (rows[:, :3] * 255 + 0.5).astype(np.uint8)
 
 
-def _paste(sheet: Sheet, left: int, bottom: int, image: np.ndarray) -> None:
+def paste(sheet: Sheet, left: int, bottom: int, image: np.ndarray) -> None:
     """Draw an image (height, width, 3), lowest row first, pixel for pixel."""
     sheet.figure.figimage(image, xo=left, yo=bottom, origin="lower", zorder=0.6)
 

@@ -21,11 +21,14 @@ from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 
-from .sea import sea_states
+from .sea import ratio, sea_states
+from .strains import flight_strains
 
 # Bins of each coordinate, with equal counts: so few that each of the 64 cells of the correlation
 # ratio holds many clusters.
 _BINS = 8
+_IMPACTS_TOGETHER = 2_000_000  # of orbits that are in memory at once: 64 MB
+STRAIN = 0.1  # a strain that is not infinitesimal
 _LINEAR = "correlation of what begins a cluster with what begins a later one"
 _BY_CELL = "share of the variance explained by the cell in which the earlier one began"
 _DRIFT = "largest difference of an impact's energy from the start's"
@@ -49,53 +52,81 @@ _OF_CUTS = {
 
 
 def clusters(
-    ball: Ball, energy: float, between: tuple[float, float], orbits: int, impacts: int,
-    cuts: Sequence[float], lags: int, resamples: int, seed: int,
+    ball: Ball, energy: float, orbits: int, impacts: int, cuts: Sequence[float], lags: int,
+    resamples: int, seed: int,
 ) -> xr.Dataset:  # fmt: skip
     """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
-    A cluster is compared with the next ones, up to `lags` later. Means of clusters are over all
-    orbits. ValueError is raised for a cut that leaves an orbit with fewer clusters than lags + 2.
+    The orbits are the chaotic ones of `orbits` that start evenly over the section (`sea_states`).
+    A cluster is compared with the next ones, up to `lags` later. Means of clusters are ratios of
+    sums over all orbits. ValueError is raised for a cut that leaves no orbit lags + 2 clusters.
 
     >>> from pseudorigid import Ball
-    >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, (0.55, 0.68), 4, 200, [4, 6], 2, 10, 1)
+    >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, 4, 200, [4, 6], 2, 10, 1)
     >>> data.sizes["cut"]
     2
     """
-    states = sea_states(ball, energy, between, orbits)
-    out = np.full((orbits, impacts + 1, 4), math.nan)
-    out[:, 0, :3] = np.transpose(states)
-    out[:, 1:] = ball.history(states, impacts)
-    tau = out[:, 1:, 3]
-    edges = 0.1 * np.arange(int(10.0 * float(tau.max())) + 2)
-    time, depth, strain_energy, least, most = _strains(out, ball.k, ball.g)
-    error = np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0)
+    states = sea_states(ball, energy, orbits)
+    count = states.shape[1]
+    # no flight is longer than this
+    longest = 2.0 * math.sqrt(2.0 * energy + ball.g * ball.g / ball.k) / ball.g
+    edges = 0.1 * np.arange(int(10.0 * longest) + 2)
+    flights = np.zeros(edges.size - 1, dtype=np.int64)
+    strains, errors, highest = [], [], 0.0
+    begun: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in cuts]
+    for group in np.array_split(states, -(-count * impacts // _IMPACTS_TOGETHER), axis=1):
+        out = np.full((group.shape[1], impacts + 1, 4), math.nan)
+        out[:, 0, :3] = np.transpose(group)
+        out[:, 1:] = ball.history(group, impacts)
+        flights += np.histogram(out[:, 1:, 3], bins=edges)[0]
+        strains.append(_strains(out, ball.k, ball.g))
+        errors.append(np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0))
+        for clusters_of_cut, cut in zip(begun, cuts, strict=True):
+            clusters_of_cut += [_clusters(row, ball.k, cut) for row in out]
+        highest = max(highest, float(np.sort(out[:, 1:, 3])[:, -(lags + 2)].max()))
+    for cut in cuts:
+        if not cut < highest:
+            raise ValueError(
+                f"cuts = {cut!r} is not allowed: no orbit is left lags + 2 = {lags + 2} clusters: "
+                f"give a cut below {math.floor(1000.0 * highest) / 1000.0:g}, fewer lags or more "
+                "impacts"
+            )
+    last = int(np.flatnonzero(flights)[-1]) + 1
+    time, depth, strain_energy, least, most, compression, strained = np.concatenate(strains, 1)
     kinetic_energy = (energy + ball.g * depth) - strain_energy
     data = {
-        "bin_edge": ("edge", edges, "flight time", TIME),
-        "flights": ("bin", np.histogram(tau, bins=edges)[0], "flights of such a time"),
+        "bin_edge": ("edge", edges[: last + 1], "flight time", TIME),
+        "flights": ("bin", flights[:last], "flights of such a time"),
         "time": ("orbit", time, "length of the orbit in time", TIME),
         "strain_energy": ("orbit", strain_energy, "mean in time of the strain energy", ENERGY),
         "kinetic_energy": ("orbit", kinetic_energy, _KINETIC, ENERGY),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
         "largest_strain": ("orbit", most, "largest stretch"),
-        "energy_error": ("orbit", error, _DRIFT, ENERGY),
+        "compression": ("orbit", compression, "mean over flights of the largest compression"),
+        "strained": ("orbit", strained, f"share of flights in which |u| exceeds {STRAIN}"),
+        "energy_error": ("orbit", np.concatenate(errors), _DRIFT, ENERGY),
         "cut": ("cut", np.asarray(cuts, dtype=float), "flight time that parts two clusters", TIME),
         "lag": ("lag", np.arange(1, lags + 1), "clusters later"),
     }
-    resampled = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
-    rows = [_row(out, ball.k, cut, lags, resampled) for cut in cuts]
+    resampled = np.random.default_rng(seed).integers(0, count, (resamples, count))
+    rows = [_row(clusters_of_cut, lags, resampled) for clusters_of_cut in begun]
     return xr.Dataset(described(data) | of_rows(_OF_CUTS, rows))
 
 
 @jit
 def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
-    """Return time, mean x, mean strain energy, least and largest strain: (5, orbits)."""
+    """Return rows of numbers of each orbit: (7, orbits).
+
+    They are the time, the means in time of x and of the strain energy, the least and the largest
+    strain, the mean over flights of the compression, and the share of flights beyond STRAIN.
+    """
     coefficients = kernel.impact_coefficients(k)
-    result = np.empty((5, out.shape[0]))
+    flights = out.shape[1] - 1
+    result = np.empty((7, out.shape[0]))
     for i in range(out.shape[0]):
         time, depth, square, least, most = 0.0, 0.0, 0.0, 0.0, 0.0
-        for j in range(out.shape[1] - 1):
+        compression, strained = 0.0, 0.0
+        for j in range(flights):
             x, tau = out[i, j, 0], out[i, j + 1, 3]
             b, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, coefficients)
             sine, cosine = sincos(tau)
@@ -106,49 +137,42 @@ def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
             )
             time += tau
             depth += tau * (x + tau * (0.5 * b + tau * g / 6.0))
-            # in a part shorter than pi, u' changes sign at most once, at an extremum of u
-            amplitude = math.sqrt(x * x + c * c)
-            parts = int(tau / 3.0) + 1
-            before = c
-            least, most = min(least, -x), max(most, -x)
-            for part in range(1, parts + 1):
-                sine, cosine = sincos(tau * part / parts)
-                after = c * cosine + x * sine
-                if before > 0.0 > after:
-                    most = max(most, amplitude)
-                elif before < 0.0 < after:
-                    least = min(least, -amplitude)
-                before = after
+            low, high = flight_strains(x, c, tau)
+            least, most = min(least, low), max(most, high)
+            compression -= low
+            strained += 1.0 if max(-low, high) > STRAIN else 0.0
         result[0, i], result[1, i], result[2, i] = time, depth / time, 0.5 * k * square / time
         result[3, i], result[4, i] = least, most
+        result[5, i], result[6, i] = compression / flights, strained / flights
     return result
 
 
+def _clusters(out: np.ndarray, k: float, cut: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first states (2, n) of an orbit's clusters, and sums over all but the last.
+
+    The sums are those of ones, of impacts, and of times to a cluster's last impact and to the next
+    cluster's first.
+    """
+    tau = out[1:, 3]
+    begun = np.flatnonzero(tau > cut) + 1
+    first = np.array(chart(k, *out[begun, :3].T))
+    if not begun.size:
+        return first, np.zeros(4)
+    period = float(tau[begun[0] : begun[-1]].sum())
+    within = period - float(tau[begun[1:] - 1].sum())
+    return first, np.array([begun.size - 1.0, float(begun[-1] - begun[0]), within, period])
+
+
 def _row(
-    out: np.ndarray, k: float, cut: float, lags: int, resampled: np.ndarray
+    begun: Sequence[tuple[np.ndarray, np.ndarray]], lags: int, resampled: np.ndarray
 ) -> tuple[Any, ...]:
-    """Return the values of _OF_CUTS for one cut."""
-    begun = [np.flatnonzero(tau > cut) + 1 for tau in out[:, 1:, 3]]
-    fewest = min(impacts.size for impacts in begun)
-    if fewest < lags + 2:
-        most = np.sort(out[:, 1:, 3])[:, -(lags + 2) :].min()
-        raise ValueError(
-            f"cuts = {cut!r} is not allowed: it leaves an orbit {fewest} clusters, fewer than "
-            f"lags + 2 = {lags + 2}: give a cut below {math.floor(1000.0 * most) / 1000.0:g}, "
-            "fewer lags or more impacts"
-        )
-    first = [chart(k, *row[at, :3].T) for row, at in zip(out, begun, strict=True)]
-    periods, lengths = [], []
-    for at, tau in zip(begun, out[:, 1:, 3], strict=True):
-        periods.append(np.diff(np.cumsum(tau)[at - 1]))
-        lengths.append(periods[-1] - tau[at[1:] - 1])
-    means = np.array([row.mean() for row in periods])
-    error = math.sqrt(float(np.sum((means - means.mean()) ** 2)) / (means.size - 1) / means.size)
-    count = float(sum(impacts.size for impacts in begun))
-    sizes = [np.diff(at) for at in begun]
-    pooled = [np.concatenate(rows).mean() for rows in (sizes, lengths, periods)]
+    """Return the values of _OF_CUTS for one cut, from `_clusters` of each orbit."""
+    first, sums = zip(*begun, strict=True)
+    ones, *others = np.transpose(sums)
+    size, length, period = (ratio(values, ones) for values in others)
+    count = float(sum(states.shape[1] for states in first))
     correlation, dependence = _memory(first, lags, resampled)
-    return count, *pooled, error, *correlation, *dependence
+    return count, size[0], length[0], *period, *correlation, *dependence
 
 
 def _memory(

@@ -16,13 +16,12 @@ from flint import arb, ctx
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.manifolds import trace_manifold
-from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import AREA, LENGTH, SPEED, chart, of_rows, of_type, states_of
 
 from .actions import PrimaryPair, first_crossing, lobe, saddles_of
 from .polygon import Polygon
-from .sea import as_array, half_axes, sea_states
+from .sea import as_array, half_axes, ratio, sea_states
 
 SIDES = ("inner", "outer")
 # The area of a lobe is computed twice, with these bits and from starts so many periods earlier, to
@@ -46,6 +45,7 @@ _VARIABLES: dict[str, tuple[Any, ...]] = {
     "carried_in": ("side", "area that an impact carries in, counted", AREA),
     "sea_inside": ("side", "share of the sea's impacts that are inside"),
     "sea_out": ("side", "share of the sea's impacts that leave"),
+    "sea_out_error": ("side", "standard error of that share, between orbits"),
     "saddle": ("side", "index of the point that the branch leaves"),
     "target": ("side", "index of the point whose stable branch it meets"),
     "crossing_x": (("side", "crossing"), "x where a primary orbit meets y = 0", LENGTH),
@@ -59,7 +59,7 @@ _VARIABLES: dict[str, tuple[Any, ...]] = {
 
 def flux(
     ball: Ball, energy: float, period: int, distance: float, grid: int,
-    between: tuple[float, float], orbits: int, impacts: int, sides: Sequence[str] = SIDES,
+    orbits: int, impacts: int, sides: Sequence[str] = SIDES,
 ) -> xr.Dataset:  # fmt: skip
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
@@ -68,10 +68,11 @@ def flux(
     lobe to the mirror image of its other end; their mirror image in y = 0 is the stable branch. A
     side without lobes has NaN, no digits, and an attribute missing_inner or missing_outer with the
     reason; ValueError is raised if no side has any. If a jump of the map cuts only the region's
-    edge, the region's numbers are NaN.
+    edge, the region's numbers are NaN. The sea is that of `sea_states`, and not followed for no
+    `orbits`.
 
     >>> from pseudorigid import Ball
-    >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 20, (0.55, 0.68), 2, 100)
+    >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 20, 2, 100)
     Traceback (most recent call last):
     ...
     ValueError: period = 5 is not allowed: an even number
@@ -80,8 +81,10 @@ def flux(
         raise ValueError(f"period = {period} is not allowed: an even number")
     saddles = of_type(symmetric_orbits(ball, energy, period), "hyperbolic")
     branches = _Branches(ball, energy, saddles, distance)
-    states = sea_states(ball, energy, between, orbits)
-    path = chart(ball.k, *states_of(orbit(ball, states, impacts)))
+    path = np.empty((2, 0, impacts))
+    if orbits:
+        out = ball.history(sea_states(ball, energy, orbits), impacts)
+        path = np.array(chart(ball.k, *np.moveaxis(out[..., :3], -1, 0)))
     rows, missing = [], {}
     for side in sides:
         try:
@@ -93,6 +96,7 @@ def flux(
     attributes: dict[str, float | str] = {
         "section": math.pi * math.prod(half_axes(ball, energy)),
         "multiplier": float(saddles["multiplier"].values),
+        "sea_impacts": path[0].size,
     }
     attributes |= {f"missing_{side}": why for side, why in missing.items()}
     lobes = xr.Dataset(of_rows(_VARIABLES, rows), attrs=attributes)
@@ -121,18 +125,21 @@ def _row(branches: _Branches, side: str, grid: int, path: np.ndarray) -> tuple[A
     digits = max(1, min(25, math.floor(float(-(error / area).log() / _DECIMAL))))
     traced = _traced_lobe(branches, saddle, side, primary)
     region = _region(branches, traced)
-    counted = (math.nan,) * 5
+    counted, sea = (math.nan,) * 3, (math.nan,) * 3
     if not np.isnan(region[0, 0]):
         polygon = Polygon(region)
+        counted = polygon.area(), *_carried(ball, energy, polygon, grid)
         inside = polygon.contains(*path)
-        left = np.mean(inside[:-1] & ~inside[1:])
-        counted = polygon.area(), *_carried(ball, energy, polygon, grid), inside.mean(), left
+        left = np.sum(inside[:, :-1] & ~inside[:, 1:], axis=1).astype(float)
+        if left.size:
+            steps = np.full(left.size, float(inside.shape[1] - 1))
+            sea = inside.mean(), *ratio(left, steps)
     x, y = chart(ball.k, *states_of(saddles))
     target = int(np.argmin((x - x[saddle]) ** 2 + (y + y[saddle]) ** 2))
     areas = float(area), float(error), area.str(digits, radius=False), traced.area()
     crossings = [(float(each.points[-1][0]), float(each.sine())) for each in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(traced.branch(), _VERTICES)
-    return side, *areas, *counted, saddle, target, *np.transpose(crossings), *lines
+    return side, *areas, *counted, *sea, saddle, target, *np.transpose(crossings), *lines
 
 
 def _lobe(

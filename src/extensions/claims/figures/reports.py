@@ -56,6 +56,18 @@ def last_curve(block: dict[str, Any], last_curve: xr.Dataset) -> dict[str, str]:
     return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}
 
 
+def exclusion(
+    block: dict[str, Any], exclusion: xr.Dataset, curves: xr.Dataset, orbits: xr.Dataset
+) -> dict[str, str]:
+    """Give the share of the section that is excluded, and the share inside the proved curve."""
+    last, inside = exclusion.isel(count=-1), curves["share"].values[curves["period"].values == 1]
+    share, error = (float(last[name]) for name in ("share", "share_error"))
+    return {
+        "excluded share": f"{share:.4f} \N{PLUS-MINUS SIGN} {error:.4f}",
+        "inside a proved curve": f"{inside.max():.4f}",
+    }
+
+
 def control(block: dict[str, Any], control: xr.Dataset) -> dict[str, str]:
     """Give the regular share of each changed map at the strength drawn, and of the impact map."""
     share = control["class_share"].sel({"class": "regular"}).isel(length=-1)

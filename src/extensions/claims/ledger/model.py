@@ -12,7 +12,10 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.paper import BALL, FIGURES
 from pseudorigid.dynamics.variables import states_of
 
+from ..analyses.clusters import STRAIN
+from ..analyses.sea import ratio
 from ..analyses.spread import stretches
+from ..analyses.strains import least_flight_strain
 from .lookup import bounds_of, derived, enclosed, formula, numbers_of, regular_share
 from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, Outcome, Series, outcome_of
 
@@ -28,8 +31,8 @@ POINTS_TOLERANCE = 0.05  # relative, of the paper's approximate numbers of point
 def strain_energy(clusters: xr.Dataset, spread: xr.Dataset) -> Outcome:
     """Compare the mean share of strain energy over the sea with zero and its standard error."""
     strain, kinetic = (clusters[f"{name}_energy"].values for name in ("strain", "kinetic"))
-    share = strain / (strain + kinetic)
-    mean, error = share.mean(), share.std(ddof=1) / np.sqrt(share.size)
+    time = clusters["time"].values
+    mean, error = ratio(strain * time, (strain + kinetic) * time)
     exponent = stretches(spread, int(spread.attrs["block_impacts"])).mean()
     large = mean - 3 * error > APPRECIABLE and exponent > 0.0
     return outcome_of(large, mean=mean, exponent=exponent, standard_error=error)
@@ -112,6 +115,23 @@ def least_strain(algebra: xr.Dataset, clusters: xr.Dataset) -> Outcome:
     """Find the least strain of the sea, beside the bound that algebra gives."""
     least = clusters["least_strain"].values.min()
     return outcome_of(formula(algebra, "bound_in_flight")[0] and least > -1.0, True, least=least)
+
+
+def infinitesimal(
+    one: xr.Dataset, six: xr.Dataset, fig2: xr.Dataset, fig8: xr.Dataset, clusters: xr.Dataset
+) -> Outcome:
+    """Find the least strain of the figures, and the g below which their twins have small strain."""
+    least = [float(motion["strain"].min()) for motion in (one, six)]
+    least += [least_flight_strain(orbits.attrs["k"], orbits) for orbits in (fig2, fig8)]
+    numbers: dict[str, Any] = {"least": Series(least), "strain": STRAIN}
+    numbers |= {"compression": clusters["compression"].values.mean()}
+    numbers |= {"percent": 100.0 * clusters["strained"].values.mean()}
+    for name, orbits, strain in zip(("2", "8"), (fig2, fig8), least[2:], strict=True):
+        g = orbits.attrs["g"]
+        numbers |= {f"g{name}": 0.1 * g / -strain, f"g{name}_tenth": 0.01 * g / -strain}
+        numbers[f"scaled{name}"] = orbits.attrs["energy"] / (g * g)
+    small = min(least) > -STRAIN
+    return Outcome(HOLDS, numbers, case="small") if small else Outcome(CORRECTED, numbers)
 
 
 def bisection(lyapunov: xr.Dataset) -> Outcome:

@@ -1,6 +1,5 @@
 """Checks of claims about periodic orbits, their branches and islands (sections 4 and 5)."""
 
-import json
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -85,7 +84,7 @@ def widest_gap(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     p, q, first, last = max(gaps, key=lambda gap: gap[3] - gap[2])
     numbers: dict[str, Any] = {"exist": proved["twist-fixed-point"], "curves": enclosed(proved)}
     numbers |= {"p": p, "q": q, "first": first, "last": last}
-    numbers["once"] = proved["fixed-point-elliptic"]
+    numbers["once"] = proved["fixed-point-elliptic"] and proved["six-birth"]
     return Outcome(CORRECTED, numbers | {"spacing": abs(place[1] - place[0])})
 
 
@@ -149,8 +148,8 @@ def stretching(manifolds: xr.Dataset) -> Outcome:
     return outcome_of(large, impacts=STRETCHED_IMPACTS, inner=short, outer=long, turns=turns)
 
 
-def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
-    """Find the rotation numbers between which curves break up, by the residues of convergents."""
+def last_curve(residues: xr.Dataset, exclusion: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
+    """Find where curves break up, by the residues of convergents, and where no curve can be."""
     size = np.abs(residues["residue"].values)
     last, largest = size[:, -1], size.max(axis=1)
     gone, broken = last < GONE * largest, (last == largest) & (last > BROKEN)
@@ -159,7 +158,10 @@ def last_curve(residues: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     numbers, period = residues["rotation"].values, int(residues["period"].values[:, -1].min())
     inside, outside = numbers[gone].min(), numbers[broken].max()
     ends = {"inside": inside, "outside": outside, "circle": proved["no-circle"]}
-    return Outcome(HOLDS, ends | {"period": period, "curves": enclosed(proved)})
+    last = exclusion.isel(count=-1)
+    ends |= {"excluded": last["share"].item(), "excluded_error": last["share_error"].item()}
+    ends |= {"followed": last["impacts"].item(), "period": period, "curves": enclosed(proved)}
+    return Outcome(HOLDS, ends)
 
 
 def point_in_window(manifolds: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
@@ -198,9 +200,9 @@ def source_of_chaos(flux: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
     crossed = np.abs(flux["sine"].values).min() > TRANSVERSAL
     inside, share = flux["sea_inside"].values[0], flux["sea_out"].values[1]
     inner, outer = flux["area"].values
-    config = json.loads(flux.attrs["config"])
-    impacts = config["orbits"] * config["impacts"]
-    numbers = {"share": share, "impacts": impacts, "passages": impacts * share * inner / outer}
+    impacts = int(flux.attrs["sea_impacts"])
+    numbers = {"share": share, "share_error": flux["sea_out_error"].values[1]}
+    numbers |= {"impacts": impacts, "passages": impacts * share * inner / outer}
     return outcome_of(crossed and inside == 0.0 < share, said=all(proved.values()), **numbers)
 
 

@@ -160,8 +160,11 @@ def check_stated(
 ) -> None:
     """Check that enclosed numbers are those that a certificate states, up to an error."""
     for value, near in zip(values, stated, strict=True):
-        if not abs(value - ball_of(near)) < ball_of(error):
-            raise NotProvedError(f"the {name} is not the stated one, near {float(near):.10g}")
+        apart = abs(value - ball_of(near))
+        if apart < ball_of(error):
+            continue
+        is_not = "is not" if apart > ball_of(error) else "is enclosed too widely to be"
+        raise NotProvedError(f"the {name} {is_not} the stated one, near {float(near):.10g}")
 
 
 def check_within(name: str, value: arb, limits: Range) -> None:

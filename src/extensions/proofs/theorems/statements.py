@@ -411,9 +411,9 @@ _THEOREMS = (
     ),
     Theorem(
         "jump-set",
-        "at E = {surface.energy} P is not continuous at the point below, where its one-sided "
-        "limits are more than {jump} apart, and not a diffeomorphism; the points where it jumps "
-        "are one smooth curve longer than {length} in (x, y), from the rim to an inner end",
+        "at E = {surface.energy} P is not continuous, hence not a diffeomorphism: at one point its "
+        "one-sided limits are more than {jump} apart; the points where it jumps are one smooth "
+        "curve longer than {length} in (x, y), from the rim to an inner end",
         jump.check,
         {"surface": FIG2, "radius": Fraction("1e-28"), "length": Fraction("0.4048"),
          "jump": Fraction("0.27")},

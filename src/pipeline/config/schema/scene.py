@@ -245,12 +245,14 @@ def is_sound(scene: Scene) -> bool:
     return not any(Scene.cross_field_errors(scene))
 
 
-def bounded(scene: Scene, first: str, second: str, what: str) -> Iterator[CrossFieldError]:
+def bounded(
+    scene: Scene, first: str, second: str, what: str, most: int = fields.LARGEST
+) -> Iterator[CrossFieldError]:
     """Yield an error if the product of two fields, a count held in memory, is too large."""
     factor, other = getattr(scene, first), getattr(scene, second)
-    if factor * other > fields.LARGEST:
-        words = f"at most {fields.LARGEST} {what}, {first} times {second}"
-        yield (second,), other, f"{words}: here {fields.LARGEST // factor}"
+    if factor * other > most:
+        words = f"at most {most} {what}, {first} times {second}"
+        yield (second,), other, f"{words}: here {most // factor}"
 
 
 def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:
