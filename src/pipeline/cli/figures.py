@@ -101,6 +101,7 @@ def make(
     rows += [(scene, path, reasons[scene]) for path, scene in left_out.items()]
     if rows:
         notes = [*_hidden(made.values())]
+        notes += [f"{path}: {outdated[path]}" for path in sorted(refused - {*drawings.values()})]
         notes += _missed_impacts(config, group, _blocks(config, group, made.values()))
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in paths.figures(config.variants, group)]
