@@ -56,6 +56,33 @@ def test_accept_and_archive_go_on_without_a_figure_that_cannot_be_made(refused, 
     assert capsys.readouterr().out.startswith(left_out)
 
 
+def test_a_published_picture_whose_scene_cannot_exist_is_named_with_the_reason(finished, tmp_path):
+    tree, file = finished.copy(tmp_path / "left"), "paper_figures/fig3.png"
+    assert accepting(tree)[0] == 0
+    document = tree.document()
+    document["scenes"]["fig3"]["axes"]["t"] = {"limits": [-2, -1], "ticks": [-1]}
+    tree.write(document)
+    drawing = "results/paper/figures/fig3.png"
+    (tree.path / drawing).unlink()
+    with pytest.raises(ValueError):
+        tree.make_here(drawing)
+    found = verified(tree)
+    listed = "lists fig3.png, whose scene cannot exist: ./reproduce accept takes it out"
+    assert f"paper_figures/MANIFEST.json: {listed}" in found.findings
+    (line,) = [line for line in found.findings if line.startswith(file)]
+    assert line.startswith(f"{file}: its scene {CANNOT}")
+    assert line.endswith(": delete it, or change its scene")
+    status, lines = accepting(tree)
+    assert status == 0 and line in lines
+    archive = pytest.importorskip("extensions.publication.archive")
+    with pytest.raises(archive.ArchiveError) as error:
+        archive.write(tree.path, config.load(tree.config), tmp_path / "a.tar")
+    assert str(error.value) == line
+    for picture in (tree.path / "paper_figures").glob("fig3.*"):
+        picture.unlink()
+    archive.write(tree.path, config.load(tree.config), tmp_path / "a.tar")
+
+
 def test_a_stray_picture_is_named_by_archive_and_by_accept(refused, tmp_path):
     tree, file = refused.copy(tmp_path / "stray"), "paper_figures/FIG2.png"
     (tree.path / file).write_bytes(contents(tree)["fig3.png"])

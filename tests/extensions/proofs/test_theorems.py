@@ -64,6 +64,24 @@ def test_a_new_search_gives_a_certificate_that_holds(name):
         assert text == THEOREMS[name].text()
 
 
+def imports(folder):
+    """The text of the imports of each module of a folder of the proofs."""
+    files = sorted((ROOT / "src/extensions/proofs" / folder).glob("*.py"))
+    assert files
+    line = re.compile(r"^ *(?:from|import) .*$", re.M)
+    return {file.stem: "\n".join(line.findall(file.read_text())) for file in files}
+
+
+def test_no_checker_imports_a_search_and_searches_say_that_they_use_checkers():
+    for folder in ("checkers", "enclosure"):
+        assert not any(re.search(r"\bsearch\b", text) for text in imports(folder).values())
+    assert sum("..checkers" in text for text in imports("search").values()) > 5
+    article = (ROOT / "src/extensions/publication/article/article.typ").read_text()
+    words = " ".join(article.split())
+    assert "The search uses the map and some formulas of the checkers" in words
+    assert "shares no formula" not in words
+
+
 # ---- the page
 
 

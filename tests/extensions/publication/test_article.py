@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from project import run
+from project import run, shipped
 from report_pages import Outline
 from slowly import slowly
 
@@ -163,6 +163,20 @@ def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
 def test_a_number_or_reference_that_does_not_exist_is_one_line(compiled, old, new, problem):
     with pytest.raises(ValueError, match=rf"^[^\n]*{problem}[^\n]*$"):
         compiled(old=old, new=new)
+
+
+def test_a_figure_that_is_not_published_is_named(compiled, data):
+    figures = {name: figure for name, figure in data["figures"].items() if name != "fig4"}
+    with pytest.raises(ValueError, match="the article needs fig4, which is not published"):
+        compiled(figures=figures)
+
+
+def test_a_figure_without_axes_has_no_ticks_to_compare(monkeypatch):
+    monkeypatch.setattr(numbers, "measured", lambda *given: {})
+    document = shipped()
+    del document["scenes"]["fig4"]["axes"]
+    rows = numbers._rows(ROOT, config.check(document), "fig4")
+    assert rows["ticks, t"] == {"paper": "0, 10, 20, 30, 40, 50, 60", "ours": ""}
 
 
 def test_the_article_is_a_draft_until_citation_cff_is_complete(compiled):
