@@ -11,7 +11,6 @@ called EXTENSION. Files beside it are found by their names:
     rules.smk         rules of its stages and pictures
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
-    datasets.toml     small runs of its stages, for docs/data.md
     README.md         its page of documentation
 
 `reproduce` prints its help before anything is installed: only the standard library is used here,
@@ -127,7 +126,6 @@ class Extension(NamedTuple):
     # Command of the core -> name, keyword arguments and module of a further option. If the option
     # is given, this module runs the command.
     options: Mapping[str, tuple[str, dict[str, Any], str]] = {}
-    removed: Mapping[tuple[str, str], str] = {}  # command, option -> what to do instead
     blocks: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
     methods: Mapping[str, str] = {}  # key of a scene's `method` -> the class of its block
     exact: Mapping[str, Mapping[str, str]] = {}  # method -> stage -> the function that computes it

@@ -32,12 +32,6 @@ def __getattr__(name: str) -> Any:
         return getattr(importlib.import_module(_MODULES[name], __name__), name)
     if name == "__version__":
         return _version()
-    from importlib import resources  # these imports take longer than that of this package
-    from tomllib import loads
-
-    moved = loads(resources.files(__name__).joinpath("moved.toml").read_text())
-    if name in moved:
-        raise ImportError(f"{name} has moved: from {moved[name]} import {name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -17,12 +17,7 @@ MISTAKES = {
         "prove horsshoe-outer": ": no theorem horsshoe-outer: did you mean horseshoe-outer?",
         "prove --impact": " prove: no argument --impact: did you mean --impacts?",
     },
-    "claims": {
-        "claims --check 3 --data=x": ": claims: --check was removed: all claims are judged",
-        "claims --data x": ": claims: --data was removed: the data of this tree are judged",
-    },
     "publication": {
-        "archive --machine aarch64": ": archive: --machine was removed: archive on such a machine",
         "report --against": " report: no argument --against: verify has it",
     },
 }

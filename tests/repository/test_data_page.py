@@ -14,10 +14,9 @@ PAGE = "docs/data.md"
 BALL = Ball(0.2, 0.04)
 
 
-def test_the_page_describes_each_stage_and_part_of_the_study():
-    for name, stage in STAGES.items():
-        is_of_the_study = stage.function.startswith("study.")
-        assert f"\n### {'study: ' * is_of_the_study}{name}\n" in text_of(PAGE)
+def test_the_page_names_each_stage_and_part_of_the_study():
+    for name in STAGES:
+        assert f"`{name}`" in text_of(PAGE)
 
 
 @pytest.fixture

@@ -6,10 +6,8 @@ from fnmatch import fnmatch
 import pytest
 import yaml
 from project import ROOT
-from slowly import slowly
 
 from pipeline import config, declaration
-from pipeline.checks import datasets
 from pipeline.config import reference
 from pipeline.declaration import extensions
 
@@ -51,9 +49,7 @@ def blocks(document):
 
 
 @pytest.mark.skipif(not extensions(), reason="the committed pages are those with extensions")
-@pytest.mark.parametrize(
-    ("file", "module"), [*GENERATED.items(), *slowly(("docs/data.md", datasets))]
-)
+@pytest.mark.parametrize(("file", "module"), GENERATED.items())
 def test_a_generated_file_is_up_to_date(file, module):
     assert text_of(file) == module.page(), f"renew it: python -m {module.__name__}"
 

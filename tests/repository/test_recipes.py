@@ -123,7 +123,6 @@ returns:
   starts: [0.1]
   impacts: 50
 """,
-    "datasets.toml": "[small.flights]\n",
 }
 PUBLISHED = "more_figures/returns/twice.png"
 

@@ -111,7 +111,7 @@ PLANTED = {
     "pipeline.records.files": (".part", ".unfinished"),
     "pipeline.records.record": ('"python": platform', '"planted": platform'),
     "pipeline.records.sources": ("SCHEME = 1 ", "SCHEME = 99 "),
-    "pseudorigid": ("has moved:", "planted:"),
+    "pseudorigid": ("has no attribute", "planted"),
 }
 
 

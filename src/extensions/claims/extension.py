@@ -38,9 +38,5 @@ EXTENSION = Extension(
             details="Makes missing results first, including the sweeps of the atlas.",
         ),
     },
-    removed={  # options of earlier versions, and what is done instead
-        ("claims", "--check"): "all claims are judged",
-        ("claims", "--data"): "the data of this tree are judged",
-    },
     report="extensions.claims.report",
 )

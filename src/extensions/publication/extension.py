@@ -41,7 +41,6 @@ EXTENSION = Extension(
             f"{_COMMANDS}.against",
         )
     },
-    removed={("archive", "--machine"): "archive on such a machine"},
     generated=(
         "article.pdf",
         "site/*.html",

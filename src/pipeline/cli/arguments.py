@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
-from ..declaration import extensions, lacking
+from ..declaration import lacking
 from ..records.names import suggestion
 
 if TYPE_CHECKING:  # it needs packages
@@ -76,10 +76,6 @@ def read(arguments: list[str]) -> Arguments:
     word = first if first in commands else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
-    removed = {k: v for extension in extensions().values() for k, v in extension.removed.items()}
-    for option in (argument.partition("=")[0] for argument in rest):
-        if instead := removed.get((word or "", option)):
-            _refuse(f"{word}: {option} was removed: {instead}")
     own, options = rest if word else arguments, list[str]()
     if "--" in own and commands.get(word or "", DEFAULT_COMMAND).runs_snakemake:
         end = own.index("--")
