@@ -29,7 +29,7 @@ from pseudorigid.dynamics.orbits import start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.axes.plane import Plane
-from pseudorigid.figures.canvas.style import DPI
+from pseudorigid.figures.canvas.style import DPI, pinned
 from pseudorigid.figures.kinds import closeup, exponents, motion
 from pseudorigid.kernel.arithmetic import log, sincos_each
 from pseudorigid.kernel.compiled import jit
@@ -111,7 +111,7 @@ def _last_digit(axis: Block) -> float:
 def _portrait(block: Block) -> PictureErrors:
     """Measure the drift of the energy, as a change of the section's radius."""
     ball, orbits = _orbits(block)
-    pixel = 1.0 / Box(block).view.scale
+    pixel = _pixel_of_box(block)
     _, radius = ball.section(block["energy"])
     error = []
     for method in METHODS:
@@ -169,7 +169,7 @@ def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> Pict
     """Measure the error of one impact on the manifolds' branches, summed over later impacts."""
     ball = Ball(**block["ball"])
     in_box = "view" in block
-    pixel = 1.0 / Box(block).view.scale if in_box else _pixels(closeup.empty_picture(block))[0]
+    pixel = _pixel_of_box(block) if in_box else _pixels(closeup.empty_picture(block))[0]
     multiplier = abs(float(of_type(periodic, block["type"])["multiplier"].values))
     # per impact; a decimal power, since a power function's last bit differs between machines
     growth = float(Decimal(max(multiplier, 1.0 / multiplier)) ** (1 / Decimal(block["period"])))
@@ -195,6 +195,12 @@ MEASURES: dict[str, Callable[..., PictureErrors]] = {
     "closeup": _branches,
     "exponents": _exponents,
 }
+
+
+def _pixel_of_box(block: dict[str, Any]) -> float:
+    """Return the size of a pixel on the axes of a box, which has room for labels in its font."""
+    with pinned():
+        return 1.0 / Box(block).view.scale
 
 
 def _pixels(plane: Plane) -> tuple[float, float]:
