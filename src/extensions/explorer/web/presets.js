@@ -28,6 +28,7 @@ const PRESETS = {
     return { view: disk(p, 0, 0.3), orbits: fan(p + 0.005, p + 0.2, 20, 3000), chart: "rotation", chosen: 0 };
   },
   curves: (scene) => ({ view: disk(), orbits: orbitsOf(scene), chosen: 0 }),
+  exclusion: (scene) => ({ view: disk(), orbits: orbitsOf(scene), chosen: 0 }),
   graph: (scene) => ({ view: disk(), orbits: orbitsOf(scene), chosen: 0 }),
 };
 
