@@ -17,10 +17,10 @@ OF_POINTS, OF_TRACES = 5e-12, 2e-12
 
 
 def enclosed(surface, points):
-    """Points (4, n) and trace of the orbit next to points, to some 70 digits."""
+    """Points (4, n) and trace of the orbit next to points, to some 40 digits."""
     k = surface.constants()[0]
     near = [[arb(x), (arb(v) - k * arb(w)).mid()] for x, v, w, _ in points.T.tolist()]
-    for _ in range(3):
+    for _ in range(2):
         near = [[a.mid() for a in point] for point in newton_image(surface, near)]
     orbit = enclose(surface, near)
     states = ((x, *surface.velocities(x, y)) for x, y in near)
@@ -36,9 +36,9 @@ def enclosed(surface, points):
         *slowly(
             (0.2, 0.04, 0.01, range(1, 41), 1),
             (0.2, 0.04, 0.001, range(1, 41), 1),
-            (0.33, 0.1, 0.06, range(1, 41), 5),
+            (0.33, 0.1, 0.06, range(1, 41), 20),
             (1 / 3, 0.03, 0.02, (31,), 5),  # first points alone gave a sixfold trace
-            (1.0, 0.1, 0.05, range(1, 41), 5),
+            (1.0, 0.1, 0.05, range(1, 41), 20),
         ),
     ],
 )
