@@ -61,7 +61,9 @@ def test_digits_of_points_times_and_traces(k, g, energy, periods, step):
                 growth = np.max(np.abs(ball.jacobian(*points[:3], impacts=period)))
                 if growth > 51.0 or abs(trace - 2.0) < 0.99e-3:
                     polished += 1
-                    assert np.all(off <= 0.51 * np.spacing(np.abs(points.T))), (period, trace)
+                    # Where the trace is 2 to rounding, the enclosures' equations are singular.
+                    right = np.all(off <= 0.51 * np.spacing(np.abs(points.T)))
+                    assert right or abs(trace - 2.0) < 1e-15, (period, trace)
                     # The trace of an elliptic orbit is below 2, even if 2 is nearer.
                     last_bits = 1.01 if abs(trace) == np.nextafter(2.0, 0.0) else 0.51
                     assert wrong <= last_bits * np.spacing(abs(trace)), (period, trace)
