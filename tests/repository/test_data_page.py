@@ -1,4 +1,6 @@
-"""docs/data.md describes every dataset, and its examples run."""
+"""Datasets describe themselves; docs/data.md has their stages and attributes, its examples run."""
+
+import re
 
 import numpy as np
 import pytest
@@ -9,14 +11,84 @@ from pipeline.config.schema.stages import STAGES
 from pipeline.records import artifacts
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.orbits import scene_orbits
+from study import figure_errors, measured, stages
+from study.methods.counted_methods import METHODS
 
 PAGE = "docs/data.md"
 BALL = Ball(0.2, 0.04)
+SCENE = {
+    "picture": "motion",
+    "ball": {"k": 0.2, "g": 0.04},
+    "energy": 0.01,
+    "period": 1,
+    "type": "elliptic",
+    "duration": 1.0,
+    "axes": {
+        "t": {"limits": [0, 1], "ticks": [0, 1]},
+        "displacement": {"limits": [-0.5, 0.5], "ticks": [0]},
+    },
+}
 
 
-def test_the_page_names_each_stage_and_part_of_the_study():
-    for name in STAGES:
-        assert f"`{name}`" in text_of(PAGE)
+def stages_of(package):
+    return {name for name, stage in STAGES.items() if stage.function.startswith(package)}
+
+
+def needs():
+    """The dataset of the errors of one figure."""
+    one = symmetric_orbits(BALL, 0.01, 1)
+    kinds, inputs = {"fig3": "motion"}, ["periodic/fig3"]
+    return figure_errors.figure_errors(one, scenes={"fig3": SCENE}, measures=kinds, inputs=inputs)
+
+
+STUDY = {
+    "work": lambda: stages.work(METHODS, 2),
+    "edges": lambda: stages.edges(stages.EDGE_METHODS[:1], 2),
+    "drift": lambda: stages.drift(1000),
+    "needs": needs,
+    "work_all": lambda: measured.timed_work(METHODS[:1], 2, 1),
+    "edges_all": lambda: stages.edges(stages.EDGE_METHODS[:1], 2, "edges_all"),
+    "missed_all": lambda: measured.missed(stages.EDGE_METHODS[:1], 10_000),
+}
+
+
+def assert_described(data):
+    for name, variable in data.variables.items():
+        assert variable.attrs["long_name"], name
+        if variable.dtype.kind not in "OUT":
+            assert variable.attrs["units"] == "1" and variable.attrs["scale"], name
+
+
+def assert_describes_itself(file):
+    """Its variables do, and the page has what the file says of itself as a whole."""
+    with xr.open_dataset(file) as data:
+        assert_described(data)
+        assert {"title", "config", "source", "references", "k", "g", "energy"} <= set(data.attrs)
+        if "row_size" in data:
+            dimension = data["row_size"].attrs["sample_dimension"]
+            assert data["row_size"].sum() == data.sizes[dimension]
+        for attribute in data.attrs:
+            assert f"`{attribute}`" in text_of(PAGE), attribute
+        return data.attrs["stage"]
+
+
+def test_datasets_of_the_papers_figures_describe_themselves(finished):
+    files = (finished.path / "results" / "paper").glob("*.nc")
+    assert {assert_describes_itself(file) for file in files} == stages_of("pseudorigid.")
+
+
+@pytest.mark.parametrize("name", STUDY)
+def test_a_dataset_of_the_study_describes_itself(name, tmp_path):
+    artifacts.save(STUDY[name](), tmp_path / "data.nc", {})
+    assert assert_describes_itself(tmp_path / "data.nc") == "study"
+
+
+def test_the_page_has_each_stage():
+    """Also those of the extensions of this repository, as far as they are there."""
+    assert stages_of("study.") == set(STUDY)
+    rows = re.findall(r"^\| (`.*?) \|", text_of(PAGE), re.M)
+    named = [name for row in rows for name in re.findall(r"`(\w+)`", row)]
+    assert len(set(named)) == len(named) and set(STAGES) <= set(named)
 
 
 @pytest.fixture
@@ -53,14 +125,9 @@ def test_xarray_and_the_project_read_the_same(path):
 def test_datasets_of_the_python_api_have_the_same_attributes():
     six = symmetric_orbits(BALL, 0.01, 6)
     start = BALL.start([0.5], 0.01)
-    orbits, branch = (
-        orbit(BALL, start, 3),
-        trace_manifold(BALL, 0.01, six.isel(orbit=1), length=0.1),
-    )
+    orbits = orbit(BALL, start, 3)
+    branch = trace_manifold(BALL, 0.01, six.isel(orbit=1), length=0.1)
     for data in (orbits, six, branch, lyapunov_spectrum(BALL, start, 3)):
-        for name, variable in data.variables.items():
-            assert variable.attrs["long_name"], name
-            if variable.dtype.kind != "O":
-                assert variable.attrs["units"] == "1" and variable.attrs["scale"], name
+        assert_described(data)
     scales = {name: orbits[name].attrs["scale"] for name in ("x", "xdot", "udot", "tau")}
     assert scales == {"x": "R", "xdot": "omega R", "udot": "omega", "tau": "1/omega"}
