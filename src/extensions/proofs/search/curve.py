@@ -8,12 +8,13 @@ midpoints: `checkers.curve` proves the result. A curve is a pair of polynomials 
 import math
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from flint import acb, arb, ctx
-from scipy.optimize import bisect
+from scipy.optimize import brentq
 
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.variables import chart, states_of
@@ -172,7 +173,7 @@ def _nearest(scan: _Scan, omega: float, most: int = _ROUGH) -> str:
         except ValueError:
             return False
         if (key := tuple(quotients)) not in known:
-            start = _curve_in_doubles(scan, quotients)
+            start = _curve_in_doubles(scan, quotients, most + 4)
             known[key] = start is not None and len(start.xs) <= most
         return known[key]
 
@@ -189,8 +190,11 @@ def _omega(quotients: Sequence[int]) -> float:
         return float(noble(quotients)[0])
 
 
-def _curve_in_doubles(scan: _Scan, quotients: Sequence[int]) -> _Start | None:
-    """Find the curve of a rotation number that is nearest to the point; None if there is none."""
+def _curve_in_doubles(scan: _Scan, quotients: Sequence[int], most: int = 400) -> _Start | None:
+    """Find the curve of a rotation number that is nearest to the point; None if there is none.
+
+    It has at most so many coefficients.
+    """
     surface, points, regular = scan
     omega = _omega(quotients)
 
@@ -200,9 +204,9 @@ def _curve_in_doubles(scan: _Scan, quotients: Sequence[int]) -> _Start | None:
     for (x, number), (x_after, number_after) in pairwise(regular):
         if min(number, number_after) < omega < max(number, number_after):
             with suppress(ValueError):  # longer orbits may have numbers on the same side of omega
-                root = float(bisect(excess, x, x_after, xtol=1e-17))
+                root = brentq(excess, x, x_after, xtol=1e-17, maxiter=25, disp=False)
                 if abs(excess(root)) < _SETTLED:
-                    waves = _coefficients_of_orbit(surface, root, len(points), omega)
+                    waves = _coefficients_of_orbit(surface, root, len(points), omega, most)
                     return _Start(points, quotients, *waves)
     return None
 
@@ -222,6 +226,7 @@ def turns(
     return float(_weights(steps.size) @ steps) if settled else math.nan
 
 
+@cache
 def _weights(size: int) -> np.ndarray:
     """Return the weights of a weighted Birkhoff average."""
     t = (np.arange(size) + 0.5) / size
@@ -239,19 +244,19 @@ def _orbit(surface: Surface, x: float, period: int, impacts: int) -> np.ndarray:
 
 
 def _coefficients_of_orbit(
-    surface: Surface, x: float, period: int, omega: float
+    surface: Surface, x: float, period: int, omega: float, most: int
 ) -> tuple[list[float], list[float]]:
     """Return x_q and y_q of the curve through (x, 0), from averages along its orbit."""
     z = _orbit(surface, x, period, _IMPACTS)
     phases = np.mod(omega * np.arange(1, z.shape[1] + 1), 1.0)
-    weights = _weights(z.shape[1])
-    xs, ys = [float(weights @ z[0])], [0.0]
+    x_terms, y_terms = 2.0 * _weights(z.shape[1]) * z
+    xs, ys = [float(0.5 * x_terms.sum())], [0.0]
     turn = np.exp(2j * math.pi * phases)
     wave = np.ones_like(turn)
-    for q in range(1, 400):
+    for q in range(1, most):
         wave *= turn
-        xs.append(float(2.0 * (weights * z[0]) @ wave.real))
-        ys.append(float(2.0 * (weights * z[1]) @ wave.imag))
+        xs.append(float(x_terms @ wave.real))
+        ys.append(float(y_terms @ wave.imag))
         if q > 4 and max(abs(a) for a in (*xs[-3:], *ys[-3:])) < _NOISE:
             break
     return xs[:-3], ys[:-3]
