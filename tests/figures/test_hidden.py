@@ -19,7 +19,7 @@ from pseudorigid.figures.axes.limits import complete_box, of_data
 from pseudorigid.figures.axes.view import OccludingEllipsoid
 from pseudorigid.figures.canvas import style
 
-FEW = {
+SHORT = {
     "fig2": {"impacts": 100},
     "fig5": {"impacts": 100, "branches": {"outer": {"length": 0.2}}},
     "fig6": {"length": 0.2},
@@ -36,7 +36,7 @@ def axis(low, high):
 def edited(scene, change, ball=None):
     """A complete block of the paper's scene with few impacts and edits; axes are merged."""
     document = shipped()
-    given = document["scenes"][scene] | FEW.get(scene, {}) | change
+    given = document["scenes"][scene] | SHORT.get(scene, {}) | change
     given["axes"] = document["scenes"][scene]["axes"] | change.get("axes", {})
     ball = document["ball"] | (ball or {})
     return check({"ball": ball, "scenes": {scene: given}}).scenes[scene].as_mapping()

@@ -32,7 +32,7 @@ def start_of(i):
 
 @pytest.mark.parametrize("row, cut", [(0, 4.0), (1, 6.5)])
 def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
-    count, sizes, periods, pairs = 0, [], [], []
+    count, sizes, lengths, periods, pairs = 0, [], [], [], []
     for i in range(CHAOTIC):
         path = orbit(BALL, start_of(i), 1500)
         x, tau = path["x"].values, path["tau"].values
@@ -41,10 +41,12 @@ def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
         count += len(begun)
         for first, then in itertools.pairwise(begun):
             sizes.append(then - first)
+            lengths.append(sum(tau[first + 1 : then]))
             periods.append(sum(tau[first + 1 : then + 1]))
             pairs.append((x[first], y[first], x[then], y[then]))
     assert int(clustering["count"].values[row]) == count
     assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(np.mean(sizes))
+    assert float(clustering["cluster_time"].values[row]) == pytest.approx(np.mean(lengths))
     assert float(clustering["period"].values[row]) == pytest.approx(np.mean(periods))
     assert clustering.sizes["orbit"] == CHAOTIC
     expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
@@ -101,7 +103,10 @@ def test_memory_of_an_autoregressive_process(memory):
 def test_the_sea_leaves_out_the_starts_in_islands():
     x, y = section_points(BALL, ENERGY, ORBITS)
     regular = classify_orbits(BALL, BALL.state_xy(x, y, ENERGY))["type"].values == "regular"
-    assert ORBITS - regular.sum() == CHAOTIC == sea_states(BALL, ENERGY, ORBITS).shape[1]
+    states = sea_states(BALL, ENERGY, ORBITS)
+    assert ORBITS - regular.sum() == CHAOTIC == states.shape[1]
+    starts = np.array(BALL.state_xy(x, y, ENERGY))[:, ~regular]
+    assert np.array_equal(states, BALL.after(starts, 16_000)[:3])
     with pytest.raises(ValueError, match="orbits = 1 is not allowed: "):
         sea_states(BALL, ENERGY, 1)
 
