@@ -138,18 +138,19 @@ def test_no_path_in_a_record_is_followed(root):
         assert left(root) == KEPT, output
 
 
-def test_results_may_be_a_link(root, tmp_path, capsys):
+def test_results_may_be_a_link(root, tmp_path, monkeypatch, capsys):
     """As on a cluster; git may track files of the folder elsewhere."""
     outside = tmp_path / "scratch" / "of mine"
     outside.parent.mkdir()
     (root / "results").rename(outside)
     (root / "results").symlink_to(outside)
-    write(outside / "explorer.html")
+    monkeypatch.setattr(clean, "_OF_COMMANDS", (*clean._OF_COMMANDS, "page.html"))
+    write(outside / "page.html")
     (outside / "mine" / "link").symlink_to("orbits.nc")
     commit(outside.parent, "of mine/paper/motion_fig3.nc")
     assert run("--yes", root=root) == 0
     assert left(root) == KEPT | {"results/paper/motion_fig3.nc"}
-    assert (root / "results").is_symlink() and not (outside / "explorer.html").exists()
+    assert (root / "results").is_symlink() and not (outside / "page.html").exists()
     first, *others = capsys.readouterr().out.splitlines()
     assert first.startswith("deleted 13 files, ")
     kept = {f"stays: {name}" for name in left(root) if name.startswith("results/")}

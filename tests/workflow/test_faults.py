@@ -260,6 +260,8 @@ BROKEN = {
 def test_a_broken_source_is_a_line_that_names_it(tree):
     for name, (text, line) in BROKEN.items():
         file = tree.path / "src" / name
+        if not file.parent.is_dir():
+            continue  # an extension that is not there
         kept = file.read_bytes()
         file.unlink()
         if text is not None:
