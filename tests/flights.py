@@ -1,6 +1,6 @@
 """Families of hard flights, and the error of the time to the next impact.
 
-The correct time is the first root that study.reference_solver proves in ball
+The correct time is the first root that pseudorigid.verified.reference_solver proves in ball
 arithmetic. Where that solver cannot decide about a double root, or the time in doubles is another
 root, the mpmath solver of independent_solver.py decides. A slow test compares the two solvers.
 """
@@ -8,11 +8,12 @@ root, the mpmath solver of independent_solver.py decides. A slow test compares t
 import math
 
 import mpmath
+import numpy as np
 from independent_solver import condition, judge
 from mpmath import mpf
 
 from pseudorigid.dynamics.ball import Ball
-from study.reference_solver import first_root
+from pseudorigid.verified.reference_solver import first_root
 
 # Largest relative error of tau over max(1, condition), see Verdict; measured 4.1e-16 at 102,000
 # states.
@@ -136,3 +137,9 @@ def by_mpmath(tau, true):
         # The flight touches within rounding: either root is right, and known only to sqrt(eps).
         return 0.0 if min(off, abs(float((tau - true.rival) / true.rival))) < 1e-6 else math.inf
     return off / max(1.0, true.condition)
+
+
+def draw(family, seed, count):
+    """States of a family, of which each seed has its own."""
+    rng = np.random.default_rng([seed, FAMILIES.index(family)])
+    return [tuple(float(a) for a in family(rng)) for _ in range(count)]

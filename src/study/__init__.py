@@ -2,7 +2,7 @@
 
 `methods` has the methods and `states` the states on which they are compared. `stages` compares
 accuracy and failures, `figure_errors` the figures, `measured` times and methods of libraries, and
-`bench` ratios of speed. `reference_solver` proves the true flight times.
+`bench` ratios of speed. True flight times are those that `pseudorigid.verified` proves.
 
 Its libraries are in requirements/study.txt.
 """

@@ -34,8 +34,8 @@ from pseudorigid.figures.kinds import closeup, exponents, motion
 from pseudorigid.kernel.arithmetic import log, sincos_each
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
+from pseudorigid.verified import reference_solver
 
-from . import reference_solver
 from .methods.counted_methods import ENGINES, OURS, SCANS, CountedMethod
 from .stages import certified_orbit, dataset, energy_drift, is_wrong, proved_times, states_before
 

@@ -12,8 +12,9 @@ import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball, Result, State
 from pseudorigid.dynamics.variables import LENGTH, described
+from pseudorigid.verified import reference_solver
 
-from . import reference_solver, states
+from . import states
 from .methods import Method
 from .methods.counted_methods import METHODS, OURS, engine_method, scan_method
 from .states import BALL

@@ -24,7 +24,7 @@ from pipeline.declaration import extensions, files
 # Each package may import those to its right, and each part of one the parts to its right.
 ORDER = ("extensions", "pipeline", "study", "pseudorigid")
 LAYERS = {
-    "pseudorigid": ("figures", "dynamics", "kernel"),
+    "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
         *("cli", "jobs", "checks", "config", "commands", "records"),
         *("loading", "declaration"),
@@ -234,10 +234,15 @@ def test_every_imported_package_is_in_the_lock_of_the_commands_that_reach_it():
 
 
 def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():
+    """Those that `verified` alone imports are an extra."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    sources = [text for file, text in SOURCES.items() if file.startswith("src/pseudorigid/")]
-    imported = {package for source in sources for package in packages_of(source)}
-    assert imported == set(project["dependencies"])
+    imported = {True: set(), False: set()}
+    for file, source in SOURCES.items():
+        if file.startswith("src/pseudorigid/"):
+            imported[file.startswith("src/pseudorigid/verified/")] |= {*packages_of(source)}
+    assert imported[False] == set(project["dependencies"])
+    extra = imported[True] - imported[False]
+    assert {"verified": sorted(extra)} == project["optional-dependencies"]
 
 
 LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "study")

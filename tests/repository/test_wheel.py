@@ -53,7 +53,7 @@ def fails(name):
     except ImportError: return True
 print(doctest.testfile("{page}", module_relative=False).failed)
 modules = pkgutil.walk_packages(pseudorigid.__path__, "pseudorigid.")
-print([n for _, n, _ in modules if fails(n)])
+print([n for _, n, _ in modules if fails(n) and ".verified." not in n])
 """
 
 

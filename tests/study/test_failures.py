@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from independent_solver import exact_map, judge
-from mpmath import mpf
+from independent_solver import judge
 
 from study import measured, stages, states
-from study import reference_solver as proved
 from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
@@ -67,14 +65,6 @@ def test_the_drift_is_the_largest_error_so_far():
     off = [abs(e / BALL.energy(*start) - 1) for e in energy]
     expected = [max(off[: i + 1]) for i in range(300)]
     assert stages.energy_drift(BALL, start, track) == pytest.approx(expected, rel=1e-9)
-
-
-def test_the_proved_orbit_is_that_of_sixty_digits():
-    state = states.chaotic()
-    exact = [mpf(float(a)) for a in state]
-    for row in proved.orbit(BALL, state, 40):
-        *exact, _ = exact_map(mpf(BALL.k), mpf(BALL.g), *exact)
-        assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
 
 
 def test_agreement_is_the_median_of_the_first_separations():

@@ -72,7 +72,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
 
 def search(names: Sequence[str]) -> None:
     """Replace the certificates of theorems by new ones if each of these is proved, or none."""
-    from study.flight import NotProvedError
+    from pseudorigid.verified.flight import NotProvedError
 
     from . import THEOREMS, search_certificate
 

@@ -20,7 +20,7 @@ from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit, start_state
 from pseudorigid.dynamics.variables import of_type, states_of
-from study.reference_solver import decided, impact
+from pseudorigid.verified.reference_solver import decided, impact
 
 from .enclosure.surface import Exact, ball_of, exact
 from .theorems.statements import Result

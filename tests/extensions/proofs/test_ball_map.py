@@ -14,8 +14,8 @@ from sections import BALL, sea
 from extensions.proofs import THEOREMS, Surface, proved_impacts
 from extensions.proofs.enclosure.surface import exact
 from pseudorigid.dynamics.variables import chart
-from study import flight, reference_solver
-from study.flight import Flight, UndecidedError
+from pseudorigid.verified import flight
+from pseudorigid.verified.flight import UndecidedError
 
 PAPER = Surface("1/5", "1/25", "1/100")
 COVERINGS = ("horseshoe", "entropy", "no-circle", "unstable")
@@ -83,22 +83,6 @@ def test_a_flight_that_may_touch_and_a_point_off_the_section_are_undecided():
         PAPER.impact(arb("0.6"), arb(0))
 
 
-def test_grazing_starts_are_decided_where_the_numbers_are_exact():
-    def root(x, c, s):
-        x, c, s = map(arb, (x, c, s))
-        return Flight(x, -s - c, c, s, arb(0.25)).first_root()
-
-    with ctx.workprec(128):
-        # x < -g: the ball leaves the floor although xdot + udot = 0
-        assert root(-0.5, 0.1, 0) > 0
-        # x = -g exactly and udot > 0: a cubic start
-        assert root(-0.25, 0.1, 0) > 0
-        with pytest.raises(UndecidedError):
-            root(-0.25, -0.1, 0)
-        with pytest.raises(UndecidedError, match="grazing"):
-            root(0.1, 0.1, arb(0, 1e-9))
-
-
 @pytest.mark.parametrize(("numbers", "name"), [
     *(((value, "1/25", "1/100"), "k = ")
       for value in (0.2, "1/x", "1/0", "nan", "1e99999", None, True, "0x1p3")),
@@ -121,7 +105,6 @@ def test_a_fraction_of_a_decimal_is_an_exact_number():
 
 
 def test_a_ball_pressed_onto_the_floor_stays_there():
-    assert reference_solver.first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
     at_rest = np.array([[-0.25], [0.0], [0.0]])  # x = -g, s = 0 and udot = 0
     assert proved_impacts.impact_errors("1/5", "1/4", at_rest, at_rest, np.zeros(1)) < 1e-300
     # x = -0.04 as a double is not -1/25: the ball leaves the floor

@@ -22,8 +22,8 @@ from extensions.proofs.checkers.hsets import HSet
 from extensions.proofs.enclosure import jets
 from extensions.proofs.enclosure.jets import Jet
 from extensions.proofs.enclosure.surface import ball_of
-from study import flight, reference_solver
-from study.flight import Flight
+from pseudorigid.verified import flight, reference_solver
+from pseudorigid.verified.flight import Flight
 
 PAPER = Surface("1/5", "1/25", "1/100")
 K, G = Fraction(1, 5), Fraction(1, 25)

@@ -9,7 +9,7 @@ from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
 from pipeline.cli.session import CommandLineError, UsageError
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 NAMES = ("fixed-point", "fixed-point-low")
 

@@ -21,7 +21,7 @@ from extensions.proofs.search.horseshoe import directions
 from extensions.proofs.search.periodic import polished
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart, states_of
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 _NEWTON_STEPS = 30  # of the search for a crossing, at most; each doubles the digits
 _SADDLE_STEPS = 9  # of Newton's method for a saddle, from doubles to 20,000 bits

@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.surface import Surface, ball_of, exact
 

@@ -9,7 +9,7 @@ from math import factorial
 
 from flint import acb, arb
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 ORDER = 5  # of the Taylor polynomials in a cell
 MOST_DENOMINATOR = 10_000  # q_m of a rotation number: the sum S has q_m - 1 terms

@@ -7,7 +7,7 @@ each of its points.
 
 from flint import acb, arb
 
-from study.flight import Flight, UndecidedError
+from pseudorigid.verified.flight import Flight, UndecidedError
 
 from ..enclosure.jets import Jet, intersection
 from ..enclosure.surface import Surface, flight_of_constants

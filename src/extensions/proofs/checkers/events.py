@@ -10,7 +10,7 @@ from functools import partial
 
 from flint import arb, ctx
 
-from study.flight import Flight, NotProvedError, UndecidedError, launch
+from pseudorigid.verified.flight import Flight, NotProvedError, UndecidedError, launch
 
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import Surface, first_root, flight_of_constants

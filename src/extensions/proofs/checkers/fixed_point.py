@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.jets import Jet, Real, algebra
 from ..enclosure.surface import Surface, ball_of, fraction_of

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from flint import ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.surface import Surface, ball_of
 from . import hsets

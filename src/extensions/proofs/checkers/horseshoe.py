@@ -11,7 +11,7 @@ from math import gcd
 
 from flint import arb, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.surface import Surface, ball_of
 from . import hsets, periodic

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeVar
 
 from flint import arb
 
-from study.flight import NotProvedError, UndecidedError
+from pseudorigid.verified.flight import NotProvedError, UndecidedError
 
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface, ball_of

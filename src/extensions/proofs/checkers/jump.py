@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from flint import arb, ctx
 
-from study.flight import NotProvedError, UndecidedError, flight_from_rim
+from pseudorigid.verified.flight import NotProvedError, UndecidedError, flight_from_rim
 
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Impact, Surface, ball_of

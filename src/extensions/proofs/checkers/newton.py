@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 
 from flint import arb, arb_mat
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 # Values of the equations, and rows of their derivatives by the unknowns and perhaps by more.
 System = Callable[[Sequence[arb]], tuple[list[arb], list[list[arb]]]]

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from flint import arb, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.jets import Jet, algebra
 from ..enclosure.surface import ball_of

@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.surface import Impact, Surface, ball_of
 from .certificate import Certificate, Finding, Window, box, check_stated, lower_bound, naming

@@ -24,7 +24,7 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..enclosure.jets import Jet
 from ..enclosure.surface import Surface

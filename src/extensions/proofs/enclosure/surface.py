@@ -10,7 +10,7 @@ from typing import Any, Generic, NamedTuple, overload
 from flint import acb, arb, ctx, fmpq
 
 from pseudorigid.dynamics.inputs import in_one_line
-from study.flight import Flight, UndecidedError
+from pseudorigid.verified.flight import Flight, UndecidedError
 
 from .jets import Jet, Real, Value, square_root
 

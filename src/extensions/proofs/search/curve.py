@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from pseudorigid.dynamics.orbits import orbit
 from pseudorigid.dynamics.variables import chart, states_of
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers.certificate import Finding
 from ..checkers.circle import derivative, noble, real_values, rotated, transform

@@ -19,7 +19,7 @@ from scipy.sparse.csgraph import connected_components
 
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers import graph, hsets
 from ..enclosure.surface import Surface

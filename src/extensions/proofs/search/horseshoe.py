@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers.certificate import Finding
 from ..checkers.periodic import enclose

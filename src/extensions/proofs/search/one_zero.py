@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from flint import ctx
 
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers.fixed_point import energy_at
 from ..checkers.one_zero import BITS, ZEROS, over_band

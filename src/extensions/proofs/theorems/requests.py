@@ -11,7 +11,7 @@ import xarray as xr
 from pseudorigid.dynamics.ball import Ball, require_ball
 from pseudorigid.dynamics.inputs import not_allowed, number, one_of
 from pseudorigid.dynamics.variables import chart, states_of
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers import curve, horseshoe, periodic
 from ..checkers.certificate import Finding

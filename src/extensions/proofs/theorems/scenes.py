@@ -11,7 +11,7 @@ from flint import arb, ctx
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import AREA, ENERGY, LENGTH, SPEED, described, of_type
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers import curve, graph, horseshoe, jump
 from ..checkers.certificate import Finding

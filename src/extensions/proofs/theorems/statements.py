@@ -14,7 +14,7 @@ import xarray as xr
 
 from pipeline.loading import note_loaded
 from pseudorigid.dynamics import paper
-from study.flight import NotProvedError
+from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers import (
     curve,

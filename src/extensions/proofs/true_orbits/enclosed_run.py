@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from study.flight import UndecidedError
+from pseudorigid.verified.flight import UndecidedError
 
 from ..enclosure.surface import Exact, Surface, ball_of, exact
 

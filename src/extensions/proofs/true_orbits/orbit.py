@@ -15,7 +15,7 @@ from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.orbits import ragged_orbits, start_state
 from pseudorigid.dynamics.variables import attributes_of, variables
 from pseudorigid.kernel.arithmetic import log
-from study.flight import UndecidedError
+from pseudorigid.verified.flight import UndecidedError
 
 from ..enclosure.surface import Exact, Surface
 from .enclosed_run import FRAME_BITS, GUARD_BITS, RESULT_BITS, Run, ShortOfBitsError, Start
