@@ -1,7 +1,7 @@
 # The workflow of the paper's figures. ./reproduce runs it with the options of profiles/default, and
 # so does a plain snakemake. config.yaml has one scene for each figure. Data go to
 # results/<variant>/<stage>_<scene>.nc and drawings to results/<variant>/figures/, where <variant> may
-# also be a set of scenes, as study; ./reproduce publishes the drawings.
+# also be a set of scenes; ./reproduce publishes the drawings.
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -17,18 +17,35 @@ wildcard_constraints:
     number=r"\d{4}",
 
 
-include: "workflow/rules/data.smk"
-include: "workflow/rules/figures.smk"
-include: "workflow/rules/study.smk"
+include: "workflow/rules/paper.smk"
 
 
-# Rules of extensions.
-for name in extensions():
-    if (EXTENSIONS / name / "rules.smk").is_file():
-        try:
-            workflow.include(EXTENSIONS / name / "rules.smk")
-        except Exception as error:
-            sys.exit(f"src/extensions/{name}/rules.smk: {error}")
+# The rules of all other parts: of each stage, and of each kind of picture.
+for declared in other_rules():
+
+    rule:
+        name:
+            declared.name
+        input:
+            **declared.inputs,
+            why=reason(declared.result),
+        output:
+            **declared.made,
+        log:
+            log_path(declared.result),
+        wildcard_constraints:
+            **declared.constraints,
+        priority: priority
+        threads: declared.threads
+        localrule: declared.local
+        conda:
+            ROOT / "workflow" / "envs" / "python.yaml"
+        params:
+            python=sys.executable,
+        shell:
+            MAKE
+
+    workflow.get_rule(declared.name).docstring = declared.function
 
 
 rule all:

@@ -23,14 +23,14 @@ def compile_the_rest():
     """Call the ball's methods, a cell of a sweep, and the study."""
     import numpy as np
 
-    from pipeline.declaration import extensions
+    from pipeline.declaration import parts
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.ensemble import ImpactMap
     from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
     from study import figure_errors, states
     from study.methods import counted_methods
 
-    if "atlas" in extensions():
+    if "atlas" in parts():
         from extensions.atlas import cell
 
         for count in (12, 100):

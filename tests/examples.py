@@ -9,8 +9,8 @@ import numpy as np
 import yaml
 from legible import assert_text_is_whole_and_apart
 
+from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, reported
-from pipeline.checks.report.captions import caption_of
 from pipeline.config import ConfigError, check
 from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS

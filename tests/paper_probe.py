@@ -21,7 +21,7 @@ from pipeline.config.build_specs import build_specs
 
 def figures(folder, checked, names=()):
     """Yield (file name, hash) of the figures of these scenes of the paper, or of all."""
-    specs = build_specs(checked, [paths.PAPER])
+    specs = build_specs(checked, [paths.MAIN])
     for scene, upstream in paths.figures(checked.variants).values():
         if not names or scene in names:
             make_here(folder, specs, upstream[-1:])

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import yaml
 
-from pipeline.config import PAPER
+from pipeline.config import MAIN
 from pipeline.config.schema.sets import SETS
 from pipeline.records import sources
 from pseudorigid.kernel import compiled
@@ -29,7 +29,7 @@ _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 MEANINGS = "src/pipeline/records/__pycache__"  # where hashes of sources are kept
 # Keys of config.yaml whose blocks are shipped.
-APART = [each.key for name, each in SETS.items() if each.key and name != PAPER]
+APART = [each.key for name, each in SETS.items() if each.key and name != MAIN]
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
 
 
@@ -146,7 +146,7 @@ class Tree:
         from pipeline.config.build_specs import build_specs, with_dependencies
 
         config = load(self.config)
-        specs, published = build_specs(config, [PAPER]), figures(config.variants, PAPER)
+        specs, published = build_specs(config, [MAIN]), figures(config.variants, MAIN)
         drawings = [published[path][1][-1] for path in targets or published]
         return set(Freshness(self.path, specs).outdated(with_dependencies(specs, drawings)))
 

@@ -1,4 +1,4 @@
-"""The commands of ./reproduce: those of the core, and with them those of extensions.
+"""The commands of ./reproduce: those of the engine, and with them those of parts.
 
 `reproduce` prints its help before anything is installed: only the standard library is used here.
 """
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from .declaration import Command, SnakemakeCommand, extensions, names, switch
+from .declaration import Command, SnakemakeCommand, names, parts, switch
 
 
 def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[str, Any]]:
@@ -24,23 +24,6 @@ COMMANDS = {
         "make the figures of a variant of config.yaml, in results/NAME/figures/",
         _name("variant", "a variant of config.yaml", "NAME"),
         names("figure", _FIGURES),
-    ),
-    "compare": SnakemakeCommand(
-        "show what differs between two variants, figure by figure",
-        _name("a", "a variant of config.yaml, or paper"),
-        _name("b", "another one"),
-        names("figure", "figures to compare, by their names in config.yaml; without a name, all"),
-        module="compare",
-    ),
-    "study": SnakemakeCommand(
-        "compare speed and accuracy with other methods, in more_figures/study/",
-        scenes="study",
-        packages="study",
-        details="Installs the packages of the other methods first (once).",
-    ),
-    "report": SnakemakeCommand(
-        "write one HTML page: figures, numbers beside the paper's, corrections, run times",
-        module="report",
     ),
     "verify": Command(
         "check whether everything is as committed, and if not, show what differs",
@@ -59,15 +42,8 @@ COMMANDS = {
         names("folder", "variants, or other folders of results/; without a name, all"),
         switch("--yes", "do not ask"),
     ),
-    "benchmark": Command(
-        "measure speeds and print a table of their ratios",
-        module="program",
-        packages="study",
-        details="Installs the packages of the study first (once).",
-    ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
-        module="program",
         packages="test",
         details="Installs the packages of the tests first (once).",
     ),
@@ -75,9 +51,9 @@ COMMANDS = {
         "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")
     ),
 }
-_MAKING = ("list", "variant", "compare", "study", "report")  # listed first, before extensions
+_MAKING = ("list", "variant")  # listed first, before the commands of parts
 DEFAULT_COMMAND = SnakemakeCommand(
-    "Draw the paper's figures from config.yaml into paper_figures/, unless they are current.",
+    "Draw and publish the figures of config.yaml, unless they are current.",
     names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
     switch("--version", "print the versions of this project and of snakemake"),
 )
@@ -85,15 +61,15 @@ DEFAULT_COMMAND = SnakemakeCommand(
 
 @cache
 def all_commands() -> dict[str, Command]:
-    """Return the commands of the core and of extensions."""
-    more = {k: v for extension in extensions().values() for k, v in extension.commands.items()}
+    """Return the commands of the engine and of parts."""
+    more = {k: v for part in parts().values() for k, v in part.commands.items()}
     first = {name: COMMANDS[name] for name in _MAKING}
     return first | more | {k: v for k, v in COMMANDS.items() if k not in _MAKING}
 
 
 def options_of(command: str | None) -> list[tuple[str, dict[str, Any], str]]:
-    """Return the options that extensions add to a command of the core."""
-    return [e.options[command] for e in extensions().values() if command and command in e.options]
+    """Return the options that parts add to a command of the engine."""
+    return [p.options[command] for p in parts().values() if command and command in p.options]
 
 
 def module_of(command: Command, name: str, given: Mapping[str, Any]) -> str:

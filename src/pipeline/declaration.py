@@ -1,20 +1,19 @@
-"""What the core and an extension declare: stages, sets of scenes, commands; and the extensions.
+"""What a part declares: stages, sets of scenes, commands; and the parts that are there.
 
-An extension is a folder of src/extensions with a module `extension.py`, which has an `Extension`
-called EXTENSION. Files beside it are found by their names:
+A part is a folder of src or of src/extensions with a module `part.py`, which has a `Part` called
+PART. Files beside it are found by their names:
 
     __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
     figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide
     figures/reports.py  what pictures report
     scenes.yaml       blocks of config.yaml that it ships, and variants
-    rules.smk         rules of its stages and pictures
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
     README.md         its page of documentation
 
 `reproduce` prints its help before anything is installed: only the standard library is used here,
-and in each `extension.py`.
+and in each `part.py`.
 """
 
 import importlib
@@ -25,7 +24,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-FOLDER = Path(__file__).resolve().parents[1] / "extensions"
+SRC = Path(__file__).resolve().parents[1]
 
 
 class SourceError(ValueError):
@@ -34,7 +33,7 @@ class SourceError(ValueError):
     def __init__(self, path: str | os.PathLike[str], reason: Exception | str) -> None:
         frames = traceback.extract_tb(getattr(reason, "__traceback__", None))
         lines = [f"line {frame.lineno}: " for frame in frames if frame.filename == str(path)]
-        place = os.path.relpath(path, FOLDER.parents[1])
+        place = os.path.relpath(path, SRC.parent)
         super().__init__(f"{place}: {''.join(lines[-1:])}{reason}")
 
 
@@ -50,13 +49,16 @@ class Stage(NamedTuple):
     fields: str = ""  # the scene's fields that it takes, as far as the scene has them
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
     follows: bool = False  # it follows orbits, so that a scene's `method` decides its data too
-    # A function block -> blocks of config of the parts that are computed each by itself, and the
-    # function that computes one. `function` then joins them.
-    parts: str = ""
-    part: str = ""
-    paper: str = ""  # a function that adds what it takes of the paper's scenes, and their datasets
+    # A function block -> blocks of config whose data are computed each by itself, and the function
+    # that computes those of one. `function` then joins them.
+    blocks: str = ""
+    of_block: str = ""
+    main: str = (
+        ""  # a function that adds what it takes of the main set's scenes, and their datasets
+    )
     reads: str = ""  # a data file, as a template of its fields, if it reads no other one
     measured: bool = False  # its data are times of this machine, and are never compared
+    alone: bool = False  # it uses all cores, or measures seconds: no other job runs beside it
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -83,7 +85,7 @@ class Command:
 
     Each argument is a name with the keyword arguments of argparse's add_argument. A module in
     pipeline.cli.commands has a name without a dot. `scenes` names the set of scenes that it makes,
-    `packages` a list in requirements/ that it installs first, and `needs` other extensions.
+    `packages` a list in requirements/ that it installs first, and `needs` other parts.
     """
 
     def __init__(
@@ -116,36 +118,45 @@ def switch(name: str, text: str) -> tuple[str, dict[str, Any]]:
     return name, {"action": "store_true", "help": text}
 
 
-class Extension(NamedTuple):
-    """What an extension adds, beside the files in its folder."""
+class Part(NamedTuple):
+    """What a part adds, beside the files in its folder."""
 
-    needs: tuple[str, ...] = ()  # other extensions without which its modules cannot be loaded
+    needs: tuple[str, ...] = ()  # other parts without which its modules cannot be loaded
     stages: Mapping[str, Stage] = {}
     sets: Mapping[str, SceneSet] = {}  # by their folders in results/
     commands: Mapping[str, Command] = {}
-    # Command of the core -> name, keyword arguments and module of a further option. If the option
+    # Command of the engine -> name, keyword arguments and module of a further option. If the option
     # is given, this module runs the command.
     options: Mapping[str, tuple[str, dict[str, Any], str]] = {}
-    blocks: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
+    settings: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
     methods: Mapping[str, str] = {}  # key of a scene's `method` -> the class of its block
     exact: Mapping[str, Mapping[str, str]] = {}  # method -> stage -> the function that computes it
     reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
-    report: str = ""  # a module with a part of the report
+    report: str = ""  # a module with a section of the report
     benchmark: str = ""  # a module with rows of the benchmark
     generated: tuple[str, ...] = ()  # patterns of files in results/ that its commands write
+    # Result -> its seconds on one core. The longest jobs begin first, so that none of them is left
+    # over at the end, when the other cores are idle.
+    seconds: Mapping[str, int] = {}
 
 
 @cache
-def _declared() -> dict[str, Extension]:
-    """Return what each folder of src/extensions declares."""
-    folders = [file.parent.name for file in sorted(FOLDER.glob("*/extension.py"))]
-    return {name: imported(f"extensions.{name}.extension.EXTENSION") for name in folders}
+def _packages() -> dict[str, str]:
+    """Map the name of each part, that of its folder, to its package."""
+    files = [*sorted(SRC.glob("*/part.py")), *sorted(SRC.glob("extensions/*/part.py"))]
+    return {f.parent.name: ".".join(f.parent.relative_to(SRC).parts) for f in files}
 
 
 @cache
-def extensions() -> dict[str, Extension]:
-    """Return the extensions that are there with all that they need, each after what it needs."""
-    declared, found = _declared(), dict[str, Extension]()
+def _declared() -> dict[str, Part]:
+    """Return what each part declares."""
+    return {name: imported(f"{package}.part.PART") for name, package in _packages().items()}
+
+
+@cache
+def parts() -> dict[str, Part]:
+    """Return the parts that are there with all that they need, each after what it needs."""
+    declared, found = _declared(), dict[str, Part]()
 
     def add(name: str) -> bool:
         if name in declared and name not in found and all(map(add, declared[name].needs)):
@@ -158,11 +169,11 @@ def extensions() -> dict[str, Extension]:
 
 
 def lacking(command: str) -> str | None:
-    """Return an extension that is not there and that a command needs, or None."""
-    for extension in _declared().values():
-        if command in extension.commands:
-            needed = (*extension.needs, *extension.commands[command].needs)
-            return next((name for name in needed if name not in extensions()), None)
+    """Return a part that is not there and that a command needs, or None."""
+    for part in _declared().values():
+        if command in part.commands:
+            needed = (*part.needs, *part.commands[command].needs)
+            return next((name for name in needed if name not in parts()), None)
     return None
 
 
@@ -172,7 +183,7 @@ def imported(name: str) -> Any:
     try:
         return getattr(importlib.import_module(module), last)
     except (ModuleNotFoundError, AttributeError) as error:
-        path = FOLDER.parent.joinpath(*module.split(".")).with_suffix(".py")
+        path = SRC.joinpath(*module.split(".")).with_suffix(".py")
         raise SourceError(path, error) from error
 
 
@@ -183,6 +194,8 @@ def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]
     return [*module.hidden(block, *datasets)] if given else []
 
 
-def files(name: str) -> list[Path]:
-    """Return the files of this name in the folders of extensions, in the order of these."""
-    return [file for each in extensions() if (file := FOLDER / each / name).is_file()]
+def files(name: str) -> dict[str, Path]:
+    """Map the package of each part that has a file of this name to the file."""
+    packages = [_packages()[part] for part in parts()]
+    found = {each: SRC.joinpath(*each.split("."), name) for each in packages}
+    return {package: file for package, file in found.items() if file.is_file()}

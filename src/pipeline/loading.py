@@ -9,9 +9,12 @@ import hashlib
 import os
 from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from pathlib import Path
 from types import CodeType, ModuleType
 
-PACKAGES = ("pipeline", "pseudorigid", "study", "extensions")
+# All that lie beside this one, but for plugins of snakemake.
+_SRC = Path(__file__).parents[1]
+PACKAGES = {f.parent.name for f in _SRC.glob("*/__init__.py") if "_plugin_" not in f.parent.name}
 LOADED: dict[str, set[str]] = {}  # real path of a file -> sha256 of each text loaded from it
 
 

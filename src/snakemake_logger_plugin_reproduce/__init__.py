@@ -13,16 +13,16 @@ import psutil
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
+from pipeline.cli.session import RUN
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.jobs.plan import plan
-from pipeline.jobs.server import ADDRESS
 from pipeline.records.build_spec import BuildSpec
 from pipeline.records.files import disk_is_full, inode, memory_is_short
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT
 
 WIDTH = 6  # characters of a scene's name
-PAUSE = 1.0  # least number of seconds between two lines about parts
+PAUSE = 1.0  # least number of seconds between two lines about blocks
 
 
 class LogHandler(LogHandlerBase):
@@ -39,12 +39,12 @@ class LogHandler(LogHandlerBase):
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
-        self.parts: Parts | None = None
+        self.blocks: Blocks | None = None
         self.steps = "0 steps"  # how many are done
         logging.raiseExceptions = False  # snakemake's own log may be on a full disk
         threading.Thread(target=_end_with_parent, daemon=True).start()
         self.compiling = _compiling()
-        parent = psutil.Process(os.getppid() if ADDRESS in os.environ else None)
+        parent = psutil.Process(os.getppid() if RUN in os.environ else None)
         self.heartbeat = Heartbeat(self._running, waited=time.time() - parent.create_time())
 
     def emit(self, record: LogRecord) -> None:
@@ -96,13 +96,13 @@ class LogHandler(LogHandlerBase):
         return f"{compiling}running: {', '.join(jobs)}; {self.steps} done"
 
     def _print(self, job: int, *words: str) -> None:
-        """Print a line about a job; parts of a dataset are many, and are counted instead."""
+        """Print a line about a job; blocks of a dataset are many, and are counted instead."""
         spec = plan().freshness.build_specs.get(self.results[job])
         scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
         line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        if spec and _is_part(spec) and len(words) > 1:
-            self.parts = self.parts or Parts(plan().freshness.build_specs, plan().outdated)
-            line = self.parts.done(self.results[job])
+        if spec and _is_block(spec) and len(words) > 1:
+            self.blocks = self.blocks or Blocks(plan().freshness.build_specs, plan().outdated)
+            line = self.blocks.done(self.results[job])
         if line:
             self.heartbeat.print(line.rstrip())
 
@@ -122,30 +122,30 @@ def _compiling() -> str:
 
 def _end_with_parent() -> None:
     """End snakemake when ./reproduce has ended, which closes the pipe on stdin."""
-    if ADDRESS in os.environ:
+    if RUN in os.environ:
         os.read(sys.stdin.fileno(), 1)  # nothing is ever written
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-class Parts:
-    """Counts the finished parts of datasets, called blocks, and estimates the time left.
+class Blocks:
+    """Counts the finished blocks of datasets, and estimates the time left.
 
-    Each part is computed by a job of its own. `specs` maps results to build specifications, and
+    Each block is computed by a job of its own. `specs` maps results to build specifications, and
     `outdated` has the results of the run.
     """
 
     def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
-        scenes = {path: spec.scene for path, spec in specs.items() if _is_part(spec)}
+        scenes = {path: spec.scene for path, spec in specs.items() if _is_block(spec)}
         self.left = scenes.keys() & outdated
         self.names = sorted({scenes[path] for path in self.left})
         self.total = sum(scene in self.names for scene in scenes.values())
-        self.first: tuple[float, int] | None = None  # time, and parts that were left then
+        self.first: tuple[float, int] | None = None  # time, and blocks that were left then
         self.printed = -PAUSE
 
     def done(self, path: str) -> str | None:
-        """Count a finished part, and return a line if it is time for one.
+        """Count a finished block, and return a line if it is time for one.
 
-        Speed is measured from the first part on: before it, jobs may compile the map.
+        Speed is measured from the first block on: before it, jobs may compile the map.
         """
         self.left.discard(path)
         now, left = time.monotonic(), len(self.left)
@@ -160,8 +160,8 @@ class Parts:
         return f"{text}, {_duration(round(seconds))} to go"
 
 
-def _is_part(spec: BuildSpec) -> bool:
-    """Return whether a result is a part of a dataset."""
+def _is_block(spec: BuildSpec) -> bool:
+    """Return whether a result is a block of a dataset."""
     return spec.step.startswith("block ")
 
 

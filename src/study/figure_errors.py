@@ -24,13 +24,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from paper.figures import closeup, exponents, motion
 from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.orbits import start_state
 from pseudorigid.dynamics.variables import of_type, states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.axes.plane import Plane
 from pseudorigid.figures.canvas.style import DPI, pinned
-from pseudorigid.figures.kinds import closeup, exponents, motion
 from pseudorigid.kernel.arithmetic import log, sincos_each
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients, rebound

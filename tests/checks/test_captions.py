@@ -7,9 +7,9 @@ from examples import PAPER, SHELL, checked, computed
 from project import ROOT, SHIPPED
 
 from pipeline import config
+from pipeline.checks.captions import CAPTIONS, caption_of
+from pipeline.checks.figures_page import page
 from pipeline.checks.quantities import facts
-from pipeline.checks.report.captions import CAPTIONS, caption_of
-from pipeline.checks.report.figures_page import page
 from pipeline.config import PUBLISHED
 from pipeline.config.schema.kinds import KINDS
 

@@ -12,7 +12,7 @@ from project import run
 
 from pipeline.cli import arguments
 from pipeline.commands import all_commands, module_of
-from pipeline.declaration import extensions
+from pipeline.declaration import parts
 
 
 def test_help_has_a_line_for_each_command(capsys):
@@ -57,7 +57,7 @@ MISTAKES = {
 }
 
 
-if "families" in extensions():
+if "families" in parts():
     MISTAKES["energy"] = (
         ": energy is the name of several scenes: say study/energy or families/energy"
     )

@@ -19,7 +19,7 @@ from pipeline.cli import running, session
 
 session.ROOT = Path(sys.argv[1])
 with session.locked():
-    running._wait(["sh", "-c", "echo $$; exec sleep 60"], None, False)
+    running._wait(["sh", "-c", "echo $$; exec sleep 60"], False)
 """
 
 

@@ -7,11 +7,10 @@ import pytest
 from cycles import SETTINGS
 from sections import BALL
 
-from pipeline.checks.compare import datasets
+from paper.figures import reports
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
-from pseudorigid.figures.kinds import reports
 from pseudorigid.kernel import spectrum
 
 
@@ -82,8 +81,6 @@ def test_the_largest_exponent_is_the_largest_by_value():
     numbers = reports.exponents(block, found)
     ours = [float(text) for text in numbers["largest exponent"].split(", ")]
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
-    line = datasets.exponents(found, found, ("one", "other"))[1]
-    assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
 
 
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):

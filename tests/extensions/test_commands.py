@@ -4,7 +4,7 @@ import pytest
 from commands import mistake
 
 from pipeline.cli import arguments
-from pipeline.declaration import extensions
+from pipeline.declaration import parts
 
 # Extension -> mistaken command -> the line about it.
 MISTAKES = {
@@ -25,13 +25,13 @@ MISTAKES = {
 
 @pytest.mark.parametrize(
     ("line", "words"),
-    [each for name, lines in MISTAKES.items() if name in extensions() for each in lines.items()],
+    [each for name, lines in MISTAKES.items() if name in parts() for each in lines.items()],
 )
 def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line, words):
     assert mistake(capsys, line) == words
 
 
-@pytest.mark.skipif("atlas" not in extensions(), reason="no sweeps here")
+@pytest.mark.skipif("atlas" not in parts(), reason="no sweeps here")
 def test_names_and_flags_may_be_mixed():
     args = arguments.read(["sweep", "--slurm", "line", "-c2", "small", "--", "-j", "5"])
     assert (args.sweep, args.slurm, args.cores) == (["line", "small"], True, "2")

@@ -6,14 +6,11 @@ from keys import SCENE, texts
 from samples import SCENES, module, motion
 from sections import BALL
 
-from pipeline import config
-from pipeline.checks.compare import picture
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.regularity import chaotic_orbits
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.render import pixels
 
 VIEW = {"elevation": 40, "azimuth": 115}
 REGULAR, CHAOTIC = [0.1, -0.2], 0.6  # starts at SCENE
@@ -83,18 +80,3 @@ def test_no_mark_of_a_chart_lies_outside_its_frame():
     axes["t"] = {"limits": [4, 6], "ticks": [5]}
     figure = module("motion").draw(SCENES["motion"] | {"axes": axes}, motion())
     assert "impact" not in texts(figure)
-
-
-def test_a_comparison_draws_both_variants_on_axes_that_hold_both():
-    exponents = {"picture": "exponents", "starts": [0.6], "impacts": 500, "records": 20}
-    scenes = {"low": exponents | {"energy": 0.01}, "high": exponents | {"energy": 0.05}}
-    pictures = config.check({"ball": {"k": 0.2, "g": 0.04}, "scenes": scenes}).scenes.values()
-    blocks = [each.as_mapping() for each in pictures]
-    data = [[scene_exponents(BALL, block["energy"], [0.6], 500, 20)] for block in blocks]
-    images, words = picture.on_same_axes([*pictures], data)
-    assert words == ", on the same axes"
-    pairs = zip(blocks, data, strict=True)
-    alone = [pixels(module("exponents").draw(block, *datasets)) for block, datasets in pairs]
-    left = np.s_[:, 90:178]  # of the frame, where the labels are
-    assert np.array_equal(images[0][left], images[1][left])
-    assert not np.array_equal(alone[0][left], alone[1][left])

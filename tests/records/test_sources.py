@@ -15,8 +15,8 @@ def test_a_job_depends_on_what_it_imports_and_no_more():
     stage = sources.source_files("pipeline.jobs.stage", "pseudorigid.dynamics.lyapunov")
     assert "src/pseudorigid/kernel/arithmetic.py" in stage
     assert not [file for file in stage if "/figures/" in file or "periodic" in file]
-    drawing = sources.source_files("pipeline.jobs.draw", "pseudorigid.figures.kinds.motion")
-    assert "src/pseudorigid/figures/kinds/motion.py" in drawing
+    drawing = sources.source_files("pipeline.jobs.draw", "paper.figures.motion")
+    assert "src/paper/figures/motion.py" in drawing
     assert not [file for file in drawing if "pipeline/config" in file or "portrait" in file]
 
 

@@ -9,7 +9,7 @@ import pytest
 from project import ROOT
 
 import pseudorigid
-from pipeline.declaration import extensions
+from pipeline.declaration import parts
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 
@@ -25,7 +25,7 @@ DEAR = re.compile(r"0\.1787|proof\.digits|\bflux\b")
 def test_the_examples_of_the_page_are_true():
     text, *of_extensions = re.split(r"\n### (\w+)\n", PAGE.read_text(encoding="utf-8"))
     for name, part in zip(of_extensions[::2], of_extensions[1::2], strict=True):
-        text += part if name in extensions() else ""
+        text += part if name in parts() else ""
     page = doctest.DocTestParser().get_doctest(text, {}, PAGE.name, str(PAGE), 0)
     page.examples = [one for one in page.examples if not DEAR.search(one.source)]
     assert len(page.examples) > 20

@@ -8,13 +8,12 @@ import pytest
 from slowly import slowly
 
 import pseudorigid
-import study
-from pipeline.declaration import extensions
+from pipeline.declaration import files
 
-EXTENSIONS = [importlib.import_module(f"extensions.{name}") for name in extensions()]
+PARTS = [importlib.import_module(package) for package in files("__init__.py")]
 MODULES = [
     info.name
-    for package in (pseudorigid, study, *EXTENSIONS)
+    for package in (pseudorigid, *PARTS)
     for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
 ]
 

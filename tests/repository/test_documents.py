@@ -9,7 +9,7 @@ from project import ROOT
 
 from pipeline import config, declaration
 from pipeline.config import reference
-from pipeline.declaration import extensions
+from pipeline.declaration import parts
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
@@ -34,8 +34,8 @@ def is_absent(name):
     """Whether a file is one of an extension that is not there, or of any if there is none."""
     found = re.search(r"\bextensions/(\w+)/", name)
     if found:
-        return found[1] not in extensions()
-    return not extensions() and name in declaration.__doc__
+        return found[1] not in parts()
+    return not parts() and name in declaration.__doc__
 
 
 def text_of(document):
@@ -48,7 +48,7 @@ def blocks(document):
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip("\n") for block in found]
 
 
-@pytest.mark.skipif(not extensions(), reason="the committed pages are those with extensions")
+@pytest.mark.skipif(not parts(), reason="the committed pages are those with extensions")
 @pytest.mark.parametrize(("file", "module"), GENERATED.items())
 def test_a_generated_file_is_up_to_date(file, module):
     assert text_of(file) == module.page(), f"renew it: python -m {module.__name__}"

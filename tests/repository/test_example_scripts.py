@@ -10,7 +10,7 @@ import pytest
 from project import ROOT
 from slowly import slowly
 
-from pipeline.declaration import extensions
+from pipeline.declaration import parts
 from pipeline.records import artifacts
 from pseudorigid import Ball, Picture
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -33,7 +33,7 @@ DEAR = "bifurcation", "scan"  # they take seconds
 def test_a_script_makes_its_picture(name, tmp_path, monkeypatch):
     script = FOLDER / f"{name}.py"
     imported = re.findall(r"^from extensions\.(\w+)", script.read_text(encoding="utf-8"), re.M)
-    if missing := {*imported} - {*extensions()}:
+    if missing := {*imported} - {*parts()}:
         pytest.skip(f"{name} needs the extension {missing}")
     if name == "dataset":
         save_orbits_of_figure_2(tmp_path)

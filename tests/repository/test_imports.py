@@ -1,4 +1,4 @@
-"""Imports point downwards, without circles; the core names no extension; processes load little."""
+"""Imports point downwards, without circles; the engine names no part; processes load little."""
 
 import ast
 import copy
@@ -14,15 +14,17 @@ import yaml
 from project import ROOT, SHIPPED, run
 from test_style import pins
 
-from pipeline.commands import COMMANDS
-from pipeline.config.schema.fields import BallBlock
+from pipeline.config.schema import scene
 from pipeline.config.schema.kinds import KINDS
-from pipeline.config.schema.sets import PAPER, SETS, STUDY
-from pipeline.config.schema.stages import STAGES
-from pipeline.declaration import extensions, files
+from pipeline.declaration import files, parts
 
 # Each package may import those to its right, and each part of one the parts to its right.
-ORDER = ("extensions", "pipeline", "study", "pseudorigid")
+ORDER = ("extensions", "study", "paper", "pipeline", "pseudorigid")
+PRESENT = [name for name in ORDER if (ROOT / "src" / name / "__init__.py").is_file()]
+PACKAGES_OF_PARTS = {
+    file.parent.name: ".".join(file.parent.relative_to(ROOT / "src").parts)
+    for file in (ROOT / "src").rglob("part.py")
+}
 LAYERS = {
     "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
@@ -36,7 +38,7 @@ LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(L
 @pytest.fixture(scope="module")
 def built():
     """The graph of imports, also of those in functions."""
-    return grimp.build_graph(*ORDER if extensions() else ORDER[1:], cache_dir=None)
+    return grimp.build_graph(*PRESENT, cache_dir=None)
 
 
 @pytest.fixture
@@ -54,7 +56,7 @@ def circle(graph):
     return None
 
 
-def parts(graph, parent):
+def pieces(graph, parent):
     """The graph of the modules and packages that lie side by side in a package."""
     depth = parent.count(".") + 1
     found = {}
@@ -80,7 +82,7 @@ def violations(graph):
             ):
                 yield f"{name} imports {target}: upwards"
     for parent in {name.rpartition(".")[0] for name in graph} - {""}:
-        siblings = parts(graph, parent)
+        siblings = pieces(graph, parent)
         if nodes := circle(siblings):
             yield f"a circle in {parent}: {' > '.join(nodes)}"
         if parent in LAYERS:
@@ -99,7 +101,7 @@ def test_the_source_follows_the_rules(graph):
         # a circle of packages, none of modules
         ("pseudorigid.figures.canvas.new", "pseudorigid.figures.axes.new", "a circle in "),
         ("pseudorigid.dynamics.new", "pseudorigid.figures.canvas.style", "{} imports {}: upwards"),
-        ("study.new", "pipeline.config", "{} imports {}: upwards"),
+        ("pipeline.new", "paper.kinds", "{} imports {}: upwards"),
         ("pipeline.config.new", "extensions.new", "{} imports {}: upwards"),
         ("pipeline.new.new", "pipeline.records", "pipeline.new: a part without a layer"),
     ],
@@ -111,12 +113,12 @@ def test_a_planted_fault_is_found(graph, module, imported, line):
     assert any(each.startswith(line.format(module, imported)) for each in found), found
 
 
-GUARDED = re.compile(r'if "(\w+)" in extensions\(\):\n +from (extensions\.\1[\w.]*) import (\w+)')
+GUARDED = re.compile(r'if "(\w+)" in parts\(\):\n +from (extensions\.\1[\w.]*) import (\w+)')
 
 
 @pytest.fixture
 def unguarded(built):
-    """The graph of imports without those below `if "NAME" in extensions():`."""
+    """The graph of imports without those below `if "NAME" in parts():`."""
     graph = copy.deepcopy(built)
     for file in (ROOT / "src" / "extensions").rglob("*.py"):
         module = ".".join(file.relative_to(ROOT / "src").with_suffix("").parts)
@@ -127,10 +129,11 @@ def unguarded(built):
 
 
 def undeclared(graph):
-    """Yield (extension, another one) if the first needs the second and does not say so."""
-    for name, declared in extensions().items():
-        inside = {module for module in graph.modules if module.startswith(f"extensions.{name}.")}
-        for other in extensions().keys() - {name, *declared.needs}:
+    """Yield (part, another one) if the first needs the second and does not say so."""
+    for name, declared in parts().items():
+        own = PACKAGES_OF_PARTS[name]
+        inside = {module for module in graph.modules if module.startswith(f"{own}.")}
+        for other in parts().keys() - {name, *declared.needs}:
             commands = [each for each in declared.commands.values() if each.module]
             allowed = {each.module for each in commands if other in each.needs}
             for module in set(allowed):
@@ -139,64 +142,63 @@ def undeclared(graph):
             entered = {each.module for each in commands if other not in each.needs}
             entered |= {module for _, _, module in declared.options.values()}
             entered |= {declared.report, declared.benchmark}
-            entered |= {f"extensions.{name}.{module}" for module in ("extension", "kinds")}
+            entered |= {f"{own}.{module}" for module in ("part", "kinds")}
             for module in (inside - allowed) | (entered & inside):
                 reached = graph.find_upstream_modules(module)
-                if any(each.startswith(f"extensions.{other}.") for each in reached):
+                if any(each.startswith(f"{PACKAGES_OF_PARTS[other]}.") for each in reached):
                     yield name, other
 
 
-def test_an_extension_imports_those_that_it_declares(unguarded):
+def test_a_part_imports_those_that_it_declares(unguarded):
     assert list(undeclared(unguarded)) == []
 
 
-def test_an_import_of_an_extension_that_is_not_needed_is_found(unguarded):
-    for name, declared in extensions().items():
-        for other in extensions().keys() - {name, *declared.needs}:
+def test_an_import_of_a_part_that_is_not_needed_is_found(unguarded):
+    for name, declared in parts().items():
+        for other in parts().keys() - {name, *declared.needs}:
             planted = {
-                "importer": f"extensions.{name}.extension",
-                "imported": f"extensions.{other}.extension",
+                "importer": f"{PACKAGES_OF_PARTS[name]}.part",
+                "imported": f"{PACKAGES_OF_PARTS[other]}.part",
             }
             unguarded.add_import(**planted)
             assert (name, other) in set(undeclared(unguarded))
             unguarded.remove_import(**planted)
 
 
-# Names of extensions' stages, kinds and scenes that are also words of the language or the field.
-WORDS = {"escape", "exact", "families", "jumps", "line", "plane", "rotation", "shares", "spread"}
-WORDS |= {"verdicts"}
+# Names that are also keys of the config or of its common fields, which the engine declares.
+KEYS = {"scenes", "variants"}
+for _group in vars(scene).values():
+    KEYS |= getattr(_group, "model_fields", {}).keys()
 
 
-def names_of_extensions():
-    """Names that extensions declare and the core does not."""
-    found, core = set(extensions()), {*COMMANDS, *BallBlock.model_fields}
-    for extension in extensions().values():
-        for declared in ("stages", "sets", "commands", "blocks", "methods"):
-            found |= getattr(extension, declared).keys()
-        found |= {each.key for each in extension.sets.values()}
-    for file in files("scenes.yaml"):
+def names_of_parts():
+    """The names that parts declare: of themselves, stages, kinds, scenes, commands and folders."""
+    found = set(parts()) | KINDS.keys()
+    for part in parts().values():
+        for declared in ("stages", "sets", "commands", "settings", "methods"):
+            found |= getattr(part, declared).keys()
+        found |= {each.key for each in part.sets.values()}
+        found |= {each.folder for each in part.sets.values()}
+        found |= {pattern.partition("/")[0] for pattern in part.generated}
+    for file in files("scenes.yaml").values():
         for key, block in yaml.safe_load(file.read_text()).items():
-            found |= {key, *block}
-    for name, stage in STAGES.items():
-        core |= set() if stage.function.startswith("extensions.") else {name}
-    for name, kind in KINDS.items():
-        if kind.__module__.startswith("extensions."):
-            found.add(name)
-        else:
-            core |= {name, *kind.model_fields}
-    core |= {SETS[name].key for name in (PAPER, STUDY)} | {"variants"}
-    return found - core - {""}
+            found |= {key, *block} if key != "ball" else set()
+    return found - KEYS - {""}
 
 
-def test_the_core_has_no_name_of_an_extension():
-    names = "|".join(sorted(names_of_extensions() - WORDS))
-    core = [ROOT / "Snakefile", *(ROOT / "workflow").rglob("*.*")]
-    core += [file for package in ORDER[1:] for file in (ROOT / "src" / package).rglob("*.py")]
+def test_the_engine_has_no_name_of_a_part():
+    names = names_of_parts()
+    words = {name for name in names if name.isalpha()}  # in prose they have their usual meaning
+    plain, quoted = ("|".join(map(re.escape, sorted(each))) for each in (names - words, words))
+    pattern = re.compile(rf"""(?<![\w-])({plain})(?![\w-])|["']({quoted})["']""")
+    engine = [ROOT / "Snakefile", ROOT / "workflow" / "rules" / "common.smk"]
+    engine += [f for each in (ROOT / "src").glob("snakemake_*") for f in each.rglob("*.py")]
+    engine += (ROOT / "src" / "pipeline").rglob("*.py")
     found = [
         f"{file.relative_to(ROOT)}: {line.strip()}"
-        for file in core
+        for file in engine
         for line in file.read_text().splitlines()
-        if names and re.search(rf"(?<![\w-])({names})(?![\w-])", line)
+        if pattern.search(line)
     ]
     assert found == []
 
@@ -209,7 +211,8 @@ ADDED = {
 # Modules whose package has another name.
 PACKAGES = {"PIL": "pillow", "flint": "python-flint", "minify": "tdewolff-minify"}
 PACKAGES |= {"yaml": "pyyaml", "annotated_types": "annotated-types"}
-PACKAGES["snakemake_interface_logger_plugins"] = "snakemake-interface-logger-plugins"
+for _kind in ("logger", "executor"):
+    PACKAGES[f"snakemake_interface_{_kind}_plugins"] = f"snakemake-interface-{_kind}-plugins"
 
 
 def packages_of(source):
@@ -245,7 +248,7 @@ def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():
     assert {"verified": sorted(extra)} == project["optional-dependencies"]
 
 
-LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4", "study")
+LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4")
 
 
 def test_the_start_of_a_run_loads_no_library_of_the_science():

@@ -9,12 +9,12 @@ from pipeline.records.artifacts import load
 
 FILES = {
     "__init__.py": '"""Returns of orbits."""',
-    "extension.py": '''
+    "part.py": '''
 """What returns add to the pipeline."""
 
-from pipeline.declaration import Extension, SceneSet, SnakemakeCommand, Stage
+from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage
 
-EXTENSION = Extension(
+PART = Part(
     stages={"flights": Stage("extensions.returns.flights.mean_flights", inputs=("orbits",))},
     sets={
         "returns": SceneSet(
@@ -85,27 +85,6 @@ def returns(block, orbits, flights):
     """Give how many orbits there are."""
     return {"orbits": f"{orbits.sizes['orbit']}"}
 ''',
-    "rules.smk": '''
-use rule orbits as flights with:
-    """extensions.returns.flights.mean_flights"""
-    input:
-        orbits=dataset("orbits"),
-        why=reason("results/{variant}/flights_{scene}.nc"),
-    output:
-        **made("results/{variant}/flights_{scene}.nc"),
-    log:
-        log_path("results/{variant}/flights_{scene}.nc"),
-
-
-use rule draw_portrait as draw_returns with:
-    """extensions.returns.figures.returns.draw"""
-    input:
-        orbits=dataset("orbits"),
-        flights=dataset("flights"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
-    wildcard_constraints:
-        **of_kind("returns"),
-''',
     "scenes.yaml": """
 returns:
   twice: {picture: returns, energy: 0.01, starts: [0.1, 0.6], impacts: 50}
@@ -164,7 +143,7 @@ def test_an_extension_is_one_folder(tree):
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
     (tree.path / "docs").mkdir()
-    for module in ("pipeline.config.reference", "pipeline.checks.report.figures_page"):
+    for module in ("pipeline.config.reference", "pipeline.checks.figures_page"):
         result = tree.python("-P", "-m", module)
         assert result.returncode == 0, result.stderr
     page = (tree.path / "docs/config.md").read_text()
@@ -178,5 +157,5 @@ def test_an_extension_is_one_folder(tree):
     tree.append("extensions/returns/flights.py")
     edited = "made by other code than this tree's: src/extensions/returns/flights.py differs"
     assert f"twice: {edited}: flights; perhaps drawing\n" in tree.succeed("returns", "-n")
-    (tree.path / "src/extensions/returns/extension.py").unlink()
+    (tree.path / "src/extensions/returns/part.py").unlink()
     assert "returns" not in tree.succeed("help")

@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 
 from pipeline import config
-from pipeline.config.build_specs import STUDIED, paper_scenes
 from pseudorigid import Ball, symmetric_orbits
 from study import figure_errors
+from study.compared import STUDIED, paper_scenes
 from study.methods.counted_methods import ENGINES, OURS, SCANS
 
 BALL = {"k": 0.2, "g": 0.04}

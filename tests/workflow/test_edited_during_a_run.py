@@ -9,7 +9,7 @@ STYLE = "src/pseudorigid/figures/canvas/style.py"
 
 def plant(tree, kind, code):
     """Have the drawings of a kind run a line of code when their module is loaded, by the job."""
-    with (tree.path / f"src/pseudorigid/figures/kinds/{kind}.py").open("a") as file:
+    with (tree.path / f"src/paper/figures/{kind}.py").open("a") as file:
         file.write(f"import pathlib; root = pathlib.Path({str(tree.path)!r}); {code}\n")
 
 
@@ -20,7 +20,7 @@ def append(path):
 
 @pytest.mark.slow
 def test_changes_of_data_config_and_an_edit_that_is_undone_are_reported(done):
-    """A job loads an edited file, which the server has loaded before, then the edit is undone."""
+    """A job loads an edited file, which the forking process has loaded before, then the edit is undone."""
     data, edited = "results/paper/orbits_fig2.nc", "src/pseudorigid/figures/edited.py"
     plant(done, "portrait", append(data))
     (done.path / edited).write_text("VALUE = 1\n")
@@ -41,7 +41,7 @@ def test_changes_of_data_config_and_an_edit_that_is_undone_are_reported(done):
 
 @pytest.mark.slow
 def test_what_was_drawn_before_an_edit_is_not_called_current(done):
-    """The server of jobs has loaded the edited file beforehand."""
+    """The process that forks jobs has loaded the edited file beforehand."""
     for file in (done.path / DRAWING).parent.glob("fig3.*"):
         file.unlink()
     plant(done, "motion", f"[*root.glob('results/paper/figures/fig3.*')] and {append(STYLE)}")

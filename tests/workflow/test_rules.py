@@ -1,4 +1,4 @@
-"""The written rules are those of the declared stages and kinds of picture."""
+"""The rules are those of the declared stages and kinds of picture, as Snakemake has them."""
 
 import ast
 import re
@@ -7,6 +7,7 @@ import sys
 from functools import cache
 from types import SimpleNamespace
 
+import pytest
 from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
@@ -14,57 +15,38 @@ from pipeline.config import load
 from pipeline.config.build_specs import build_specs
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES
-from pipeline.declaration import files
+from pipeline.declaration import parts
 
-CORE = {file.stem: file for file in (ROOT / "workflow" / "rules").glob("*.smk")}
-FILES = (*CORE.values(), *files("rules.smk"))
-EACH = re.compile(r'^(?:use rule \w+ as )?(?:rule )?(\w+)(?: with)?:\n    """(.*)"""\n', re.M)
-DATASET = re.compile(r'^        (\w+)=dataset\("(\w+)"\),$', re.M)
+RULES = ROOT / "workflow" / "rules"
 
 
-def rules(*files):
-    """Return rule -> (its docstring, its other text)."""
-    _, *found = EACH.split("\n".join(file.read_text() for file in files))
-    return {found[i]: tuple(found[i + 1 : i + 3]) for i in range(0, len(found), 3)}
+def snakemake(*arguments):
+    """What snakemake prints."""
+    command = [sys.executable, "-m", "snakemake", *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
 
 
-def stages(text):
-    """Return the stages whose datasets a rule takes, each by its name."""
-    found = DATASET.findall(text)
-    assert all(name == stage for name, stage in found)
-    return tuple(stage for _, stage in found)
+def test_each_stage_and_each_kind_has_a_rule_with_its_function():
+    listed = dict(re.findall(r"^(\w+) \((.*)\)$", snakemake("--list"), re.M))
+    expected = {name: stage.function for name, stage in STAGES.items()}
+    expected |= {f"{name}_block": s.of_block for name, s in STAGES.items() if s.blocks}
+    drawn = {name: kind for name, kind in KINDS.items() if kind.model_fields["formats"].default}
+    assert listed == expected | {f"draw_{name}": kind.drawn_by for name, kind in drawn.items()}
 
 
-ALL = rules(*FILES)
-
-
-def test_each_stage_has_a_rule_with_its_inputs_its_result_and_its_function():
-    for name, stage in STAGES.items():
-        function, text = ALL[name]
-        assert (function, stages(text)) == (stage.function, stage.inputs)
-        paths = re.findall(rf'\("results/[^/]+/{name}(?:_{{scene}})?\.nc"\),$', text, re.M)
-        joined = bool(stage.parts or stage.paper)
-        assert len(paths) == 3 + joined and text.count("inputs_of(") == joined, name
-        if stage.parts:
-            assert ALL[f"{name}_block"][0] == stage.part
-
-
-def test_nothing_runs_beside_a_measurement_of_seconds():
-    assert "threads: lambda wildcards: workflow.cores" in ALL["work_all"][1]
-
-
-def test_each_kind_of_picture_has_a_rule_with_its_stages():
-    for name, kind in KINDS.items():
-        if kind.model_fields["formats"].default:
-            function, text = ALL[f"draw_{name}"]
-            assert (function, stages(text)) == (kind.drawn_by, kind.stages)
-            assert f'**of_kind("{name}"),' in text
+def test_the_written_rules_are_those_of_the_paper():
+    written = re.findall(
+        r"^(?:use rule \w+ as|rule) (\w+)(?: with)?:$", (RULES / "paper.smk").read_text(), re.M
+    )
+    kinds = {f"draw_{name}" for name, kind in KINDS.items() if kind.__module__ == "paper.kinds"}
+    assert {*written} == parts()["paper"].stages.keys() | kinds
 
 
 def test_a_rule_has_the_scenes_of_its_kind_alone_where_sets_have_scenes_of_one_name():
     kinds = {"one": {"a": "jumps", "b": "portrait"}, "two": {"a": "portrait"}, "three": {}}
     scenes = {v: {s: SimpleNamespace(picture=k) for s, k in kinds[v].items()} for v in kinds}
-    parsed, defined = ast.parse(CORE["common"].read_text()), {"VARIANTS": scenes, "cache": cache}
+    parsed = ast.parse((RULES / "common.smk").read_text())
+    defined = {"VARIANTS": scenes, "cache": cache}
     parsed.body = [each for each in parsed.body if isinstance(each, ast.FunctionDef)]
     exec(compile(parsed, "common.smk", "exec"), defined)
     for output in ("figures/{scene}.{extension}", "provenance/{scene}.{extension}.json"):
@@ -77,17 +59,31 @@ def test_a_rule_has_the_scenes_of_its_kind_alone_where_sets_have_scenes_of_one_n
                 assert bool(rule.match(file)) == (kinds[variant].get(scene) == kind)
 
 
-def test_snakemake_takes_the_inputs_of_the_build_specifications():
+@pytest.fixture(scope="module")
+def jobs():
+    """Result -> rule, inputs, priority and threads of the job that makes it."""
+    wanted = [*build_specs(load(ROOT / "config.yaml"))]
+    printed = snakemake("--cores", "3", "-n", "--forceall", *wanted)
+    found = {}
+    for job in re.split(r"^\[.*\]\n", printed, flags=re.M)[1:]:
+        (rule,) = re.findall(r"^(?:local)?rule (\w+):$", job, re.M)
+        fields = dict(re.findall(r"^    (input|output|priority|threads): (.*)$", job, re.M))
+        if "output" in fields:
+            result = re.split(" |,", fields["output"])[0]
+            inputs = {f for f in fields.get("input", "").split(", ") if f and "/why/" not in f}
+            found[result] = rule, inputs, int(fields.get("priority", 0)), fields.get("threads", "1")
+    return found
+
+
+def test_snakemake_takes_the_inputs_of_the_build_specifications(jobs):
     """Named inputs are looked up in the rules, and specifications in the config."""
-    specs = build_specs(load(ROOT / "config.yaml"))
-    wanted = [path for path in specs if not re.search(r"\.\d{4}\.nc$", path)]
-    command = ["snakemake", "--cores", "1", "-n", "--forceall", *wanted]
-    result = subprocess.run(
-        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    jobs = re.split(r"^(?:local)?rule \w+:$", result.stdout, flags=re.M)[1:]
-    found = [dict(re.findall(r"^    (input|output): (.*)$", job, re.M)) for job in jobs]
-    taken = {re.split(" |,", job["output"])[0]: job.get("input", "") for job in found}
-    for path in wanted:
-        inputs = {file for file in taken[path].split(", ") if file and "/why/" not in file}
-        assert inputs == set(specs[path].inputs), path
+    for path, spec in build_specs(load(ROOT / "config.yaml")).items():
+        assert jobs[path][1] == set(spec.inputs), path
+
+
+def test_long_jobs_begin_first_and_nothing_runs_beside_a_measurement_of_seconds(jobs):
+    for part in parts().values():
+        for result, seconds in part.seconds.items():
+            assert jobs[result][2] >= seconds, result
+    alone = {name for name, stage in STAGES.items() if stage.alone}
+    assert {rule for rule, *_, threads in jobs.values() if threads == "3"} == alone

@@ -8,8 +8,8 @@ import zipfile
 import pytest
 from slowly import slowly
 
+from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, measured
-from pipeline.checks.report.captions import caption_of
 from pipeline.config import load
 
 NOWHERE = "http://127.0.0.1:9"

@@ -105,7 +105,7 @@ def test_comments_formatting_and_docstrings_outdate_nothing(done):
 PLANTED = {
     "pipeline.declaration": ("def lacking", "_P = 1\n\n\ndef lacking"),
     "pipeline.jobs.job": ("pseudorigid: {spec", "planted: {spec"),
-    "pipeline.jobs.server": ("the job was killed", "planted"),
+    "pipeline.jobs.forks": ("the job was killed", "planted"),
     "pipeline.loading": ("        note_loaded(path, data)\n", ""),
     "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
     "pipeline.records.files": (".part", ".unfinished"),

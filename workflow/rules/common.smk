@@ -2,11 +2,14 @@
 import re
 import sys
 from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from pipeline.config import ConfigError, paths
 from pipeline.config.build_specs import with_dependencies
-from pipeline.declaration import FOLDER as EXTENSIONS
-from pipeline.declaration import SourceError, extensions
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.stages import STAGES
+from pipeline.declaration import SourceError, parts
 from pipeline.jobs.plan import plan
 from pipeline.records.files import FileError
 from pipeline.records.record import log_path, record_path
@@ -30,9 +33,8 @@ except (ConfigError, FileError, SourceError) as error:
 SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config.variants
 ALL = {name for scenes in VARIANTS.values() for name in scenes}
 DATASETS = paths.artifact_paths(VARIANTS)
-# Seconds on one core. The longest jobs begin first, so that none of them is left over at the end,
-# when the other cores are idle.
-SECONDS = {}
+# The command of a job, if no executor makes the result without it.
+MAKE = "{params.python:q} -P -m pipeline.jobs.forks {output.result:q}"
 
 
 def dataset(stage):
@@ -82,11 +84,11 @@ def shown(drawing):
 def caption(wildcards):
     """Return the caption of a drawing as reStructuredText."""
     from pipeline.checks.quantities import facts, measured
-    from pipeline.checks.report.captions import caption_of
+    from pipeline.checks.captions import caption_of
 
     variant, scene = wildcards.variant, wildcards.scene
     known = measured(ROOT, VARIANTS, variant, scene, facts)
-    name = scene if variant == paths.PAPER else f"{variant}/{scene}"
+    name = scene if variant == paths.MAIN else f"{variant}/{scene}"
     name, title, *texts = caption_of(name, VARIANTS[variant][scene].as_mapping(), known)
     return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
 
@@ -97,9 +99,10 @@ config["caption"] = caption  # for workflow/caption.rst
 @cache
 def priorities():
     """Map each result to its seconds, or to those of the longest job that needs it."""
+    known = {path: s for part in parts().values() for path, s in part.seconds.items()}
     return {
         dependency: seconds
-        for path, seconds in sorted(SECONDS.items(), key=lambda item: item[1])
+        for path, seconds in sorted(known.items(), key=lambda item: item[1])
         if path in SPECS
         for dependency in with_dependencies(SPECS, [path])
     }
@@ -127,3 +130,47 @@ def of_kind(kind):
         if names := [name for name, scene in scenes.items() if scene.picture == kind]:
             pairs.append(rf"{variant}(?=/\w+/({any_of(names)})\.)")
     return {"variant": any_of(pairs)}
+
+
+class Declared(NamedTuple):
+    """What a rule of another part than the paper's is made from."""
+
+    name: str
+    function: str
+    result: str  # the pattern of its path
+    inputs: dict[str, Any]
+    made: dict[str, Any]
+    constraints: dict[str, str] = {}
+    threads: Any = 1
+    local: bool = False  # on a cluster, it is no job of its own
+
+
+def other_rules():
+    """Yield the rules of all stages and kinds of picture that have none yet."""
+    written = {rule.name for rule in workflow.rules}
+    for name, stage in STAGES.items():
+        if name in written:
+            continue
+        # Data that depend on no field of a scene have no scene in their path.
+        paths_of_stage = [path for (*_, used), path in DATASETS.items() if used == name]
+        plain = any(Path(path).stem == name for path in paths_of_stage)
+        result = f"results/{{variant}}/{name}{'' if plain else '_{scene}'}.nc"
+        inputs, threads = {used: dataset(used) for used in stage.inputs}, 1
+        if stage.blocks:
+            block = result.replace(".nc", ".{number}.nc")
+            yield Declared(f"{name}_block", stage.of_block, block, {}, made(block))
+        if stage.blocks or stage.main:
+            inputs = {"datasets": inputs_of(result)}
+        if stage.alone:
+            threads = lambda wildcards: workflow.cores
+        made_of = made(result)
+        local = bool(stage.blocks)
+        yield Declared(name, stage.function, result, inputs, made_of, {}, threads, local)
+    result = "results/{variant}/figures/{scene}.{extension}"
+    for kind, picture in KINDS.items():
+        if f"draw_{kind}" in written or not picture.model_fields["formats"].default:
+            continue
+        inputs = {used: dataset(used) for used in picture.stages}
+        local = any(STAGES[used].blocks for used in picture.stages)
+        made_of, scenes = made(shown(result)), of_kind(kind)
+        yield Declared(f"draw_{kind}", picture.drawn_by, result, inputs, made_of, scenes, 1, local)

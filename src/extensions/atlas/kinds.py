@@ -129,7 +129,7 @@ class Verdicts(Picture):
     stages = ("verdicts",)
 
 
-def parts(sweep: dict[str, Any]) -> list[dict[str, Any]]:
+def blocks(sweep: dict[str, Any]) -> list[dict[str, Any]]:
     """Return what decides the data of each block of a sweep: cells [k, E/g^2] and orbits.
 
     Cells are counted along the energies of one k, then along those of the next k. A part has as

@@ -7,7 +7,7 @@ from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.running import INTERRUPTED
 from pipeline.cli.session import UsageError, interruptible, locked
-from pipeline.config import PAPER, Config, paths
+from pipeline.config import MAIN, Config, paths
 from pipeline.records import artifacts
 from pipeline.records.files import write_whole
 from pipeline.records.names import suggestion
@@ -48,7 +48,7 @@ def dataset_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
     known = {}
     for (variant, scene, stage), path in paths.artifact_paths(config.variants).items():
-        own = variant in (PAPER, "claims")
+        own = variant in (MAIN, "claims")
         known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
         if stage == "sweep":
             known[f"atlas/{scene}"] = path

@@ -15,7 +15,7 @@ from urllib.parse import quote_plus
 
 import yaml
 
-from pipeline.config.paths import PAPER, PUBLISHED, Config
+from pipeline.config.paths import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
 from pipeline.records.files import read_text, write_whole
@@ -89,7 +89,7 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles,
     and the beginnings of the hashes of its blocks.
     """
-    name = f"{PUBLISHED[PAPER]}/MANIFEST.json"
+    name = f"{PUBLISHED[MAIN]}/MANIFEST.json"
     if not (root / name).is_file():  # before the first ./reproduce accept
         return []
     orbits = []

@@ -5,7 +5,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from pipeline.checks.report.part import Links, Part
+from pipeline.checks.section import Links, Section
 from pipeline.config import Config
 from pipeline.records.files import write_whole
 
@@ -18,7 +18,7 @@ _NOTE = Markup(
 )
 
 
-def part(config: Config, root: Path, links: Links) -> Part:
+def section(config: Config, root: Path, links: Links) -> Section:
     """Return a link in the menu, and one below each picture of a section.
 
     The page that they lead to is written, unless the report is part of a site, which has its own.
@@ -31,4 +31,4 @@ def part(config: Config, root: Path, links: Links) -> Part:
         place = address(config, variant, scene, block)
         return _NOTE.format(page, place) if place else Markup()
 
-    return Part({"Explore orbits": page}, note=note)
+    return Section({"Explore orbits": page}, note=note)

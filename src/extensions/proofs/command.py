@@ -12,7 +12,7 @@ from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import replacing
 from pipeline.records.sources import ROOT
 
-from .extension import CERTIFICATES
+from .part import CERTIFICATES
 
 
 def run(args: Arguments) -> int:

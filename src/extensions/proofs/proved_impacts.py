@@ -12,7 +12,7 @@ import xarray as xr
 from flint import arb
 
 from pipeline.checks.freshness import Freshness
-from pipeline.config import PAPER, Config, paths
+from pipeline.config import MAIN, Config, paths
 from pipeline.config.build_specs import build_specs
 from pipeline.config.schema.scene import Picture
 from pipeline.records.artifacts import load
@@ -49,7 +49,7 @@ def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
     Raises ValueError if a result is missing.
     """
     artifact_paths = paths.artifact_paths(checked.variants)
-    freshness = Freshness(ROOT, build_specs(checked, [PAPER]))
+    freshness = Freshness(ROOT, build_specs(checked, [MAIN]))
     status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]  # of each
     for scene, block in checked.scenes.items():
         if why := freshness.refusal(paths.drawn(scene, "png")):
@@ -58,7 +58,7 @@ def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
         k, g = (Fraction(str(block.as_mapping()["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:
-            return load(ROOT / artifact_paths[PAPER, scene, stage])
+            return load(ROOT / artifact_paths[MAIN, scene, stage])
 
         for part, some in _impacts_behind(block, data, sample):
             name = f"{scene} {part}"

@@ -29,8 +29,8 @@ from pipeline.checks.published_sets import (
     format_sums,
     read_sums,
 )
-from pipeline.config.paths import PAPER, PUBLISHED, Config
-from pipeline.declaration import extensions
+from pipeline.config.paths import MAIN, PUBLISHED, Config
+from pipeline.declaration import parts
 from pipeline.records import files
 from pipeline.records.artifacts import ArtifactError, load
 from pipeline.records.files import FileError, file_hash, read_bytes
@@ -45,7 +45,7 @@ EXPLORER = "results/explorer.html"  # if there is an explorer
 # Files of the tree that say what the results were made from.
 _INPUTS = (
     *("config.yaml", "Snakefile", "LICENSE", "CITATION.cff", "workflow/rules/*.smk"),
-    *("src/extensions/*/scenes.yaml", "src/extensions/*/rules.smk"),
+    *("src/*/scenes.yaml", "src/extensions/*/scenes.yaml"),
     "src/extensions/*/certificates/*.toml",
 )
 # README.txt, and what it says of packages.
@@ -139,7 +139,7 @@ def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Con
 
 def _explorer_page(root: Path, config: Config) -> Contents:
     """Return the page of the explorer, if there is that extension."""
-    if "explorer" in extensions():
+    if "explorer" in parts():
         from extensions.explorer import page
 
         try:
@@ -219,7 +219,7 @@ def _parsed(sums: bytes) -> dict[str, str]:
 def _read_folder(folder: Path, config: Config) -> Contents:
     """Return the files of another tree, or of an unpacked archive, that an archive would have."""
     try:
-        manifest.read(folder, PUBLISHED[PAPER])
+        manifest.read(folder, PUBLISHED[MAIN])
         archived = contents(folder, config)
         if (folder / EXPLORER).is_file():  # otherwise the page of its config and its manifest
             archived[EXPLORER] = read_bytes(folder / EXPLORER)

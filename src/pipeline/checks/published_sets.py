@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..config import PAPER, Config, paths
+from ..config import MAIN, Config, paths
 from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
@@ -34,7 +34,7 @@ class PublishedSet(NamedTuple):
     The name of a published file is that of its scene and a suffix.
     """
 
-    group: str  # the name of its set of scenes, such as "paper": a key of config.variants
+    group: str  # the name of its set of scenes, a key of config.variants
     folder: str  # of the published files
     results: str  # the folder of the drawings and their data
     command: str  # that makes the files
@@ -92,7 +92,7 @@ def _published(config: Config, group: str) -> PublishedSet:
         results=f"results/{group}",
         command=SETS[group].command,
         text_files=SETS[group].texts,
-        on_request=group != PAPER,
+        on_request=group != MAIN,
         drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
         config={scene: paths.drawing(block) for scene, block in scenes.items()},
         data=data,

@@ -1,26 +1,15 @@
-"""The reported quantities of scenes, as measured in their datasets and as printed in the paper."""
+"""The quantities that pictures report, and the facts of their captions, measured in datasets."""
 
-import tomllib
 from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from pseudorigid.dynamics.paper import FIGURES, WINDOW
-
 from ..config import paths
 from ..config.schema.kinds import KINDS
 from ..declaration import hidden_by, imported
 from ..records.artifacts import load
-
-# scene -> quantity -> the paper's value
-PAPER_NUMBERS: dict[str, dict[str, str]] = {
-    scene: {name: text.format(window=WINDOW, **FIGURES[scene]) for name, text in texts.items()}
-    for scene, texts in tomllib.loads(
-        Path(__file__).with_name("paper_numbers.toml").read_text(encoding="utf-8")
-    ).items()
-}
 
 
 def measured(
@@ -60,8 +49,3 @@ def facts(block: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:
     module, _, kind = KINDS[block["picture"]].reported_by.rpartition(".")
     of_kind = getattr(import_module(module), f"{kind}_facts", None) if find_spec(module) else None
     return {"hidden": hidden(block, data)} | (of_kind(block, **data) if of_kind else {})
-
-
-def printed(scene: str, quantity: str) -> str:
-    """Return the value that the paper prints for a quantity of a scene."""
-    return PAPER_NUMBERS.get(scene, {}).get(quantity, "not printed")

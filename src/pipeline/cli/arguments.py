@@ -71,7 +71,7 @@ def read(arguments: list[str]) -> Arguments:
     """Parse a command line; raises SystemExit after help and after a mistake."""
     first, *rest = arguments or [""]
     if needed := lacking(first):
-        _refuse(f"{first} needs the extension {needed}, which is not in src/extensions")
+        _refuse(f"{first} needs the part {needed}, which is not in src")
     commands = all_commands()
     word = first if first in commands else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
@@ -129,7 +129,7 @@ def _number_of_cores(text: str) -> str:
 
 
 def _arguments(name: str | None) -> list[tuple[str, dict[str, Any]]]:
-    """Return the arguments of a command with those that extensions add to it."""
+    """Return the arguments of a command with those that parts add to it."""
     command = all_commands().get(name or "", DEFAULT_COMMAND)
     return [*command.arguments, *(option[:2] for option in options_of(name))]
 

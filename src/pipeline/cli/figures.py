@@ -13,6 +13,7 @@ from ..config import Config, paths, unknown
 from ..config.build_specs import build_specs, with_dependencies
 from ..config.schema.scene import Picture
 from ..config.schema.sets import PUBLISHED
+from ..config.schema.stages import METHODS
 from ..records.build_spec import BuildSpec
 from ..records.differences import columns
 from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
@@ -178,10 +179,10 @@ def _missed_impacts(config: Config, variant: str, scenes: dict[str, Picture]) ->
     artifact_paths = paths.artifact_paths(config.variants)
     for scene, block in scenes.items():
         method, stages = block.as_mapping().get("method", {}), paths.stages(block)
-        if "exact" in method:
-            exact = "orbits of their exact starts"
-            computed = exact if "orbits" in stages else "no stage with an exact method"
-            yield f"{scene}: {computed}; other stages as in doubles"
+        if of_part := method.keys() & METHODS.keys():
+            of_method = [name for name in stages if "method" in stages[name]]
+            computed = ", ".join(of_method) or "no stage"
+            yield f"{scene}: {computed} by the method {', '.join(of_part)}; all else in doubles"
         elif method:
             from ..records.artifacts import load  # takes long to import
 

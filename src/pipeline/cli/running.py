@@ -5,17 +5,15 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterable
-from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from ..checks.freshness import DAMAGED, Freshness
 from ..config.build_specs import with_dependencies
-from ..jobs.server import job_server
 from ..records.files import disk_is_full, memory_is_short, why_not_a_file
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT
 from .arguments import Arguments
-from .session import UsageError, interruptible, print_error
+from .session import RUN, UsageError, interruptible, print_error
 
 INTERRUPTED = 130
 # Reasons that are printed when a result is made again, because no edit explains them.
@@ -58,9 +56,9 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         result = subprocess.run([*command, *args.options, "--", *paths], stdout=-1, check=False)
         sys.stdout.write(result.stdout.decode(errors="replace"))
         return result.returncode
-    if args.options:  # jobs may run on other machines, which have no job server
-        return _run([*command, *_LOGGER, *args.options, "--", *paths])
-    return _run([*command, *_LOGGER, "--", *outdated], job_server(freshness, outdated))
+    if args.options:  # jobs may run on other machines
+        return _run([*command, *_LOGGER, *args.options, "--", *paths], remote=True)
+    return _run([*command, *_LOGGER, "--executor", "reproduce", "--", *outdated], remote=False)
 
 
 def _require_folders(results: Iterable[str]) -> None:
@@ -72,13 +70,11 @@ def _require_folders(results: Iterable[str]) -> None:
             raise UsageError(f"{name}: a file stands in a folder's place, move it away")
 
 
-def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | None = None) -> int:
-    """Run snakemake with a job server, or without one where jobs may run on other machines."""
-    no_server: dict[str, str] = {}
-    with interruptible(end=server is not None) as caught:
+def _run(command: list[str], remote: bool) -> int:
+    """Run snakemake, whose jobs may be `remote`: on other machines."""
+    with interruptible(end=not remote) as caught:
         try:
-            with server or nullcontext(no_server) as variables:
-                status = _wait(command, os.environ | variables, server is None)
+            status = _wait(command, remote)
         except KeyboardInterrupt:
             if not caught:
                 raise
@@ -93,12 +89,13 @@ def _run(command: list[str], server: AbstractContextManager[dict[str, str]] | No
     return status
 
 
-def _wait(command: list[str], environment: dict[str, str], remote: bool) -> int:
+def _wait(command: list[str], remote: bool) -> int:
     """Run a command in a process group of its own, and return its exit status.
 
-    The command inherits the lock, and its stdin closes when this process ends. If it is `remote`,
-    with jobs on other machines, it is asked to cancel them on Ctrl-C.
+    The command inherits the lock, and its stdin closes when this process ends. If its jobs may be
+    `remote`, it is asked to cancel them on Ctrl-C.
     """
+    environment = os.environ if remote else os.environ | {RUN: "1"}
     options: dict[str, Any] = {"env": environment, "process_group": 0, "close_fds": False}
     with subprocess.Popen(command, stdin=subprocess.PIPE, **options) as child:
         try:

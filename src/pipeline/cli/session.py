@@ -10,11 +10,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
-from ..jobs.server import ADDRESS
 from ..records.record import require_loaded_unchanged
 from ..records.sources import ROOT
 
 LOCK_SECONDS = 5.0  # that a run waits for the lock of another one
+RUN = "PSEUDORIGID_RUN"  # a variable of runs that end with this process
 _NO_LOCKS = "PSEUDORIGID_NO_LOCKS"  # the variable that says that the command has said so
 
 
@@ -139,5 +139,5 @@ def set_environment() -> None:
             del os.environ[name]
     os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
-    for name in ("MPLBACKEND", ADDRESS):  # no window is opened, and each run has its own server
+    for name in ("MPLBACKEND", RUN):  # no window is opened
         os.environ.pop(name, None)

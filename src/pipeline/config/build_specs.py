@@ -4,26 +4,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import PurePath
 
-from ..declaration import Stage, extensions, imported
+from ..declaration import Stage, imported, parts
 from ..records import sources
 from ..records.build_spec import BuildSpec
 from . import paths
-from .paths import PAPER, ArtifactPaths, Config
-from .schema.fields import YamlMapping
+from .paths import MAIN, ArtifactPaths, Config
 from .schema.scene import Picture
 from .schema.sets import SETS
 from .schema.stages import STAGES, function_of
 
-# Kinds of picture with a measure of error in study.figure_errors, with the axes that it needs, and
-# the stages whose datasets the study compares with.
-STUDIED = {
-    "portrait": {"x", "xdot", "udot"},
-    "motion": {"t", "displacement"},
-    "tangle": {"x", "xdot", "udot"},
-    "closeup": {"x", "xdot"},
-    "exponents": {"impact", "exponent"},
-}
-_COMPARED = ("periodic", "manifolds")
 _source_files = cache(sources.source_files)
 
 
@@ -50,15 +39,15 @@ def _of_scene(
         path, declared = artifact_paths[variant, name, stage], STAGES[stage]
         label, step, block = _label(path, name), stage, parameters
         inputs = [artifact_paths[variant, name, used] for used in declared.inputs]
-        if declared.paper:
-            of_paper = {(s, st): p for (v, s, st), p in artifact_paths.items() if v == PAPER}
-            more, others = imported(declared.paper)(config.scenes, of_paper)
+        if declared.main:
+            of_main = {(s, st): p for (v, s, st), p in artifact_paths.items() if v == MAIN}
+            more, others = imported(declared.main)(config.scenes, of_main)
             block = parameters | more | {"inputs": [*others]}
             inputs += others.values()
-        if declared.parts:
-            parts = [*_of_parts(scene, declared, path, label)]
-            yield from parts
-            inputs, step = [part.result for part in parts], "data"
+        if declared.blocks:
+            blocks = [*_of_blocks(scene, declared, path, label)]
+            yield from blocks
+            inputs, step = [each.result for each in blocks], "data"
         function = function_of(stage, scene)
         files = _files("stage", function, declared.reads.format(**parameters))
         yield BuildSpec(path, label, step, block, "stage", function, files, inputs)
@@ -70,35 +59,12 @@ def _of_scene(
         yield BuildSpec(path, label, step, block, "draw", scene.drawn_by, files, inputs)
 
 
-def _of_parts(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[BuildSpec]:
-    """Yield the specifications of the parts of a stage's dataset."""
-    files = _files("stage", stage.part)
-    for i, block in enumerate(imported(stage.parts)(scene.as_mapping())):
-        part = paths.part_path(path, i)
-        yield BuildSpec(part, label, f"block {i}", block, "stage", stage.part, files, [])
-
-
-def paper_scenes(
-    scenes: Mapping[str, Picture], artifact_paths: Mapping[tuple[str, str], str]
-) -> tuple[YamlMapping, dict[str, str]]:
-    """Return what decides the data of the stage `needs`, and its inputs by stage and scene.
-
-    The study measures the errors of scenes with a measure of error and all axes, which fix the
-    picture's size.
-    """
-    chosen = {
-        name: block
-        for name, scene in scenes.items()
-        if scene.picture in STUDIED
-        and STUDIED[scene.picture] <= (block := scene.as_mapping()).get("axes", {}).keys()
-    }
-    measures = {name: scenes[name].picture for name in chosen}
-    inputs = {
-        f"{stage}/{scene}": path
-        for (scene, stage), path in artifact_paths.items()
-        if scene in chosen and stage in _COMPARED
-    }
-    return {"scenes": chosen, "measures": measures}, inputs
+def _of_blocks(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[BuildSpec]:
+    """Yield the specifications of the blocks of a stage's dataset."""
+    files = _files("stage", stage.of_block)
+    for i, block in enumerate(imported(stage.blocks)(scene.as_mapping())):
+        result = paths.block_path(path, i)
+        yield BuildSpec(result, label, f"block {i}", block, "stage", stage.of_block, files, [])
 
 
 def _label(path: str, scene: str) -> str:
@@ -113,7 +79,7 @@ def _files(program: str, function: str, data_file: str = "") -> list[str]:
     They include the data files that the function's modules can read, or of these `data_file` alone.
     """
     files = _source_files(f"pipeline.jobs.{program}", function.rpartition(".")[0])
-    read = [each.reads.items() for each in extensions().values()]
+    read = [each.reads.items() for each in parts().values()]
     patterns = [pattern for items in read for module, pattern in items if module in files]
     patterns = [data_file] if data_file else patterns
     data = [file for pattern in patterns for file in sources.ROOT.glob(pattern)]

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 from .schema.fields import Block, YamlMapping
 from .schema.scene import Picture
-from .schema.sets import PAPER, PUBLISHED, SETS
+from .schema.sets import MAIN, PUBLISHED, SETS
 from .schema.stages import STAGES, takes_method, upstream
 
-__all__ = ["PAPER", "PUBLISHED", "ArtifactPaths", "Config", "Picture", "Variants"]
+__all__ = ["MAIN", "PUBLISHED", "ArtifactPaths", "Config", "Picture", "Variants"]
 
 SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
 
@@ -32,7 +32,7 @@ class Config:
     @property
     def scenes(self) -> dict[str, Picture]:
         """The paper's scenes."""
-        return self.variants[PAPER]
+        return self.variants[MAIN]
 
     @property
     def own_variants(self) -> list[str]:
@@ -77,12 +77,12 @@ def artifact_paths(variants: Variants) -> ArtifactPaths:
     return dataset_paths
 
 
-def part_path(dataset_path: str, number: int) -> str:
-    """Return the path of a part of a dataset, counted from 0."""
+def block_path(dataset_path: str, number: int) -> str:
+    """Return the path of a block of a dataset, counted from 0."""
     return f"{dataset_path.removesuffix('.nc')}.{number:04d}.nc"  # no scene has a dot in its name
 
 
-def drawn(scene: str, extension: str, variant: str = PAPER) -> str:
+def drawn(scene: str, extension: str, variant: str = MAIN) -> str:
     """Return the path where a figure is drawn, before it is published."""
     return f"results/{variant}/figures/{scene}.{extension}"
 
@@ -92,7 +92,7 @@ def is_measured(scene: Picture) -> bool:
     return any(STAGES[stage].measured for stage in scene.stages)
 
 
-def figures(variants: Variants, variant: str = PAPER) -> dict[str, tuple[str, list[str]]]:
+def figures(variants: Variants, variant: str = MAIN) -> dict[str, tuple[str, list[str]]]:
     """Map each figure, where users find it, to its scene, and to its data and last its drawing.
 
     Pictures of measurements stay in results until `accept`.

@@ -19,12 +19,12 @@ from .schema.fields import Block
 from .schema.kinds import KINDS
 from .schema.method import METHOD_BLOCKS
 from .schema.scene import Picture, Scene
-from .schema.sets import PAPER, SETS
+from .schema.sets import MAIN, SETS
 from .schema.stages import STAGES, upstream
 from .schema.variant import Variant
 from .validation.document import BLOCKS, with_shipped
 
-EXAMPLES = (Path(__file__).parent / "schema" / "kinds" / "examples.yaml", *files("examples.yaml"))
+EXAMPLES = tuple(files("examples.yaml").values())
 
 
 def page() -> str:
@@ -37,7 +37,7 @@ def page() -> str:
     used += (mappings, own_fields, upstream)
     names = {each.__name__: each for each in used}
     tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
-    sets = {each.key: each for name, each in SETS.items() if each.key and name != PAPER}
+    sets = {each.key: each for name, each in SETS.items() if each.key and name != MAIN}
     return str(template.render(names | tables, SETS=sets, fields=fields))
 
 

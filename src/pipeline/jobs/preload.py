@@ -1,4 +1,4 @@
-"""Modules that jobs need, imported by the job server before it forks jobs.
+"""Modules that jobs need, imported by the process that forks jobs.
 
 The variable PSEUDORIGID_PRELOAD is `data` if a run computes datasets. An import that fails here
 fails again in a job, which reports it.

@@ -7,7 +7,7 @@ class BuildSpec(NamedTuple):
     """A result and how it is made; paths are relative to the project's root."""
 
     result: str  # its file
-    scene: str  # its names in messages, such as "fig2" and "orbits"
+    scene: str  # its names in messages, such as those of a figure and a stage
     step: str
     config: dict[str, Any]  # the block of the config that it depends on
     program: str  # the module of `pipeline.jobs` that makes it

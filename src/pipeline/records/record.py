@@ -17,6 +17,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from ..declaration import parts
 from ..loading import LOADED
 from .build_spec import BuildSpec
 from .files import file_hash, read_text, write_whole
@@ -156,5 +157,7 @@ def _commit() -> tuple[str | None, bool | None]:
     # Another repository may contain this folder.
     if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
         return None, None
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!paper_figures")
+    published = [each.folder for part in parts().values() for each in part.sets.values()]
+    others = [f":!{folder}" for folder in published if folder]
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
     return commit.decode().strip(), None if changed is None else bool(changed.strip())

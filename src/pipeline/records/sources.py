@@ -32,7 +32,7 @@ BOOKKEEPING = (
     "pipeline.declaration",
     "pipeline.jobs",
     "pipeline.jobs.job",
-    "pipeline.jobs.server",
+    "pipeline.jobs.forks",
     "pipeline.loading",
     "pipeline.records",
     "pipeline.records.build_spec",

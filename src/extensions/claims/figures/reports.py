@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from pseudorigid.figures.kinds.reports import listing
+from paper.figures.reports import listing
 
 
 def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:

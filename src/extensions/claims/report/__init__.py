@@ -7,8 +7,8 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from pipeline.checks.report.part import Links, Part
-from pipeline.config import PAPER, Config
+from pipeline.checks.section import Links, Section
+from pipeline.config import MAIN, Config
 from pipeline.records.files import read_text
 
 from .. import ledger
@@ -26,7 +26,7 @@ _TEMPLATES = jinja2.Environment(
 _SCRIPT = Path(__file__).with_name("filter.js").read_text(encoding="utf-8")
 
 
-def part(config: Config, root: Path, links: Links) -> Part:
+def section(config: Config, root: Path, links: Links) -> Section:
     """Return the part that CLAIMS.json of the tree fills; without it, a sentence."""
     verdicts = _verdicts(root)
     values = {
@@ -38,12 +38,12 @@ def part(config: Config, root: Path, links: Links) -> Part:
     html: Any = _TEMPLATES.get_template("parts.html").make_module(values)
 
     def note(variant: str, scene: str, block: dict[str, Any], published: str) -> Markup:
-        shown = published and variant != PAPER  # all statements concern the paper's figures
+        shown = published and variant != MAIN  # all statements concern the paper's figures
         return Markup(html.statements(published).strip()) if shown else Markup()
 
     menu = {"Corrections": "#corrections", "All statements": "#claims"}
     script = _SCRIPT if verdicts else ""
-    return Part(menu, html.summary, html.findings, html.tables, script, note)
+    return Section(menu, html.summary, html.findings, html.tables, script, note)
 
 
 def _verdicts(root: Path) -> list[Verdict]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from pseudorigid.figures.kinds.reports import about_orbit, portrait_facts
+from paper.figures.reports import about_orbit, portrait_facts
 
 
 def horseshoe(

@@ -16,10 +16,11 @@ import yaml
 from extensions.claims import ledger as claims
 from extensions.claims.ledger.outcomes import VERDICT_WORDS
 from extensions.proofs.theorems.statements import THEOREMS
+from paper.numbers import printed
 from pipeline.checks import manifest, published_sets
-from pipeline.checks.quantities import measured, printed
-from pipeline.checks.report.captions import caption_of
-from pipeline.config import PAPER, PUBLISHED, Config
+from pipeline.checks.captions import caption_of
+from pipeline.checks.quantities import measured
+from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.paper import EXPONENT
@@ -69,9 +70,9 @@ def numbers_of(root: Path, config: Config) -> str:
     figures: dict[str, Table] = {}
     for each in sets:
         for scene, entry in committed[each.folder]["scenes"].items():
-            name = scene if each.group == PAPER else f"{each.group}/{scene}"
+            name = scene if each.group == MAIN else f"{each.group}/{scene}"
             figures[name] = _figure(root, each, name, entry, committed[each.folder]["data"])
-    for scene, entry in committed[PUBLISHED[PAPER]]["scenes"].items():
+    for scene, entry in committed[PUBLISHED[MAIN]]["scenes"].items():
         figures[scene] |= {"rows": _rows(root, config, scene), "settings": entry["config"]}
     return json.dumps(
         {
@@ -83,7 +84,7 @@ def numbers_of(root: Path, config: Config) -> str:
             "printed": {"exponent": EXPONENT},
             "lines": _source_lines(root),
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
-            "packages": committed[PUBLISHED[PAPER]]["environment"],
+            "packages": committed[PUBLISHED[MAIN]]["environment"],
         },
         sort_keys=True,
         indent=1,
@@ -117,7 +118,7 @@ def _source_lines(root: Path) -> dict[str, int]:
 
 def _rows(root: Path, config: Config, scene: str) -> Table:
     """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
-    values = measured(root, config.variants, PAPER, scene)
+    values = measured(root, config.variants, MAIN, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
     axes = config.scenes[scene].given_axes()
     for axis, ticks in PRINTED_TICKS.get(scene, {}).items():

@@ -8,7 +8,7 @@ from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.packages import add_packages
 from pipeline.cli.session import UsageError, interruptible, locked, one_line
-from pipeline.config import PAPER
+from pipeline.config import MAIN
 from pipeline.records.sources import ROOT
 
 from .. import archive
@@ -27,8 +27,8 @@ _LINKS = (
 def run(args: Arguments) -> int:
     """Make missing results, then the folder, whole or not at all."""
     with locked():
-        files = figures.drawings_of(args.config, PAPER)
-        status = figures.make(args.config, PAPER, files, args)
+        files = figures.drawings_of(args.config, MAIN)
+        status = figures.make(args.config, MAIN, files, args)
         if status or args.makes_nothing:
             return status
         with one_line("site: "):
@@ -51,7 +51,7 @@ def run(args: Arguments) -> int:
 
 def _refuse_others(folder: Path) -> None:
     """Raise ValueError for a file that this command cannot have written: it would be deleted."""
-    own = [*folder.glob("*.html"), folder / "article.pdf", *(folder / PAPER).glob("*.nc")]
+    own = [*folder.glob("*.html"), folder / "article.pdf", *(folder / MAIN).glob("*.nc")]
     others = [file for file in sorted(folder.rglob("*")) if file.is_file() and file not in own]
     if others:
         raise ValueError(f"{others[0]} was not written by this command: move it away")
@@ -60,14 +60,14 @@ def _refuse_others(folder: Path) -> None:
 def _write(folder: Path, args: Arguments) -> None:
     """Write all files of the site into a new folder."""
     from extensions.explorer import page as explorer
-    from pipeline.checks.report import page
+    from extensions.report import page
 
     from ..article import numbers, typesetting
 
-    data = sorted((ROOT / "results" / PAPER).glob("*.nc"))
-    (folder / PAPER).mkdir(parents=True)
+    data = sorted((ROOT / "results" / MAIN).glob("*.nc"))
+    (folder / MAIN).mkdir(parents=True)
     for file in data:
-        shutil.copyfile(file, folder / PAPER / file.name)
+        shutil.copyfile(file, folder / MAIN / file.name)
     measured = numbers.numbers_of(ROOT, args.config)
     files = {
         "index.html": _INDEX.read_bytes(),

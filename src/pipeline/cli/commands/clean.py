@@ -11,7 +11,7 @@ from pathlib import Path
 from ...config import ConfigError
 from ...config.build_specs import build_specs
 from ...config.schema.sets import SETS
-from ...declaration import SourceError, extensions
+from ...declaration import SourceError, parts
 from ...records.files import read_text
 from ...records.record import git, record_path
 from ...records.sources import ROOT
@@ -26,10 +26,7 @@ _BESIDE_RESULTS = (
     *(".*.part", "*/.*.part", "*.nc.part/*"),
 )
 # Files that commands write elsewhere in results/.
-_OF_COMMANDS = (
-    *("report/report.html", "compare/*..*/*.png"),
-    *(pattern for extension in extensions().values() for pattern in extension.generated),
-)
+_OF_COMMANDS = tuple(pattern for part in parts().values() for pattern in part.generated)
 _MOST_NAMED = 20  # files that stay
 
 

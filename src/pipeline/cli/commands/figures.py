@@ -4,7 +4,7 @@ import os
 from pathlib import PurePath
 
 from ...commands import DEFAULT_COMMAND, all_commands
-from ...config import PAPER, PUBLISHED, paths
+from ...config import MAIN, PUBLISHED, paths
 from ...config.build_specs import build_specs
 from ...records.sources import ROOT
 from .. import figures, running
@@ -44,7 +44,7 @@ def _named(args: Arguments) -> dict[str, figures.Drawings]:
             for path, drawing in drawings.items()
             if name in (scene := PurePath(drawing).stem, f"{group}/{scene}")
             or path in files
-            or (name, group) == ("all", PAPER)
+            or (name, group) == ("all", MAIN)
         ]
         if "/" not in name and len(groups := dict.fromkeys(group for group, _ in found)) > 1:
             full_names = " or ".join(f"{group}/{name}" for group in groups)
@@ -54,7 +54,7 @@ def _named(args: Arguments) -> dict[str, figures.Drawings]:
         if not found:
             other_results += _results_among(files, name, args)
     if other_results:
-        group = next(iter(targets), PAPER)
+        group = next(iter(targets), MAIN)
         targets[group] = targets.get(group, {}) | {path: path for path in other_results}
     return targets
 
@@ -65,7 +65,7 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     if found := sorted(files & results.keys()):
         return found
     if "/" in name:
-        known = [*results, *paths.figures(args.config.variants, PAPER)]
+        known = [*results, *paths.figures(args.config.variants, MAIN)]
         raise CommandLineError(f"no such file is made: {name}{hint(name, known)}")
     if name in all_commands():
         raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")

@@ -1,4 +1,4 @@
-"""The methods of a scene: scan and bisection, and those of extensions."""
+"""The methods of a scene: scan and bisection, and those of parts."""
 
 from collections.abc import Mapping
 from functools import reduce
@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag
 
-from ...declaration import extensions, imported
+from ...declaration import imported, parts
 from .fields import TAGS, Block, allowed
 
 
@@ -23,9 +23,9 @@ class Scan(Block):
     scenes with manifolds allow no more."""
 
 
-# Key that only a method of an extension has -> the class of its block.
+# Key that only a method of a part has -> the class of its block.
 _BY_KEY: dict[str, type[Block]] = {
-    key: imported(place) for each in extensions().values() for key, place in each.methods.items()
+    key: imported(place) for each in parts().values() for key, place in each.methods.items()
 }
 METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
 

@@ -1,14 +1,10 @@
-"""The sets of scenes: the paper's, the study's and those of extensions."""
+"""The sets of scenes that parts declare."""
 
-from ...declaration import SceneSet, extensions
+from ...declaration import SceneSet, parts
 
-PAPER, STUDY = "paper", "study"
-SETS = {  # by their folders in results/
-    PAPER: SceneSet("paper_figures", "./reproduce", "The paper's figures", key="scenes"),
-    STUDY: SceneSet(
-        "more_figures/study", "./reproduce study", "Accuracy and speed of methods", key="study"
-    ),
-}
-for _extension in extensions().values():
-    SETS |= _extension.sets
+SETS: dict[str, SceneSet] = {}  # by their folders in results/
+for _part in parts().values():
+    SETS |= _part.sets
+# The set whose scenes are those of the key `scenes`, which ./reproduce makes and variants change.
+MAIN = next(name for name, each in SETS.items() if each.key == "scenes")
 PUBLISHED = {name: each.folder for name, each in SETS.items() if each.folder}

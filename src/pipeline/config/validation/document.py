@@ -9,13 +9,13 @@ import yaml
 from pydantic import create_model
 
 from ...commands import all_commands
-from ...declaration import SourceError, extensions, files, imported
+from ...declaration import SourceError, files, imported, parts
 from ...loading import note_loaded
 from ...records.files import FileError, read_bytes
 from ..paths import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.scene import Picture
-from ..schema.sets import PAPER, SETS
+from ..schema.sets import MAIN, SETS
 from ..schema.variant import Variant
 from . import scenes
 from .mistakes import ConfigError, refusal, validate
@@ -23,17 +23,14 @@ from .mistakes import ConfigError, refusal, validate
 # Largest size of a config, in bytes. A larger file is a slip and would take long to parse. (The
 # faster parser of libyaml is not used: it crashes on deeply nested text.)
 LARGEST_FILE = 500_000
-# Blocks that are shipped. A block of the same name in config.yaml replaces them.
-_STUDY = Path(__file__).parents[1] / "study.yaml"
-
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 _AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_length=1)
 _VARIANTS = Annotated[
     dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
 ]
-# Key -> the class of a block of an extension that is no scenes.
+# Key -> the class of a block of a part that is no scenes.
 BLOCKS: dict[str, type[Block]] = {
-    key: imported(place) for each in extensions().values() for key, place in each.blocks.items()
+    key: imported(place) for each in parts().values() for key, place in each.settings.items()
 }
 
 
@@ -45,11 +42,11 @@ class _Document(Block):
     variants: _VARIANTS = {}
 
 
-_OF_EXTENSIONS: dict[str, Any] = {
-    **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != PAPER},
+_OF_PARTS: dict[str, Any] = {
+    **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != MAIN},
     **{key: (block, ABSENT) for key, block in BLOCKS.items()},
 }
-Document = create_model("Document", __base__=_Document, __doc__=_Document.__doc__, **_OF_EXTENSIONS)
+Document = create_model("Document", __base__=_Document, __doc__=_Document.__doc__, **_OF_PARTS)
 
 
 def load(path: str | Path) -> Config:
@@ -70,19 +67,19 @@ def check(given: object) -> Config:
     """
     document, lines = validate(Document, given, ())
     blocks = given.items() if isinstance(given, dict) else ()
-    parts = {key: block for key, block in blocks if isinstance(block, dict)}
-    ball, _ = validate(BallBlock, parts.get("ball"), ())
+    mappings = {key: block for key, block in blocks if isinstance(block, dict)}
+    ball, _ = validate(BallBlock, mappings.get("ball"), ())
     if ball and not ball.g < ball.k:
         lines.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
         ball = None
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()
     for name in SETS:
-        variants[name], more = _scenes_of_set(name, parts, own_ball)
+        variants[name], more = _scenes_of_set(name, mappings, own_ball)
         lines += more
     if document and own_ball and not lines:
         for name, variant in document.variants.items():
-            derived = scenes.derive_variant(parts["scenes"], own_ball, name, variant)
+            derived = scenes.derive_variant(mappings["scenes"], own_ball, name, variant)
             variants[name], left_out[name], more = derived
             lines += more
     if lines or document is None:
@@ -91,12 +88,12 @@ def check(given: object) -> Config:
 
 
 def _scenes_of_set(
-    name: str, parts: YamlMapping, ball: YamlMapping | None
+    name: str, mappings: YamlMapping, ball: YamlMapping | None
 ) -> tuple[dict[str, Picture], list[str]]:
     """Return the scenes of a set that can be checked, and a line for each mistake."""
     declared, found, lines = SETS[name], dict[str, Picture](), list[str]()
     key = declared.key or name
-    given = imported(declared.scenes)() if declared.scenes else parts.get(key, {})
+    given = imported(declared.scenes)() if declared.scenes else mappings.get(key, {})
     if declared.kind:
         kind = {"picture": declared.kind}
         given = {
@@ -107,8 +104,8 @@ def _scenes_of_set(
         lines += mistakes
         if scene in all_commands() or scene == "all":
             lines.append(refusal((key,), scene, "a name that is no command of ./reproduce"))
-        if name != PAPER and scene in parts.get("scenes", {}):
-            lines.append(refusal((key,), scene, "a name that no scene of the paper has"))
+        if name != MAIN and scene in mappings.get("scenes", {}):
+            lines.append(refusal((key,), scene, f"a name that no scene of the {MAIN} has"))
         if checked:
             found[scene] = checked
     return found, lines
@@ -117,12 +114,13 @@ def _scenes_of_set(
 def with_shipped(document: object) -> object:
     """Add the shipped blocks that a document does not have, and the shipped variants.
 
-    The `ball` of a shipped file is that of its scenes.
+    A block of the same name in the document replaces a shipped one. The `ball` of a shipped file
+    is that of its scenes.
     """
     if not isinstance(document, dict):
         return document
     shipped: YamlMapping = {}
-    for file in (_STUDY, *files("scenes.yaml")):
+    for file in files("scenes.yaml").values():
         try:
             parsed: Any = _parse(file)
             parsed = {key: {**block} for key, block in {**parsed}.items()}

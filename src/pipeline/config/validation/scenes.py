@@ -13,7 +13,7 @@ from typing import Any
 
 from pydantic import create_model
 
-from ...declaration import extensions
+from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
 from ..schema.scene import CompletionError, OfOrbits, Picture, Scene, exact
@@ -24,9 +24,9 @@ from .mistakes import Place, dotted, refusal, unknown, validate
 
 def reserved_names() -> list[str]:
     """Return the names that a variant may not have: of other folders in results/."""
-    patterns = [p for extension in extensions().values() for p in extension.generated]
+    patterns = [p for part in parts().values() for p in part.generated]
     folders = [p.partition("/")[0] for p in patterns if re.match(r"[\w-]+/", p)]
-    return [*dict.fromkeys([*SETS, "compare", "report", *folders])]
+    return [*dict.fromkeys([*SETS, *folders])]
 
 
 def check_scene(

@@ -1,0 +1,38 @@
+"""What the atlas adds to the pipeline: sweeps over k and the energy."""
+
+from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage, names, switch
+
+_ARGUMENTS = (
+    names("sweep", "sweeps of config.yaml; without a name, all"),
+    switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
+)
+_MODULE = "extensions.atlas.command"
+PART = Part(
+    needs=("study",),
+    stages={
+        "sweep": Stage(
+            "extensions.atlas.cell.cells_of_a_sweep",
+            "k energy starts impacts",
+            blocks="extensions.atlas.kinds.blocks",
+            of_block="extensions.atlas.cell.block_of_cells_of_a_sweep",
+        ),
+        "verdicts": Stage("extensions.atlas.verdicts.verdicts", alone=True),
+    },
+    sets={
+        "atlas": SceneSet(
+            "more_figures/atlas", "./reproduce atlas", "The atlas", key="sweeps", kind="atlas"
+        )
+    },
+    commands={
+        "sweep": SnakemakeCommand(
+            "compute grids over k and E/g^2, in results/atlas/", *_ARGUMENTS, module=_MODULE
+        ),
+        "atlas": SnakemakeCommand(
+            "draw these grids, in more_figures/atlas/", *_ARGUMENTS, module=_MODULE
+        ),
+    },
+    benchmark="extensions.atlas.bench",
+    seconds={
+        "results/atlas/verdicts.nc": 190,
+    },
+)

@@ -1,0 +1,51 @@
+"""What the verdicts on the paper's statements add to the pipeline."""
+
+from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage
+
+_ANALYSES = "extensions.claims.analyses"
+PART = Part(
+    needs=("paper", "proofs", "atlas", "families"),
+    stages={
+        **{
+            name: Stage(f"{_ANALYSES}.{name}.{name}", fields)
+            for name, fields in {  # stage -> the fields of a scene that it takes
+                "spread": "orbits length blocks regular regular_impacts cells visits",
+                "clusters": "orbits impacts cuts lags resamples seed",
+                "rotation": "energies starts impacts detail detail_impacts",
+                "jumps": "energies sides",
+                "flux": "period distance grid orbits impacts",
+                "exclusion": "grid followed",
+                "control": "strengths orbits impacts period starts shown drawn resamples seed",
+            }.items()
+        },
+        "last_curve": Stage(  # computed by the atlas, drawn here
+            "extensions.atlas.last_curve.last_curve", "nobles convergents between impacts drawn"
+        ),
+    },
+    sets={
+        "claims": SceneSet(
+            folder="more_figures/claims",
+            command="./reproduce claims",
+            heading="Statements of the paper",
+            key="claims",
+            texts=("CLAIMS.md", "CLAIMS.json"),
+        )
+    },
+    commands={
+        "claims": SnakemakeCommand(
+            "check every statement of the paper: CLAIMS.md, more_figures/claims/",
+            module="extensions.claims.command",
+            details="Makes missing results first, including the sweeps of the atlas.",
+        ),
+    },
+    report="extensions.claims.report",
+    seconds={
+        "results/claims/spread_spread.nc": 50,
+        "results/claims/rotation_rotation.nc": 8,
+        "results/claims/control_control.nc": 8,
+        "results/claims/flux_flux.nc": 6,
+        "results/claims/clusters_clusters.nc": 25,
+        "results/claims/exclusion_exclusion.nc": 15,
+        "results/claims/exclusion_exclusion_low.nc": 40,
+    },
+)

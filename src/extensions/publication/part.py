@@ -1,0 +1,55 @@
+"""What publishing adds to the pipeline: archive, article and site."""
+
+from pipeline.declaration import Command, Part, SnakemakeCommand, switch
+
+_COMMANDS, _TEXT = "extensions.publication.commands", ("claims", "explorer", "proofs")
+PART = Part(
+    needs=("paper",),
+    commands={
+        "archive": Command(
+            "write one tar with the figures, the data and what they were made from",
+            ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
+            switch("--with-packages", "add the sources and the locked packages: runs offline"),
+            (
+                "--python",
+                {"metavar": "X.Y", "help": "of these packages; by default the present one"},
+            ),
+            module=f"{_COMMANDS}.archive",
+            details="The same results give the same bytes. All results must be current.",
+        ),
+        "article": Command(
+            "set the replication article, results/article.pdf, from current results",
+            module=f"{_COMMANDS}.article",
+            details="Installs the typesetter first (once).",
+            needs=_TEXT,
+        ),
+        "site": SnakemakeCommand(
+            "write one folder to mail or serve: report, explorer and article, in results/site/",
+            module=f"{_COMMANDS}.site",
+            details="All published files must be the committed ones. Installs the typesetter "
+            "first (once).",
+            needs=(*_TEXT, "report"),
+        ),
+    },
+    options={
+        "verify": (
+            "--against",
+            {
+                "metavar": "PLACE",
+                "help": "compare file by file with an archive, or with a folder that holds an "
+                "unpacked archive or another tree",
+            },
+            f"{_COMMANDS}.against",
+        )
+    },
+    generated=(
+        "article.pdf",
+        "site/*.html",
+        "site/article.pdf",
+        "site/paper/*.nc",
+        ".site.*/*",
+        ".site.*/*/*",
+        "archive/pseudorigid.tar",
+        "archive/pseudorigid-python*.tar",
+    ),
+)

@@ -1,0 +1,32 @@
+"""./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
+
+from pipeline.cli import figures, running
+from pipeline.cli.arguments import Arguments
+from pipeline.cli.session import CommandLineError, interruptible, locked, one_line
+from pipeline.config import MAIN
+from pipeline.records.sources import ROOT
+
+
+def run(args: Arguments) -> int:
+    """Make the missing results of two variants and print what differs."""
+    config, status = args.config, 0
+    known = [MAIN, *config.own_variants]
+    names = [name for name in (args.a, args.b) if name is not None]
+    figures.require_known("variant", names, known)
+    if len(set(names)) < 2:
+        raise CommandLineError(f"compare needs two names of {', '.join(known)}")
+    scenes = args.figure or list(config.scenes)
+    with locked():
+        for name in names:
+            drawings = figures.drawings_of(config, name, scenes)
+            made = figures.make(config, name, drawings, args, brief=True)
+            status = made or status
+            if status == running.INTERRUPTED:
+                return status
+        if not args.makes_nothing:
+            from . import compare
+
+            print()
+            with interruptible(), one_line():
+                compare(ROOT, config, names, scenes)
+    return status

@@ -1,0 +1,138 @@
+"""Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from pseudorigid.dynamics.variables import final_exponents
+from pseudorigid.figures.axes import panel
+from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
+from pseudorigid.figures.axes.plane import Plane, thousands
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT
+
+_INSET_START = 0.25  # share of the impacts before those that the inset shows
+_MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
+_INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
+_DASHES = "-", "--", "-.", ":"  # after each round of hues, orbits have the next of these
+_NAMES = "Number of impacts", "Lyapunov exponents"
+empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
+
+
+def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
+    """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
+
+    If some orbits are regular and others chaotic, the inset and the names lambda_1, lambda_2, ...
+    at the lines' ends are for the chaotic ones, and a key names each start. Raises ValueError if
+    the axes show nothing.
+    """
+    return drawn(scene, lyapunov)[0]
+
+
+def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
+    """Say what the axes hide of the lines' ends: the first exponents may lie far beyond."""
+    ends = {"impact": _lengths(lyapunov), "exponent": final_exponents(lyapunov)}
+    yield from hides(scene, "the lines' ends", **ends)
+    yield from hides(scene, "the inset's lines", largest=drawn(scene, lyapunov)[1])
+
+
+@style.pinned()
+def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
+    """Return the figure, and the values of the inset, none without one."""
+    impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
+    final, chaotic = final_exponents(lyapunov), which_are_chaotic(lyapunov)
+    mixed = chaotic.any() and not chaotic.all()
+    in_inset = chaotic if mixed else np.full(chaotic.shape, True)
+    largest = exponent[:, in_inset].max(axis=2)
+    scene = complete(
+        scene,
+        impact=lambda: of_data([0, int(impact[-1])], room=0.0),
+        exponent=lambda: of_data(exponent),
+        largest=lambda: of_data(largest[int(_INSET_START * len(largest)) :], most=4),
+    )
+    over = np.broadcast_to(impact[:, None, None], exponent.shape)
+    refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
+    _, orbits, indices = exponent.shape
+    turns = [divmod(i, len(style.HUES)) for i in range(orbits)]
+    lines = [(style.HUES[place], _DASHES[turn % len(_DASHES)]) for turn, place in turns]
+    if mixed and orbits > _MOST_STARTS:
+        raise ValueError(f"starts: {orbits} of them: expected at most {_MOST_STARTS}, with a key")
+    # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
+    picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
+    if mixed:
+        names = zip(scene["starts"], chaotic, lines, strict=True)
+        entries = [(_key_text(start, sea), hue, "", dashes) for start, sea, (hue, dashes) in names]
+        panel.key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
+    ends = np.median(final[in_inset], axis=0)
+    inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
+    largest = largest[impact >= inset.across.limits[0]] if inset else largest[:0]
+    if inset:
+        refuse_empty(scene["axes"], {"largest": largest})
+    for orbit, (hue, dashes) in enumerate(lines):
+        line_style = {"color": hue, "lw": 0.8, "ls": dashes}
+        # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
+        known = ~np.isnan(exponent[:, orbit, 0])
+        for index in range(indices):
+            picture.line(impact[known], exponent[known, orbit, index], **line_style)
+        if inset and in_inset[orbit]:
+            inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
+    picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
+    return picture.figure, largest
+
+
+def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
+    """Return the number of impacts of each orbit."""
+    known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
+    return np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
+
+
+def which_are_chaotic(lyapunov: xr.Dataset) -> np.ndarray:
+    """Return which orbits are chaotic: their largest exponent exceeds `regular_bound`."""
+    from pseudorigid.dynamics.regularity import (
+        regular_bound,  # compiled code, which other kinds do not need
+    )
+
+    bounds = [regular_bound(int(length)) for length in _lengths(lyapunov)]
+    return final_exponents(lyapunov).max(axis=1) > bounds
+
+
+def _key_text(start: Any, chaotic: bool) -> str:
+    """Return the key's text for a start: its coordinates, and "chaotic" or "regular"."""
+    points = start.items() if isinstance(start, dict) else [("start", start)]
+    text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
+    return f"{text}: {'chaotic' if chaotic else 'regular'}"
+
+
+class _Inset(panel.Window):
+    size = 7.0
+
+
+def _inset(
+    picture: Plane, largest: dict[str, Any], first: float, second: float, last: float
+) -> _Inset | None:
+    """Return a panel between the lines of the first two exponents, or None.
+
+    `first` and `second` are the values at which these lines end, `largest` is the panel's vertical
+    axis, and `last` the last number of impacts. There is no panel if a value is beyond the axis, if
+    the lines are too close, or if the orbits end before the first impact that it would show.
+    """
+    left, _, right, _ = picture.frame
+    _, (high, low) = picture.place(0.0, [first, second])
+    shown = inside([picture.up.limits], [np.array([first, second])]).all()
+    if not (shown and high - low > _INSET_ROOM):
+        return None
+    start, end = picture.across.limits
+    start += _INSET_START * (end - start)
+    if last < start:
+        return None
+    marks = ticks(start, end, 5)
+    power = thousands(picture.across.ticks)
+    across = panel.Axis((start, end), marks, labels=[style.number(mark, power) for mark in marks])
+    bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
+    wide = right - left
+    frame = left + 0.2 * wide, bottom, right - 0.05 * wide, high - 0.18 * (high - low)
+    return _Inset(picture.sheet, frame, across, panel.Axis(**largest))

@@ -1,0 +1,41 @@
+"""Orbits on the energy surface: Figures 2 and 8 of the paper."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from pseudorigid.dynamics.variables import rows, states_of
+from pseudorigid.figures.axes.box import Box
+from pseudorigid.figures.axes.limits import complete_box, cuts
+from pseudorigid.figures.canvas import style
+
+_CURVE, _SEA = 0.8, 0.4  # points
+
+
+@style.pinned()
+def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
+    """Draw orbits in (x, xdot, udot) on the opaque energy surface, chaotic ones in grey.
+
+    Raises ValueError if nothing can be seen.
+    """
+    from pseudorigid.dynamics.regularity import (
+        chaotic_orbits,  # compiled code: other kinds need none
+    )
+
+    scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
+    chaotic = chaotic_orbits(scene["ball"], orbits)
+    name = style.plural("chaotic orbit", len(chaotic))
+    box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
+    regular = [index for index in range(len(spans)) if index not in chaotic]
+    hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
+    for index in chaotic + regular:
+        hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
+        box.points(states[:, spans[index]], hue, size)
+    return box.figure
+
+
+def hidden(scene: dict[str, Any], orbits: xr.Dataset) -> Iterator[str]:
+    """Say which axes cut the energy surface."""
+    return cuts(scene, "impacts", orbits)

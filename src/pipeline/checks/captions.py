@@ -1,0 +1,60 @@
+"""Captions of all pictures, from files captions.toml, for the report and docs/figures.md."""
+
+import tomllib
+from collections import defaultdict
+from typing import Any, NamedTuple
+
+import jinja2
+
+from ..config.schema.kinds import KINDS
+from ..declaration import SourceError, files
+from ..records.files import read_text
+
+CAPTIONS: dict[str, dict[str, str]] = {}  # kind of picture -> its templates
+for _file in files("captions.toml").values():
+    try:
+        CAPTIONS |= tomllib.loads(read_text(_file))["kinds"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise SourceError(_file, error) from error
+
+
+class Caption(NamedTuple):
+    """The texts of a picture. `shows` and `see` are a few sentences, `details` are the rest."""
+
+    name: str
+    title: str
+    shows: str
+    see: str
+    details: str
+
+
+def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = None) -> Caption:
+    """Return the caption of a complete scene, after whose set `name` is called: "families/energy".
+
+    Scenes of config.yaml and its variants have bare names. `facts` are those of
+    `quantities.facts`; without them, sentences that need one are left out.
+    """
+    kind = block["picture"]
+    templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""}
+    templates |= CAPTIONS.get(kind, {})
+    number = name.removeprefix("fig")
+    shown_name = f"Figure {number}" if number.isdigit() and number != name else name
+    known = defaultdict(int) if facts is None else facts
+    texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
+    title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
+    hidden = [f"Note: {line}." for line in known["hidden"] or ()]
+    return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
+
+
+def _with_commas(value: object) -> object:
+    """Return a whole number as text with commas, and any other value as it is."""
+    return f"{value:,}" if type(value) is int else value
+
+
+def _counted(count: int, noun: str) -> str:
+    """Return a count, with commas, and a noun in the number that it needs."""
+    return f"{count:,} {noun}{'s' * (count != 1)}"
+
+
+_ENVIRONMENT = jinja2.Environment(finalize=_with_commas, undefined=jinja2.StrictUndefined)
+_ENVIRONMENT.filters["counted"] = _counted

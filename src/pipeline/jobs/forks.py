@@ -1,0 +1,74 @@
+"""Jobs in processes of their own, which are forked from one that has loaded their packages.
+
+A new Python takes longer to load packages than most jobs take to compute. The executor of
+`snakemake_executor_plugin_reproduce` forks jobs; a plain snakemake runs this module as a program,
+`python -m pipeline.jobs.forks RESULT`, which starts a new Python for each job.
+"""
+
+import multiprocessing
+import os
+import signal
+import sys
+from contextlib import suppress
+from multiprocessing import forkserver
+from multiprocessing.context import ForkServerContext, SpawnContext
+from pathlib import Path
+
+from ..records.build_spec import BuildSpec
+from ..records.files import write_whole
+from ..records.record import log_path
+from . import job
+
+# Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
+_LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")
+THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THREADS"]
+
+
+def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
+    """Make a result in a process of its own, and return whether it is current afterwards."""
+    # The exit status is no answer: multiprocessing may lose it if other threads start jobs.
+    receiver, answer = context.Pipe(duplex=False)
+    process = context.Process(target=job.make, args=(spec, answer))
+    made, reason = False, "it could not start"
+    with receiver, suppress(OSError, EOFError):
+        process.start()
+        answer.close()
+        made = receiver.recv()
+    if process.pid:
+        process.join()
+        status = process.exitcode or 0
+        reason = signal.Signals(-status).name if status < 0 else "it ended without a message"
+    log = Path(log_path(spec.result))
+    if not made and not log.exists():
+        words = f"the job was killed ({reason}): memory may be short"
+        with suppress(ValueError):  # the disk may be full
+            write_whole(log, f"pseudorigid: {spec.scene}: {words}\n")
+    return made
+
+
+def forking(data: bool) -> ForkServerContext:
+    """Start the process that forks jobs; it imports what drawings need, or also what `data` do."""
+    jobs = multiprocessing.get_context("forkserver")
+    wanted = "data" if data else ""
+    before = dict(os.environ)
+    os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": wanted})
+    # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        jobs.set_forkserver_preload([f"{__package__}.preload"])
+        forkserver.ensure_running()
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        os.environ.clear()
+        os.environ.update(before)
+    return jobs
+
+
+if __name__ == "__main__":
+    (_result,) = sys.argv[1:]
+    from .plan import plan
+
+    _freshness = plan().freshness
+    _current = _freshness.is_current_now(_result)
+    _context = multiprocessing.get_context("spawn")
+    sys.exit(not (_current or run(_context, _freshness.build_specs[_result])))

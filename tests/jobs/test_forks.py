@@ -1,0 +1,77 @@
+"""Forked jobs: each ends as a program of its own would, also when many start at once."""
+
+import pytest
+from project import fresh_tree
+
+PROGRAMS = {
+    "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
+    "bad": "raise ValueError('bad input')",
+    "bug": "1 / 0",
+    "short": "raise MemoryError",
+    "killed": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
+    "modules": "import sys; print(*[name in sys.modules for name in ('xarray', 'numba')])",
+}
+MAIN = """
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+
+from pipeline.jobs.forks import forking, run
+from pipeline.records.build_spec import BuildSpec
+
+def spec(i, program):
+    return BuildSpec(f"results/paper/{i}.nc", "fig", "step", {}, program, None, [], [])
+
+if __name__ == "__main__":
+    count, *programs = sys.argv[1:]
+    specs = [spec(i, name) for i, name in enumerate(programs * int(count))]
+    with ThreadPoolExecutor(8) as pool:
+        print(*pool.map(partial(run, forking(data=True)), specs))
+"""
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the project with PROGRAMS and MAIN."""
+    tree = fresh_tree(tmp_path / "tree")
+    for name, text in PROGRAMS.items():
+        file = tree.path / "src/pipeline/jobs" / f"{name}.py"
+        file.write_text(f"def make(spec):\n    {text}\n")
+    (tree.path / "main.py").write_text(MAIN)
+    (tree.path / "results/paper").mkdir(parents=True)
+    return tree
+
+
+def test_many_jobs_at_once_end_as_they_should(tree):
+    programs = ("good", "bad", "bug", "killed", "modules", "short")
+    result = tree.python("main.py", "2", *programs)
+    assert (result.returncode, result.stderr) == (0, "")
+    words = result.stdout.split()
+    assert words[:4] == ["True", "True"] * 2  # jobs of a run that computes data find numba loaded
+    made = {"good": "True", "modules": "True"}
+    assert words[4:] == [made.get(name, "False") for name in programs] * 2
+    assert (tree.path / "count").read_text() == "x" * 2
+    folder = tree.path / "results/paper"
+    logs = [folder / f"logs/{i}.nc.log" for i in (0, 1, 2, 3, 5)]
+    assert not logs[0].exists()
+    last = [log.read_text().splitlines()[-1] for log in logs[1:]]
+    assert last[0] == "pseudorigid: fig: bad input"
+    assert last[1].startswith("pseudorigid: fig: ZeroDivisionError: division by zero (traceback in")
+    assert last[2] == "pseudorigid: fig: the job was killed (SIGKILL): memory may be short"
+    assert last[3].startswith("pseudorigid: fig: memory is short")
+    assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "6.nc"}
+
+
+def test_the_executor_makes_all_and_leaves_current_results(tmp_path):
+    """The rule `all` has no output: it goes to snakemake's own executor."""
+    portrait = {"picture": "portrait", "energy": 0.01, "starts": [0.1], "impacts": 50}
+    tree = fresh_tree(tmp_path / "tree", {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"a": portrait}})
+    command = ("-P", "-m", "snakemake", "--cores", "2", "--executor", "reproduce")
+    result = tree.python(*command, "all")
+    assert result.returncode == 0, result.stderr
+    drawing = tree.path / "results/paper/figures/a.png"
+    before = drawing.stat().st_ino
+    tree.append("pipeline/jobs/draw.py")
+    (tree.path / "src/pipeline/jobs/draw.py").write_text("raise ValueError\n")
+    assert tree.python(*command, "--forceall", "all").returncode == 1  # not made, and not lost
+    assert drawing.stat().st_ino == before
