@@ -51,4 +51,4 @@ for declared in other_rules():
 rule all:
     default_target: True
     input:
-        [upstream[-1] for _, upstream in paths.figures(VARIANTS).values()],
+        [drawing for _, drawing in PLAN.config.figures().values()],

@@ -15,17 +15,15 @@ from pathlib import Path
 from project import SHIPPED, make_here
 
 from pipeline import config
-from pipeline.config import paths
-from pipeline.config.build_specs import build_specs
 
 
 def figures(folder, checked, names=()):
     """Yield (file name, hash) of the figures of these scenes of the paper, or of all."""
-    specs = build_specs(checked, [paths.MAIN])
-    for scene, upstream in paths.figures(checked.variants).values():
+    specs = checked.build_specs([config.MAIN])
+    for scene, path in checked.figures().values():
         if not names or scene in names:
-            make_here(folder, specs, upstream[-1:])
-            drawing = Path(folder, upstream[-1])
+            make_here(folder, specs, [path])
+            drawing = Path(folder, path)
             yield drawing.name, hashlib.sha256(drawing.read_bytes()).hexdigest()
 
 

@@ -142,12 +142,12 @@ class Tree:
         It is found in this process: files of the tree may differ from those here, imports may not.
         """
         from pipeline.checks.freshness import Freshness
-        from pipeline.config import figures, load
-        from pipeline.config.build_specs import build_specs, with_dependencies
+        from pipeline.config import load
+        from pipeline.config.results import with_dependencies
 
         config = load(self.config)
-        specs, published = build_specs(config, [MAIN]), figures(config.variants, MAIN)
-        drawings = [published[path][1][-1] for path in targets or published]
+        specs, published = config.build_specs([MAIN]), config.figures()
+        drawings = [published[path][1] for path in targets or published]
         return set(Freshness(self.path, specs).outdated(with_dependencies(specs, drawings)))
 
     def published(self):
@@ -173,10 +173,9 @@ class Tree:
     def make_here(self, *targets):
         """Make results with records in this process, whose code is that of this tree."""
         from pipeline.config import load
-        from pipeline.config.build_specs import build_specs
         from pipeline.records.record import recorded
 
-        make_here(self.path, build_specs(load(self.config)), targets, recorded)
+        make_here(self.path, load(self.config).build_specs(), targets, recorded)
 
     def copy(self, path):
         """Copy it with its results."""
@@ -216,7 +215,7 @@ def make_here(folder, specs, targets, around=nullcontext):
 
     `specs` are build specifications. Results that exist stay. `around(spec)` is a context manager.
     """
-    from pipeline.config.build_specs import with_dependencies
+    from pipeline.config.results import with_dependencies
 
     with chdir(folder):
         for path in with_dependencies(specs, targets):

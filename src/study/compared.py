@@ -18,7 +18,7 @@ _COMPARED = ("periodic", "manifolds")
 
 
 def paper_scenes(
-    scenes: Mapping[str, Picture], artifact_paths: Mapping[tuple[str, str], str]
+    scenes: Mapping[str, Picture], datasets: Mapping[tuple[str, str], str]
 ) -> tuple[dict[str, Any], dict[str, str]]:
     """Return what decides the data of the stage `needs`, and its inputs by stage and scene.
 
@@ -34,7 +34,7 @@ def paper_scenes(
     measures = {name: scenes[name].picture for name in chosen}
     inputs = {
         f"{stage}/{scene}": path
-        for (scene, stage), path in artifact_paths.items()
+        for (scene, stage), path in datasets.items()
         if scene in chosen and stage in _COMPARED
     }
     return {"scenes": chosen, "measures": measures}, inputs

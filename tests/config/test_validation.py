@@ -12,8 +12,6 @@ from project import ROOT, SHIPPED, shipped
 from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
-from pipeline.config import paths
-from pipeline.config.build_specs import build_specs
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -63,7 +61,7 @@ def test_any_file_is_a_config_or_is_refused(tmp_path):
         except config.ConfigError as error:
             assert all(line.startswith("config.yaml: ") for line in str(error).splitlines())
             return
-        for result in build_specs(checked, ["paper"]):
+        for result in checked.build_specs(["paper"]):
             assert (tmp_path / result).resolve().is_relative_to(tmp_path / "results" / "paper")
 
     trial()
@@ -77,11 +75,11 @@ def test_a_number_with_an_exponent_needs_no_point(tmp_path):
 
 def test_an_added_scene_changes_no_path():
     document = good()
-    before = paths.artifact_paths(config.check(document).variants)
+    before = config.check(document).datasets
     assert before["paper", "a_closeup", "periodic"] == "results/paper/periodic_a_closeup.nc"
     twin = {"a": document["scenes"]["a_closeup"]}
     document["scenes"] = twin | document["scenes"] | {"z": twin["a"]}
-    after = paths.artifact_paths(config.check(document).variants)
+    after = config.check(document).datasets
     assert after["paper", "a", "periodic"] == "results/paper/periodic_a.nc"
     assert before.items() <= after.items()
 

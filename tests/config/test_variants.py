@@ -5,7 +5,7 @@ from documents import complaints
 from project import shipped
 
 from pipeline import config
-from pipeline.config import paths
+from pipeline.config.results import dataset_paths
 from pipeline.config.schema.sets import SETS
 
 NO_SCENE_FITS = {"ball": {"g": 0.0995}}  # energies 0.001 and 0.01 are too high for it
@@ -97,10 +97,10 @@ def test_equal_stages_of_variants_are_computed_once():
     )
     assert list(variants) == [*SETS, "first", "second"]
     assert variants["first"].keys() == variants["paper"].keys() == shipped()["scenes"].keys()
-    artifact_paths = paths.artifact_paths(variants)
-    assert artifact_paths["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
-    assert artifact_paths["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
-    assert artifact_paths["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
+    datasets = dataset_paths(variants)
+    assert datasets["second", "fig8", "orbits"] == "results/first/orbits_fig8.nc"
+    assert datasets["second", "fig2", "orbits"] == "results/paper/orbits_fig2.nc"
+    assert datasets["second", "fig4", "periodic"] == "results/paper/periodic_fig4.nc"
 
 
 SMALL = {"picture": "portrait", "ball": {"k": 0.05, "g": 0.04}, "energy": -0.0155, "starts": [0.1],
@@ -127,7 +127,7 @@ def test_a_scene_that_does_not_suit_a_variant_is_left_out_of_it_alone():
         assert variants[name].keys() == shipped()["scenes"].keys() | {"small", "point"} - set(
             scenes
         )
-    assert not any("small" in path for path in paths.figures(variants, "lower-energy"))
+    assert not any("small" in path for path in document.figures("lower-energy"))
 
 
 def test_a_method_that_manifolds_cannot_have_leaves_them_out():

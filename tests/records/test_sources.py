@@ -7,7 +7,6 @@ import pytest
 from project import ROOT, SHIPPED
 
 from pipeline.config import load
-from pipeline.config.build_specs import build_specs
 from pipeline.records import sources
 
 
@@ -47,7 +46,7 @@ def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
 
 def of_all():
     """Build specifications of every result of the shipped config."""
-    return build_specs(load(SHIPPED))
+    return load(SHIPPED).build_specs()
 
 
 def test_no_source_of_a_result_reads_docstrings_or_imports_by_unknown_names():

@@ -7,7 +7,6 @@ import pytest
 from project import ROOT, SHIPPED
 
 from pipeline import config
-from pipeline.config.build_specs import build_specs
 
 EXACT = {"prod", "sqrt", "floor", "ceil", "inf", "nan", "isnan", "isfinite", "copysign", "ulp"}
 EXACT |= {"nextafter", "pi"}
@@ -20,7 +19,7 @@ INEXACT = re.compile(
 
 def sources_of_the_figures():
     """Every Python file whose bits can reach a figure."""
-    specs = build_specs(config.load(SHIPPED), ["paper"]).values()
+    specs = config.load(SHIPPED).build_specs(["paper"]).values()
     return sorted({file for spec in specs for file in spec.sources if file.endswith(".py")})
 
 

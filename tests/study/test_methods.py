@@ -5,7 +5,6 @@ import pytest
 from project import shipped
 
 from pipeline.config import check
-from pipeline.config.build_specs import build_specs
 from pipeline.records.sources import source_files
 from study import states
 from study.methods import libraries
@@ -79,7 +78,7 @@ def test_solve_ivp_sees_short_flights(solver):
 
 
 def test_the_figures_of_the_paper_need_nothing_of_the_study():
-    specs = build_specs(check(shipped()), ["paper"])
+    specs = check(shipped()).build_specs(["paper"])
     assert not any(
         file.startswith("src/study/") for spec in specs.values() for file in spec.sources
     )

@@ -20,7 +20,7 @@ def append(path):
 
 @pytest.mark.slow
 def test_changes_of_data_config_and_an_edit_that_is_undone_are_reported(done):
-    """A job loads an edited file, which the forking process has loaded before, then the edit is undone."""
+    """A job loads an edited file, which was loaded before it was forked; the edit is undone."""
     data, edited = "results/paper/orbits_fig2.nc", "src/pseudorigid/figures/edited.py"
     plant(done, "portrait", append(data))
     (done.path / edited).write_text("VALUE = 1\n")

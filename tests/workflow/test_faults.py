@@ -23,7 +23,6 @@ from pipeline.cli import figures, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
 from pipeline.config import load
-from pipeline.config.build_specs import build_specs
 
 DRAWING = "results/paper/figures/fig3.png"
 # Settings in a user's shell do not reach a run; numba would refuse its ones.
@@ -182,7 +181,7 @@ def test_two_runs_do_not_meet(tree):
 def start(tmp_path, monkeypatch):
     """Return a function that starts a run in an empty folder."""
     monkeypatch.setattr(running, "ROOT", tmp_path)
-    freshness = Freshness(tmp_path, build_specs(load(SHIPPED)))
+    freshness = Freshness(tmp_path, load(SHIPPED).build_specs())
     return lambda: running.make(freshness, [DRAWING], Arguments(options=[]))
 
 

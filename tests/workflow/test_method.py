@@ -5,7 +5,6 @@ from project import make_here, of_scenes
 
 from pipeline import config
 from pipeline.cli import figures
-from pipeline.config.build_specs import build_specs
 from pipeline.records.artifacts import load
 
 DOCUMENT = of_scenes("fig2", "fig3", "fig7")
@@ -23,7 +22,7 @@ def made(tmp_path_factory):
     """Orbits, a motion and exponents of small scenes by scan and bisection."""
     folder = tmp_path_factory.mktemp("by the paper's method")
     names = ("orbits_fig2", "motion_fig3", "lyapunov_fig7")
-    make_here(folder, build_specs(CHECKED), [f"results/paper/{name}.nc" for name in names])
+    make_here(folder, CHECKED.build_specs(), [f"results/paper/{name}.nc" for name in names])
     return folder
 
 

@@ -12,7 +12,6 @@ from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
 from pipeline.config import load
-from pipeline.config.build_specs import build_specs
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES
 from pipeline.declaration import parts
@@ -62,7 +61,7 @@ def test_a_rule_has_the_scenes_of_its_kind_alone_where_sets_have_scenes_of_one_n
 @pytest.fixture(scope="module")
 def jobs():
     """Result -> rule, inputs, priority and threads of the job that makes it."""
-    wanted = [*build_specs(load(ROOT / "config.yaml"))]
+    wanted = [*load(ROOT / "config.yaml").build_specs()]
     printed = snakemake("--cores", "3", "-n", "--forceall", *wanted)
     found = {}
     for job in re.split(r"^\[.*\]\n", printed, flags=re.M)[1:]:
@@ -77,7 +76,7 @@ def jobs():
 
 def test_snakemake_takes_the_inputs_of_the_build_specifications(jobs):
     """Named inputs are looked up in the rules, and specifications in the config."""
-    for path, spec in build_specs(load(ROOT / "config.yaml")).items():
+    for path, spec in load(ROOT / "config.yaml").build_specs().items():
         assert jobs[path][1] == set(spec.inputs), path
 
 

@@ -30,12 +30,13 @@ def test_the_report_has_each_figure_with_its_caption(extension, done):
     results, _ = json.JSONDecoder().raw_decode(page[page.index('{"results/paper/figures/') :])
     drawn = [f"results/paper/figures/fig{n}.{kind}" for n in range(2, 9) for kind in ("png", "svg")]
     assert sorted(results) == sorted(drawn)
-    scenes = load(done.config).scenes
+    config = load(done.config)
+    scenes = config.scenes
     for path, shown in results.items():
         labels, caption = shown["labels"], html.unescape(shown["caption"])
         assert path.endswith("figures/{figure}.{format}".format(**labels))
         scene = labels["figure"]
-        known = measured(done.path, {"paper": scenes}, "paper", scene, facts)
+        known = measured(done.path, config, "paper", scene, facts)
         words = caption_of(scene, scenes[scene].as_mapping(), known)
         first, *others = re.findall(r"<p>(.*?)</p>", caption, re.DOTALL)
         assert first == f"{words.name}: {words.title}"

@@ -6,7 +6,6 @@ from project import make_here, of_scenes
 from runs import VARIANTS, contents, rows
 
 from pipeline import config
-from pipeline.config.build_specs import build_specs
 from pipeline.records.artifacts import load
 
 LENGTHS = {"x", "xdot", "udot", "position", "strain", "impact_position"}
@@ -33,7 +32,7 @@ def scaled(tmp_path_factory):
     """Return a function of a variant and a name that computes the dataset of a small scene."""
     folder = tmp_path_factory.mktemp("scaled")
     document = of_scenes("fig4", "fig5", "fig7", variants=VARIANTS)
-    specs = build_specs(config.check(document))
+    specs = config.check(document).build_specs()
 
     def data(variant, name):
         path = f"results/{variant}/{name}.nc"

@@ -5,8 +5,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pipeline.config import ConfigError, paths
-from pipeline.config.build_specs import with_dependencies
+from pipeline.config import MAIN, ConfigError
+from pipeline.config.results import with_dependencies
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES
 from pipeline.declaration import SourceError, parts
@@ -32,7 +32,7 @@ except (ConfigError, FileError, SourceError) as error:
 
 SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config.variants
 ALL = {name for scenes in VARIANTS.values() for name in scenes}
-DATASETS = paths.artifact_paths(VARIANTS)
+DATASETS = PLAN.config.datasets
 # The command of a job, if no executor makes the result without it.
 MAKE = "{params.python:q} -P -m pipeline.jobs.forks {output.result:q}"
 
@@ -87,8 +87,8 @@ def caption(wildcards):
     from pipeline.checks.captions import caption_of
 
     variant, scene = wildcards.variant, wildcards.scene
-    known = measured(ROOT, VARIANTS, variant, scene, facts)
-    name = scene if variant == paths.MAIN else f"{variant}/{scene}"
+    known = measured(ROOT, PLAN.config, variant, scene, facts)
+    name = scene if variant == MAIN else f"{variant}/{scene}"
     name, title, *texts = caption_of(name, VARIANTS[variant][scene].as_mapping(), known)
     return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
 

@@ -6,14 +6,12 @@ from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.packages import add_packages
 from pipeline.cli.session import UsageError, locked
-from pipeline.config import paths
 from pipeline.records.sources import ROOT
 
 
 def run(args: Arguments) -> int:
     """Make the datasets of all sweeps or of the named ones; `atlas` makes pictures too."""
-    variants = args.config.variants
-    sweeps = variants["atlas"]
+    sweeps = args.config.variants["atlas"]
     figures.require_known("sweep", args.sweep, list(sweeps))
     if not sweeps:
         raise UsageError("config.yaml: sweeps: empty")
@@ -28,8 +26,8 @@ def run(args: Arguments) -> int:
         if not args.sweep or {n, sweeps[n].as_mapping().get("over")} & {*args.sweep}
     ]
     drawings = figures.drawings_of(args.config, "atlas", names) if args.word == "atlas" else {}
-    artifact_paths = paths.artifact_paths(variants)
-    data = [artifact_paths.get(("atlas", name, "sweep")) for name in names]  # None for verdicts
+    datasets = args.config.datasets
+    data = [datasets.get(("atlas", name, "sweep")) for name in names]  # None for verdicts
     with locked():
         files = drawings | {path: path for path in data if path}
         return figures.make(args.config, "atlas", files, args)

@@ -7,7 +7,7 @@ from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.running import INTERRUPTED
 from pipeline.cli.session import UsageError, interruptible, locked
-from pipeline.config import MAIN, Config, paths
+from pipeline.config import MAIN, Config
 from pipeline.records import artifacts
 from pipeline.records.files import write_whole
 from pipeline.records.names import suggestion
@@ -47,7 +47,7 @@ def run(args: Arguments) -> int:
 def dataset_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of datasets that checks need; raises UsageError for an unknown name."""
     known = {}
-    for (variant, scene, stage), path in paths.artifact_paths(config.variants).items():
+    for (variant, scene, stage), path in config.datasets.items():
         own = variant in (MAIN, "claims")
         known[f"{scene}/{stage}" if own else f"{variant}/{scene}/{stage}"] = path
         if stage == "sweep":
@@ -64,10 +64,7 @@ def dataset_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
 
 def theorem_paths(config: Config, names: Sequence[str]) -> dict[str, str]:
     """Return name -> path of the verdicts on theorems; raises UsageError for a missing one."""
-    artifact_paths = paths.artifact_paths(config.variants)
-    known = {
-        scene: path for (group, scene, _), path in artifact_paths.items() if group == "theorems"
-    }
+    known = {s: path for (group, s, _), path in config.datasets.items() if group == "theorems"}
     for name in names:
         if name not in known:
             raise UsageError(f"there is no certificate of the theorem {name}")

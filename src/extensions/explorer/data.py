@@ -15,7 +15,7 @@ from urllib.parse import quote_plus
 
 import yaml
 
-from pipeline.config.paths import MAIN, PUBLISHED, Config
+from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
 from pipeline.records.files import read_text, write_whole

@@ -7,7 +7,6 @@ from functools import partial
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments, hint
 from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
-from pipeline.config import paths
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import replacing
 from pipeline.records.sources import ROOT
@@ -49,10 +48,8 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
 
     if args.search:
         search(names)
-    artifact_paths = paths.artifact_paths(args.config.variants)
-    known = {
-        scene: path for (_, scene, stage), path in artifact_paths.items() if stage == "theorem"
-    }
+    datasets = args.config.datasets
+    known = {scene: path for (_, scene, stage), path in datasets.items() if stage == "theorem"}
     for name in names:
         if name not in known:
             file = f"{CERTIFICATES}/{name}.toml"

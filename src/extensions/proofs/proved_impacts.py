@@ -12,8 +12,8 @@ import xarray as xr
 from flint import arb
 
 from pipeline.checks.freshness import Freshness
-from pipeline.config import MAIN, Config, paths
-from pipeline.config.build_specs import build_specs
+from pipeline.config import MAIN, Config
+from pipeline.config.results import drawn, stages
 from pipeline.config.schema.scene import Picture
 from pipeline.records.artifacts import load
 from pipeline.records.sources import ROOT
@@ -48,17 +48,16 @@ def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
     line that says how many impacts are done. Returns 1 if an impact is not proved, otherwise 0.
     Raises ValueError if a result is missing.
     """
-    artifact_paths = paths.artifact_paths(checked.variants)
-    freshness = Freshness(ROOT, build_specs(checked, [MAIN]))
+    freshness = Freshness(ROOT, checked.build_specs([MAIN]))
     status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]  # of each
     for scene, block in checked.scenes.items():
-        if why := freshness.refusal(paths.drawn(scene, "png")):
+        if why := freshness.refusal(drawn(scene, "png")):
             print(f"{scene} is left out, because it cannot exist: {why}")
             continue
         k, g = (Fraction(str(block.as_mapping()["ball"][name])) for name in "kg")
 
         def data(stage: str, scene: str = scene) -> xr.Dataset:
-            return load(ROOT / artifact_paths[MAIN, scene, stage])
+            return load(ROOT / checked.datasets[MAIN, scene, stage])
 
         for part, some in _impacts_behind(block, data, sample):
             name = f"{scene} {part}"
@@ -136,18 +135,18 @@ def _impacts_behind(
     scene: Picture, data: Callable[[str], xr.Dataset], sample: int
 ) -> Iterator[tuple[str, Impacts]]:
     """Yield a name and impacts for each stage of a scene, and for each orbit of exponents."""
-    block, stages = scene.as_mapping(), paths.stages(scene)
+    block, used = scene.as_mapping(), stages(scene).keys()
     ball, energy = Ball(**block["ball"]), block["energy"]
-    if {"orbits", "manifolds"} <= stages.keys():
+    if {"orbits", "manifolds"} <= used:
         sample = max(1, sample // 2)  # for each of the two
-    if "orbits" in stages:
+    if "orbits" in used:
         its = of_orbits(ball, energy, data("orbits"), block["starts"])
-        yield "orbits", Impacts(*_evenly(its, sample)) if "manifolds" in stages else its
-    if "motion" in stages:
+        yield "orbits", Impacts(*_evenly(its, sample)) if "manifolds" in used else its
+    if "motion" in used:
         track = of_type(data("periodic"), block["type"])
         states = states_of(track)
         yield "orbit", Impacts(states, np.roll(states, -1, axis=1), track["tau"].values)
-    if "manifolds" in stages:
+    if "manifolds" in used:
         lines = states_of(data("manifolds"))
         lines = lines[:, ~np.isnan(lines[0])]
         # A point on the rim may lie below it by a rounding, and would be refused.
@@ -155,7 +154,7 @@ def _impacts_behind(
         (before,) = _evenly((lines,), sample)
         x, xdot, udot, tau = ball.impact(*before)
         yield "manifolds", Impacts(before, np.array([x, xdot, udot]), np.asarray(tau))
-    if "lyapunov" in stages:
+    if "lyapunov" in used:
         starts = [start_state(ball, energy, start) for start in block["starts"]]
         for i, start in enumerate(starts):
             track = orbit(ball, start, max(1, sample // len(starts)))

@@ -29,7 +29,7 @@ from pipeline.checks.published_sets import (
     format_sums,
     read_sums,
 )
-from pipeline.config.paths import MAIN, PUBLISHED, Config
+from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.declaration import parts
 from pipeline.records import files
 from pipeline.records.artifacts import ArtifactError, load

@@ -21,8 +21,9 @@ from pipeline.checks.published_sets import IDENTICAL, committed_sets, committed_
 from pipeline.checks.quantities import facts, measured
 from pipeline.checks.section import Links, Section
 from pipeline.checks.verify import Findings, inspect
-from pipeline.config import MAIN, PUBLISHED, Config, paths
-from pipeline.config.build_specs import build_specs
+from pipeline.config import MAIN, PUBLISHED, Config
+from pipeline.config.results import drawn
+from pipeline.config.schema import scene as schema
 from pipeline.config.schema.sets import SETS
 from pipeline.declaration import parts
 from pipeline.records.files import read_bytes
@@ -89,15 +90,14 @@ class _Page:
     """Collects what the page shows of a tree."""
 
     def __init__(self, root: Path, config: Config, sections: Iterable[Section]) -> None:
-        self.root, self.variants, self.left_out = root, config.variants, config.left_out
+        self.root, self.config, self.variants = root, config, config.variants
         self.sections = [*sections]
-        self.artifact_paths = paths.artifact_paths(self.variants)
         self.sets = [inspect(root, each) for each in committed_sets(config)]
-        self.freshness = Freshness(root, build_specs(config))
+        self.freshness = Freshness(root, config.build_specs())
         self.shown: dict[str, None] = {}  # every result behind the page, in order
 
     def _described(
-        self, identifier: str, variant: str, name: str, block: paths.Picture, published: str,
+        self, identifier: str, variant: str, name: str, block: schema.Picture, published: str,
         known: dict[str, Any] | None,
     ) -> Picture:  # fmt: skip
         """Return the caption of a picture and the notes of parts, without an image."""
@@ -109,17 +109,17 @@ class _Page:
 
     def pictures_of(self, variant: str) -> list[Picture]:
         """Return the pictures of a variant; those that are not current have no image."""
-        pictures, left_out = [], self.left_out.get(variant, {})
+        pictures, left_out = [], self.config.left_out.get(variant, {})
         others = {scene: self.variants[MAIN][scene] for scene in left_out}
         for scene, block in (self.variants[variant] | others).items():
-            drawing = paths.drawn(scene, "png", variant)
+            drawing = drawn(scene, "png", variant)
             published = f"{PUBLISHED[MAIN]}/{scene}.png" if variant == MAIN else drawing
             published = "" if scene in left_out else published
             state = left_out.get(scene) or self.freshness.state(drawing)
             known = self._facts(variant, scene) if state == CURRENT else None
             picture = self._described(f"{variant}-{scene}", variant, scene, block, published, known)
             if state == CURRENT:
-                data = [self.artifact_paths[variant, scene, name] for name in paths.stages(block)]
+                data = self.config.data_of(variant, scene).values()
                 compared = f": {committed_state(self.root, published)}" if variant == MAIN else ""
                 picture |= self._shown(drawing, data) | self._numbers(variant, scene)
                 picture["file"] = f"{published}{compared}"
@@ -183,11 +183,11 @@ class _Page:
 
     def _facts(self, variant: str, scene: str) -> dict[str, Any]:
         """Return what a scene's caption says of its data."""
-        return measured(self.root, self.variants, variant, scene, facts)
+        return measured(self.root, self.config, variant, scene, facts)
 
     def _numbers(self, variant: str, scene: str) -> Picture:
         """Return the rows of a scene's quantities, and the headline quantity."""
-        values = measured(self.root, self.variants, variant, scene)
+        values = measured(self.root, self.config, variant, scene)
         rows = [(name, printed(scene, name), value) for name, value in values.items()]
         headline = self.variants[variant][scene].headline
         return {"rows": rows, "headline": next(row for row in rows if row[0] == headline)}

@@ -5,7 +5,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..config.build_specs import with_dependencies
+from ..config.results import with_dependencies
 from ..records.build_spec import BuildSpec
 from ..records.differences import differing_files, differing_origin
 from ..records.files import file_hash, why_not_a_file

@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..config import MAIN, Config, paths
-from ..config.build_specs import build_specs, with_dependencies
+from ..config import MAIN, Config
+from ..config.results import SHOWN, drawing, drawn, is_measured, with_dependencies
 from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
 from ..records.files import ABSENT, file_hash, read_text
@@ -76,16 +76,11 @@ def committed_sets(config: Config) -> list[PublishedSet]:
 
 def _published(config: Config, group: str) -> PublishedSet:
     """Return the published set of a group of scenes."""
-    drawn = {n: block for n, block in config.variants[group].items() if block.formats}
-    measured = tuple(f"{name}.png" for name, block in drawn.items() if paths.is_measured(block))
-    scenes = {name: block for name, block in drawn.items() if not paths.is_measured(block)}
-    drawings = [paths.drawn(n, e, group) for n, block in scenes.items() for e in block.formats]
-    specs = build_specs(config, [group])
-    datasets = paths.artifact_paths(config.variants)
-    data = {
-        scene: {stage: datasets[group, scene, stage] for stage in paths.stages(block)}
-        for scene, block in scenes.items()
-    }
+    pictures = {n: block for n, block in config.variants[group].items() if block.formats}
+    measured = tuple(f"{name}.png" for name, block in pictures.items() if is_measured(block))
+    scenes = {name: block for name, block in pictures.items() if not is_measured(block)}
+    drawings = [drawn(n, suffix, group) for n, block in scenes.items() for suffix in block.formats]
+    specs = config.build_specs([group])
     return PublishedSet(
         group=group,
         folder=PUBLISHED[group],
@@ -93,9 +88,9 @@ def _published(config: Config, group: str) -> PublishedSet:
         command=SETS[group].command,
         text_files=SETS[group].texts,
         on_request=group != MAIN,
-        drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in paths.SHOWN},
-        config={scene: paths.drawing(block) for scene, block in scenes.items()},
-        data=data,
+        drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in SHOWN},
+        config={scene: drawing(block) for scene, block in scenes.items()},
+        data={scene: config.data_of(group, scene) for scene in scenes},
         build_specs={path: specs[path] for path in with_dependencies(specs, drawings)},
         measured=measured,
     )
@@ -151,7 +146,7 @@ def unlisted_files(
     `impossible` maps scenes that cannot exist to the reasons.
     """
     files = (root / folder).glob("[!.]*")
-    pictures = {path.name for path in files if path.suffix[1:] in paths.SHOWN}
+    pictures = {path.name for path in files if path.suffix[1:] in SHOWN}
     lines = []
     for name in sorted(pictures - set(names)):
         why = impossible.get(Path(name).stem)

@@ -6,19 +6,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ..config import paths
+from ..config import Config
 from ..config.schema.kinds import KINDS
 from ..declaration import hidden_by, imported
 from ..records.artifacts import load
 
 
 def measured(
-    root: Path, variants: paths.Variants, variant: str, scene: str,
+    root: Path, config: Config, variant: str, scene: str,
     measure: Callable[[dict[str, Any], dict[str, Any]], dict[str, Any]] | None = None,
 ) -> dict[str, Any]:  # fmt: skip
     """Measure a scene, by default its quantities, in its datasets; ValueError names wrong files."""
-    block, files = variants[variant][scene], paths.artifact_paths(variants)
-    own = {stage: files[variant, scene, stage] for stage in paths.stages(block)}
+    block, own = config.variants[variant][scene], config.data_of(variant, scene)
     data = {stage: load(root / file) for stage, file in own.items()}
     try:
         return (measure or reported)(block.as_mapping(), data)

@@ -9,9 +9,8 @@ from pathlib import PurePath
 
 from ..checks.freshness import MISSING, REFUSED, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
-from ..config import Config, paths, unknown
-from ..config.build_specs import build_specs, with_dependencies
-from ..config.schema.scene import Picture
+from ..config import Config, unknown
+from ..config.results import drawn, stages, with_dependencies
 from ..config.schema.sets import PUBLISHED
 from ..config.schema.stages import METHODS
 from ..records.build_spec import BuildSpec
@@ -38,12 +37,12 @@ def drawings_of(config: Config, variant: str, names: Sequence[str] = ()) -> Draw
 
     A scene that the variant leaves out has one path, so that `make` reports it.
     """
-    figures = paths.figures(config.variants, variant)
-    files = {path: (scene, results[-1]) for path, (scene, results) in figures.items()}
+    files = config.figures(variant)
     for scene in config.left_out.get(variant, ()):
-        files[paths.drawn(scene, "png", variant)] = scene, paths.drawn(scene, "png", variant)
+        path = drawn(scene, "png", variant)
+        files[path] = scene, path
     require_known("figure", names, [*dict.fromkeys(scene for scene, _ in files.values())])
-    return {path: drawn for path, (scene, drawn) in files.items() if not names or scene in names}
+    return {path: file for path, (scene, file) in files.items() if not names or scene in names}
 
 
 def make(
@@ -62,17 +61,14 @@ def make(
     orbit, is not made; if nothing else is missing, the status is 1 only for a published set.
     """
     reasons = config.left_out.get(group, {})
-    left_out = {path: scene for path in drawings if (scene := PurePath(path).stem) in reasons}
+    left_out = {path: reasons[s] for path in drawings if (s := PurePath(path).stem) in reasons}
     drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
     results = [*drawings.values(), *data]
-    specs = build_specs(config, [group])
-    inputs = {path for spec in specs.values() for path in spec.inputs}
-    if not {*results, *inputs} <= specs.keys():  # some are of other sets
-        specs = build_specs(config)
+    specs = _specs_of(config, group, results)
     inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
     status = running.make(Freshness(ROOT, specs), results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
-        notes = [f"{scene}: {reasons[scene]}" for scene in left_out.values()]
+        notes = [f"{PurePath(path).stem}: {reason}" for path, reason in left_out.items()]
         print(*notes, sep="\n", end="\n" * bool(notes))
         return status
     freshness = Freshness(ROOT, specs)
@@ -82,16 +78,10 @@ def make(
         status = int(group in PUBLISHED)
     elif outdated:
         status = status or 1
-        names = [PurePath(path).name for path in outdated if path not in refused]
-        more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-        count = f"{len(names)} of {len(results)} results not made, or not current"
-        print_error(f"{count}: {', '.join(names[:3])}{more}")
+        _print_missing([path for path in outdated if path not in refused], len(results))
     made = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
     unpublished = _publish(made)
-    for drawing in [*(refused & {*drawings.values()}), *left_out]:  # the present config has none
-        for file in (ROOT / drawing, ROOT / record_path(drawing)):
-            if not why_not_a_file(file):
-                file.unlink(missing_ok=True)
+    _delete([*(refused & {*drawings.values()}), *left_out])  # the present config has none
     rows = []
     for path, drawing in drawings.items():
         state = _state(specs, drawing, outdated.get(drawing), inode(drawing) != inodes[drawing])
@@ -99,16 +89,39 @@ def make(
             state = f"not published: {unpublished[path]}"
         if not (brief and state == "current"):
             rows.append((specs[drawing].scene, path, state))
-    rows += [(scene, path, reasons[scene]) for path, scene in left_out.items()]
+    rows += [(PurePath(path).stem, path, reason) for path, reason in left_out.items()]
     if rows:
         notes = [*_hidden(made.values())]
         notes += [f"{path}: {outdated[path]}" for path in sorted(refused - {*drawings.values()})]
-        notes += _missed_impacts(config, group, _blocks(config, group, made.values()))
+        notes += _missed_impacts(config, group, {PurePath(path).stem for path in made.values()})
         if group in PUBLISHED:
-            figures = [PurePath(path).name for path in paths.figures(config.variants, group)]
+            figures = [PurePath(path).name for path in config.figures(group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
         _print_table(PUBLISHED.get(group), rows, notes)
     return status or int(bool(unpublished))
+
+
+def _specs_of(config: Config, group: str, results: Iterable[str]) -> dict[str, BuildSpec]:
+    """Return the build specifications of a group, or all if some results are of other groups."""
+    specs = config.build_specs([group])
+    inputs = {path for spec in specs.values() for path in spec.inputs}
+    return specs if {*results, *inputs} <= specs.keys() else config.build_specs()
+
+
+def _print_missing(paths: Sequence[str], count: int) -> None:
+    """Print which of a number of results are missing or not current."""
+    names = [PurePath(path).name for path in paths]
+    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    words = f"{len(names)} of {count} results not made, or not current"
+    print_error(f"{words}: {', '.join(names[:3])}{more}")
+
+
+def _delete(drawings: Iterable[str]) -> None:
+    """Delete drawings and their records."""
+    for drawing in drawings:
+        for file in (ROOT / drawing, ROOT / record_path(drawing)):
+            if not why_not_a_file(file):
+                file.unlink(missing_ok=True)
 
 
 def _hidden(drawings: Iterable[str]) -> dict[str, None]:
@@ -116,12 +129,6 @@ def _hidden(drawings: Iterable[str]) -> dict[str, None]:
     outputs = {path: read_record(ROOT, record_path(path))["output"] for path in drawings}
     lines = [(path, line) for path, output in outputs.items() for line in output.get("hidden", ())]
     return dict.fromkeys(f"{PurePath(path).stem}: {line}" for path, line in lines)
-
-
-def _blocks(config: Config, group: str, drawings: Iterable[str]) -> dict[str, Picture]:
-    """Map the name of each scene of some drawings to its block of the config."""
-    scenes = {PurePath(path).stem for path in drawings}
-    return {name: block for name, block in config.variants.get(group, {}).items() if name in scenes}
 
 
 def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, replaced: bool) -> str:
@@ -174,20 +181,19 @@ def _print_table(
     print("", *columns([header, *rows]), *lines, sep="\n")
 
 
-def _missed_impacts(config: Config, variant: str, scenes: dict[str, Picture]) -> Iterator[str]:
+def _missed_impacts(config: Config, variant: str, scenes: set[str]) -> Iterator[str]:
     """Yield a line for each scene with a `method`: impacts that were missed, or what is exact."""
-    artifact_paths = paths.artifact_paths(config.variants)
-    for scene, block in scenes.items():
-        method, stages = block.as_mapping().get("method", {}), paths.stages(block)
+    for scene, block in config.variants.get(variant, {}).items():
+        method = block.as_mapping().get("method", {}) if scene in scenes else {}
+        of_method = [stage for stage, fields in stages(block).items() if "method" in fields]
         if of_part := method.keys() & METHODS.keys():
-            of_method = [name for name in stages if "method" in stages[name]]
             computed = ", ".join(of_method) or "no stage"
             yield f"{scene}: {computed} by the method {', '.join(of_part)}; all else in doubles"
         elif method:
             from ..records.artifacts import load  # takes long to import
 
-            names = [stage for stage in stages if "method" in stages[stage]]
-            counts = [load(ROOT / artifact_paths[variant, scene, stage]).attrs for stage in names]
+            data = config.data_of(variant, scene)
+            counts = [load(ROOT / data[stage]).attrs for stage in of_method]
             missed, impacts = (sum(c[n] for c in counts) for n in ("impacts_missed", "impacts"))
             values = ", ".join(f"{key} {value:g}" for key, value in method.items())
             yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({values})"

@@ -4,8 +4,9 @@ Mistakes in the file raise one `ConfigError`, with a line for each mistake that 
 value and what is allowed. Every command imports this package, so importing it must be fast.
 """
 
-from .paths import MAIN, PUBLISHED, Config, figures
+from .results import Config
+from .schema.sets import MAIN, PUBLISHED
 from .validation.document import check, load
 from .validation.mistakes import ConfigError, unknown
 
-__all__ = ["MAIN", "PUBLISHED", "Config", "ConfigError", "check", "figures", "load", "unknown"]
+__all__ = ["MAIN", "PUBLISHED", "Config", "ConfigError", "check", "load", "unknown"]

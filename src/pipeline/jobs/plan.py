@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 from ..checks.freshness import MISSING, Freshness
 from ..config import Config, load
-from ..config.build_specs import build_specs
 from ..records.files import write_whole
 from ..records.record import beside, record_path
 from ..records.sources import ROOT
@@ -55,4 +54,4 @@ class Plan(NamedTuple):
 def plan() -> Plan:
     """Return the plan for config.yaml, the same during a process; raises ConfigError."""
     config = load(ROOT / "config.yaml")
-    return Plan(config, Freshness(ROOT, build_specs(config)), set())
+    return Plan(config, Freshness(ROOT, config.build_specs()), set())

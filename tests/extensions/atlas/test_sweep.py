@@ -13,8 +13,7 @@ from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
-from pipeline.config import paths
-from pipeline.config.build_specs import build_specs
+from pipeline.config import results as paths
 from pipeline.records.artifacts import load
 from pipeline.records.build_spec import BuildSpec
 
@@ -46,7 +45,7 @@ def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
     monkeypatch.setattr(parts, "PAUSE", 0.0)
     first, second, third = (paths.part_path("results/atlas/sweep_plane.nc", i) for i in range(3))
     other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
-    specs = build_specs(checked(plane=SMALL), ["atlas"])
+    specs = checked(plane=SMALL).build_specs(["atlas"])
     progress = parts.Parts(specs | {other.result: other}, {second, third, other.result})
     assert progress.done(second) == "plane: 2 of 3 blocks"
     assert progress.done(third) == "plane: 3 of 3 blocks"

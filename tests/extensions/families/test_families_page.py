@@ -8,7 +8,6 @@ from project import ROOT
 
 from pipeline.checks.freshness import Freshness
 from pipeline.config import load
-from pipeline.config.build_specs import build_specs
 from pipeline.records import artifacts
 
 PAGE = (ROOT / "src/extensions/families/README.md").read_text(encoding="utf-8")
@@ -19,7 +18,7 @@ TEXT = " ".join(PAGE.split())
 @pytest.fixture(scope="module")
 def datasets():
     paths = [f"results/families/{stage}_energy.nc" for stage in ("families", "shares")]
-    fresh = Freshness(ROOT, build_specs(load(ROOT / "config.yaml")))
+    fresh = Freshness(ROOT, load(ROOT / "config.yaml").build_specs())
     if fresh.outdated(paths):
         pytest.skip("the families are not made, or not current: run ./reproduce families")
     return [artifacts.load(ROOT / path) for path in paths]

@@ -18,7 +18,6 @@ from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
 from pipeline import config
-from pipeline.config.build_specs import build_specs
 from pseudorigid import orbit, symmetric_orbits
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import chart, states_of
@@ -227,7 +226,7 @@ def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch
 
 
 def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
-    specs = build_specs(config.load(ROOT / "config.yaml"))
+    specs = config.load(ROOT / "config.yaml").build_specs()
     for name in THEOREMS:
         sources = specs[f"results/theorems/theorem_{name}.nc"].sources
         certificates = [file for file in sources if file.endswith(".toml")]

@@ -22,7 +22,6 @@ from pipeline import config
 from pipeline.checks import manifest
 from pipeline.checks.freshness import Freshness
 from pipeline.checks.verify import verify
-from pipeline.config.build_specs import build_specs
 from pipeline.records.files import FileError
 from pipeline.records.record import log_path, record_path
 
@@ -116,7 +115,7 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
 )
 def test_a_result_with_a_fitting_record_differs_in_its_layer(moved, path, like, wrong, words):
     forge(moved, path, like and (moved.path / like).read_bytes())
-    specs = build_specs(config.load(moved.config), ["paper"])
+    specs = config.load(moved.config).build_specs(["paper"])
     assert path not in Freshness(moved.path, specs).outdated()
     found = verified(moved)
     assert (found.status, set(found.wrong)) == (1, wrong)

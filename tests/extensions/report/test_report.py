@@ -23,7 +23,7 @@ from report_pages import (
 
 from pipeline import config
 from pipeline.checks import captions, quantities
-from pipeline.config import PUBLISHED, paths
+from pipeline.config import PUBLISHED
 from pipeline.config.schema.kinds import KINDS
 from pipeline.records.artifacts import load
 from pipeline.records.pictures import pixels
@@ -99,7 +99,7 @@ def test_each_figure_has_its_caption_and_numbers(reported, text):
         known = None
         if scene in ("fig3", "fig6", "fig7"):  # those that were made
             known = quantities.measured(
-                reported.path, checked.variants, config.MAIN, scene, quantities.facts
+                reported.path, checked, config.MAIN, scene, quantities.facts
             )
             assert captions.caption_of(scene, block.as_mapping(), known).see in unescape(text)
     assert "<td>approximately 0.235</td><td>0." in text
@@ -173,15 +173,11 @@ def test_whole_numbers_have_commas(text):
 @pytest.fixture(scope="module")
 def scenes(finished):
     """Scene -> its block and its datasets."""
-    blocks = config.load(finished.config).scenes
-    files = paths.artifact_paths({config.MAIN: blocks})
+    checked = config.load(finished.config)
+    files = {scene: checked.data_of("paper", scene).items() for scene in checked.scenes}
     return {
-        scene: (
-            block.as_mapping(),
-            {s: load(finished.path / files["paper", scene, s]) for s in stages},
-        )
-        for scene, block in blocks.items()
-        for stages in [paths.stages(block)]
+        scene: (block.as_mapping(), {s: load(finished.path / f) for s, f in files[scene]})
+        for scene, block in checked.scenes.items()
     }
 
 

@@ -118,7 +118,7 @@ def _source_lines(root: Path) -> dict[str, int]:
 
 def _rows(root: Path, config: Config, scene: str) -> Table:
     """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
-    values = measured(root, config.variants, MAIN, scene)
+    values = measured(root, config, MAIN, scene)
     rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
     axes = config.scenes[scene].given_axes()
     for axis, ticks in PRINTED_TICKS.get(scene, {}).items():

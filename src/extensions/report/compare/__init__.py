@@ -10,8 +10,8 @@ from pathlib import Path
 import xarray as xr
 
 from pipeline.checks.freshness import CURRENT, Freshness
-from pipeline.config import Config, paths
-from pipeline.config.build_specs import build_specs
+from pipeline.config import Config
+from pipeline.config.results import drawing, drawn, stages
 from pipeline.records.artifacts import load
 from pipeline.records.differences import brief, differing_keys
 from pipeline.records.pictures import pixels
@@ -34,8 +34,7 @@ class _Comparison:
 
     def __init__(self, root: Path, config: Config, names: Sequence[str]) -> None:
         self.root, self.config, self.names = root, config, names
-        self.files = paths.artifact_paths(config.variants)
-        self.freshness = Freshness(root, build_specs(config, names))
+        self.freshness = Freshness(root, config.build_specs(names))
 
     def lines(self, scene: str) -> Iterator[str]:
         """Yield lines on what differs in a scene, and save its figures side by side."""
@@ -44,18 +43,18 @@ class _Comparison:
         in_both = len(blocks) == 2
         # state of each figure, or why the variant leaves the scene out
         states = {
-            name: self.freshness.state(paths.drawn(scene, "png", name))
+            name: self.freshness.state(drawn(scene, "png", name))
             if block
             else self.config.left_out[name][scene]
             for name, block in given.items()
         }
         if in_both:  # axes may differ
-            before, after = (paths.drawing(block) | {"axes": None} for block in blocks)
+            before, after = (drawing(block) | {"axes": None} for block in blocks)
             keys = [f"{k}: {brief(a)} | {brief(b)}" for k, a, b in differing_keys(before, after)]
             yield from keys or ["the same config"]
         yield from (f"{name}: {state}" for name, state in states.items() if state != CURRENT)
-        for stage in paths.stages(blocks[0]) if in_both else ():
-            results = [self.files[name, scene, stage] for name in self.names]
+        for stage in stages(blocks[0]) if in_both else ():
+            results = [self.config.datasets[name, scene, stage] for name in self.names]
             if all(self.freshness.state(result) == CURRENT for result in results):
                 first, second = self._datasets(scene, stage)
                 for i, text in enumerate(datasets.differences(stage, first, second, self.names)):
@@ -72,10 +71,10 @@ class _Comparison:
             both, axes = picture.on_same_axes(blocks, [*data])
             drawings.update(zip(self.names, both, strict=True))
         else:
-            drawings[current[0]] = pixels(self.root / paths.drawn(scene, "png", current[0]))
+            drawings[current[0]] = pixels(self.root / drawn(scene, "png", current[0]))
         picture.side_by_side(drawings, image)
         yield f"side by side{axes}: {image.relative_to(self.root)}"
 
     def _datasets(self, scene: str, stage: str) -> list[xr.Dataset]:
         """Return the dataset of a stage in each variant."""
-        return [load(self.root / self.files[name, scene, stage]) for name in self.names]
+        return [load(self.root / self.config.datasets[name, scene, stage]) for name in self.names]

@@ -9,7 +9,7 @@ import numpy.typing as npt
 import xarray as xr
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
-from pipeline.config.paths import drawing
+from pipeline.config.results import drawing
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.scene import Picture
 from pipeline.declaration import imported

@@ -9,7 +9,6 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...config import ConfigError
-from ...config.build_specs import build_specs
 from ...config.schema.sets import SETS
 from ...declaration import SourceError, parts
 from ...records.files import read_text
@@ -109,7 +108,7 @@ def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     candidates, known = set[Path](), {*SETS}
     with suppress(ConfigError, SourceError):  # records alone then say which files are results
         known |= args.config.variants.keys()
-        specs = build_specs(args.config)
+        specs = args.config.build_specs()
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
         # A forged record may name any file: only these two are accepted.

@@ -4,8 +4,7 @@ import os
 from pathlib import PurePath
 
 from ...commands import DEFAULT_COMMAND, all_commands
-from ...config import MAIN, PUBLISHED, paths
-from ...config.build_specs import build_specs
+from ...config import MAIN, PUBLISHED
 from ...records.sources import ROOT
 from .. import figures, running
 from ..arguments import Arguments, hint
@@ -19,7 +18,7 @@ def run(args: Arguments) -> int:
     data: list[str] = []
     if group:
         targets = {group: figures.drawings_of(config, group)}
-        data = [path for each in paths.data_only(config.variants, group).values() for path in each]
+        data = config.data_only(group)
     else:
         targets = _variant(args) if args.word else _named(args)
     with locked():
@@ -61,11 +60,11 @@ def _named(args: Arguments) -> dict[str, figures.Drawings]:
 
 def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     """Return the results among the files that a name may stand for, or raise CommandLineError."""
-    results = build_specs(args.config)
+    results = args.config.build_specs()
     if found := sorted(files & results.keys()):
         return found
     if "/" in name:
-        known = [*results, *paths.figures(args.config.variants, MAIN)]
+        known = [*results, *args.config.figures()]
         raise CommandLineError(f"no such file is made: {name}{hint(name, known)}")
     if name in all_commands():
         raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")

@@ -5,8 +5,7 @@ from pathlib import PurePath
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
-from ...config import paths
-from ...config.build_specs import build_specs
+from ...config.results import drawn, is_measured
 from ...config.schema.sets import SETS
 from ...records.differences import columns, differing_block
 from ...records.sources import ROOT
@@ -17,24 +16,21 @@ def run(args: Arguments) -> int:
     """Print every figure, chart and dataset below the command that makes it."""
     config = args.config
     own: list[Sequence[str]] = []  # rows on the variants of the paper
-    freshness = Freshness(ROOT, build_specs(config))
+    freshness = Freshness(ROOT, config.build_specs())
     for published_set in committed_sets(config):
         _print(published_set.command, [*_published(freshness, published_set)])
     # What is not published: charts of times of this machine, and the data of scenes without one.
     for group, scenes in SETS.items():
         blocks = config.variants[group].items()
-        charts = [scene for scene, block in blocks if paths.is_measured(block) and block.formats]
-        measured = [paths.drawn(scene, "png", group) for scene in charts]
-        data = [path for each in paths.data_only(config.variants, group).values() for path in each]
-        for kind, results in (("measured", measured), ("data", data)):
+        charts = [scene for scene, block in blocks if is_measured(block) and block.formats]
+        measured = [drawn(scene, "png", group) for scene in charts]
+        for kind, results in (("measured", measured), ("data", config.data_only(group))):
             rows = [(PurePath(path).stem, path, freshness.state(path)) for path in results]
             _print(f"{scenes.command}, {kind}", rows)
     for name in config.own_variants:
         files: dict[str, list[str]] = {}  # state -> the variant's files that have it
-        # `upstream` has the data of a figure and, last, its drawing.
-        for _, upstream in paths.figures(config.variants, name).values():
-            file = PurePath(upstream[-1]).name
-            files.setdefault(freshness.state(upstream[-1]), []).append(file)
+        for _, drawing in config.figures(name).values():
+            files.setdefault(freshness.state(drawing), []).append(PurePath(drawing).name)
         for scene, reason in config.left_out[name].items():
             files.setdefault(reason, []).append(f"{scene}.png")
         own += [(name, state, " ".join(names)) for state, names in files.items()]

@@ -12,7 +12,7 @@ from ...commands import all_commands
 from ...declaration import SourceError, files, imported, parts
 from ...loading import note_loaded
 from ...records.files import FileError, read_bytes
-from ..paths import Config, Variants
+from ..results import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.scene import Picture
 from ..schema.sets import MAIN, SETS

@@ -1,0 +1,201 @@
+"""What can be made from a config: the path, the build specification and the figure of each result.
+
+All paths are relative to the project's root. A dataset is results/VARIANT/STAGE_SCENE.nc and a
+drawing results/VARIANT/figures/SCENE.png, where VARIANT may be a set of scenes.
+"""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import PurePath
+
+from ..declaration import Stage, imported, parts
+from ..records import sources
+from ..records.build_spec import BuildSpec
+from .schema.fields import Block, YamlMapping
+from .schema.scene import Picture
+from .schema.sets import MAIN, PUBLISHED, SETS
+from .schema.stages import STAGES, function_of, takes_method, upstream
+
+SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
+
+Variants = dict[str, dict[str, Picture]]  # variant -> scene's name -> scene
+Datasets = dict[tuple[str, str, str], str]  # variant, scene, stage -> path of the dataset
+_source_files = cache(sources.source_files)
+
+
+@dataclass(frozen=True)
+class Config:
+    """A checked config, whose scenes are complete.
+
+    `variants` has the sets of scenes and then the variants of the main set. `left_out` maps each of
+    these to the scenes that it cannot have, with the reasons. `blocks` are those of parts that are
+    no scenes, by their keys.
+    """
+
+    variants: Variants
+    left_out: dict[str, dict[str, str]]
+    blocks: dict[str, Block]
+
+    @property
+    def scenes(self) -> dict[str, Picture]:
+        """The scenes of the main set."""
+        return self.variants[MAIN]
+
+    @property
+    def own_variants(self) -> list[str]:
+        """The names of the variants of the main set."""
+        return [name for name in self.variants if name not in SETS]
+
+    @cached_property
+    def datasets(self) -> Datasets:
+        """The path of each stage's dataset."""
+        return dataset_paths(self.variants)
+
+    def data_of(self, variant: str, scene: str) -> dict[str, str]:
+        """Map each stage of a scene to the path of its dataset."""
+        block = self.variants[variant][scene]
+        return {stage: self.datasets[variant, scene, stage] for stage in stages(block)}
+
+    def build_specs(self, names: Iterable[str] | None = None) -> dict[str, BuildSpec]:
+        """Specify each result of all sets and variants, or of some; inputs come first.
+
+        Variants share stages of equal parameters.
+        """
+        specs: dict[str, BuildSpec] = {}
+        for variant in self.variants if names is None else names:
+            for scene in self.variants[variant]:
+                for spec in self._specs_of(variant, scene):
+                    specs.setdefault(spec.result, spec)
+        return specs
+
+    def _specs_of(self, variant: str, name: str) -> Iterator[BuildSpec]:
+        """Yield the specifications of a scene's datasets and drawings."""
+        scene, data = self.variants[variant][name], self.data_of(variant, name)
+        for stage, parameters in stages(scene).items():
+            path, declared, step, block = data[stage], STAGES[stage], stage, parameters
+            label, inputs = _label(path, name), [data[used] for used in declared.inputs]
+            if declared.main:
+                of_main = {(s, st): p for (v, s, st), p in self.datasets.items() if v == MAIN}
+                more, others = imported(declared.main)(self.scenes, of_main)
+                block = parameters | more | {"inputs": [*others]}
+                inputs += others.values()
+            if declared.blocks:
+                blocks = [*_of_blocks(scene, declared, path, label)]
+                yield from blocks
+                inputs, step = [each.result for each in blocks], "data"
+            function = function_of(stage, scene)
+            files = _files("stage", function, declared.reads.format(**parameters))
+            yield BuildSpec(path, label, step, block, "stage", function, files, inputs)
+        inputs = [data[stage] for stage in scene.stages]
+        for suffix in scene.formats:
+            path, block = drawn(name, suffix, variant), drawing(scene)
+            label, step, files = (
+                _label(path, name),
+                f"drawing {suffix}",
+                _files("draw", scene.drawn_by),
+            )
+            yield BuildSpec(path, label, step, block, "draw", scene.drawn_by, files, inputs)
+
+    def figures(self, variant: str = MAIN) -> dict[str, tuple[str, str]]:
+        """Map each figure, where users find it, to its scene and its drawing.
+
+        Pictures of measurements stay in results until `accept`.
+        """
+        found = {}
+        for name, block in self.variants[variant].items():
+            for suffix in block.formats:
+                path = drawing_path = drawn(name, suffix, variant)
+                if variant in PUBLISHED and suffix in SHOWN and not is_measured(block):
+                    path = f"{PUBLISHED[variant]}/{name}.{suffix}"
+                found[path] = name, drawing_path
+        return found
+
+    def data_only(self, variant: str) -> list[str]:
+        """Return the datasets of the scenes of a set that have no picture."""
+        scenes = [name for name, block in self.variants[variant].items() if not block.formats]
+        return [path for name in scenes for path in self.data_of(variant, name).values()]
+
+
+def stages(scene: Picture) -> dict[str, YamlMapping]:
+    """Map each stage of a scene to the fields of the scene that decide its data."""
+    parameters = {}
+    for name in upstream(scene.stages):
+        method = ("method",) if takes_method(name, scene) else ()
+        parameters[name] = scene.as_mapping(("ball", "energy", *STAGES[name].names, *method))
+    return parameters
+
+
+def drawing(scene: Picture) -> YamlMapping:
+    """Return the fields of a scene that decide its drawing."""
+    return {key: value for key, value in scene.as_mapping().items() if key not in scene.undrawn}
+
+
+def drawn(scene: str, suffix: str, variant: str = MAIN) -> str:
+    """Return the path where a figure is drawn, before it is published."""
+    return f"results/{variant}/figures/{scene}.{suffix}"
+
+
+def is_measured(scene: Picture) -> bool:
+    """Return whether a scene shows times of this machine."""
+    return any(STAGES[stage].measured for stage in scene.stages)
+
+
+def dataset_paths(variants: Variants) -> Datasets:
+    """Map (variant, scene, stage) to the path of the stage's dataset.
+
+    A variant shares a scene's dataset with the first variant that gives this scene the same
+    parameters and inputs. Scenes of other names share only data that depend on no field of a scene,
+    and those of the scene that they are drawn `over`. An added scene therefore changes no path.
+    """
+    first_paths: dict[tuple[str, str, str], str] = {}
+    paths: Datasets = {}
+    for variant, scenes in variants.items():
+        for scene, block in scenes.items():
+            over = getattr(block, "over", None)
+            below = stages(scenes[over]) if over else {}
+            for stage, parameters in stages(block).items():
+                used = [paths[variant, scene, name] for name in STAGES[stage].inputs]
+                owner = over if over and stage in below else scene
+                name = f"{stage}_{owner}" if parameters else stage
+                key = owner, stage, json.dumps([parameters, used], sort_keys=True)
+                path = first_paths.setdefault(key, f"results/{variant}/{name}.nc")
+                paths[variant, scene, stage] = path
+    return paths
+
+
+def _of_blocks(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[BuildSpec]:
+    """Yield the specifications of the blocks of a stage's dataset."""
+    files = _files("stage", stage.of_block)
+    for i, block in enumerate(imported(stage.blocks)(scene.as_mapping())):
+        result = f"{path.removesuffix('.nc')}.{i:04d}.nc"  # no scene has a dot in its name
+        yield BuildSpec(result, label, f"block {i}", block, "stage", stage.of_block, files, [])
+
+
+def _label(path: str, scene: str) -> str:
+    """Return a scene's name in messages, with the first variant that has a result of it."""
+    folder = PurePath(path).parts[1]
+    return scene if folder in SETS else f"{folder}/{scene}"
+
+
+def _files(program: str, function: str, data_file: str = "") -> list[str]:
+    """Return the files that decide what a program makes with a function module.function.
+
+    They include the data files that the function's modules can read, or of these `data_file` alone.
+    """
+    files = _source_files(f"pipeline.jobs.{program}", function.rpartition(".")[0])
+    read = [each.reads.items() for each in parts().values()]
+    patterns = [pattern for items in read for module, pattern in items if module in files]
+    patterns = [data_file] if data_file else patterns
+    data = [file for pattern in patterns for file in sources.ROOT.glob(pattern)]
+    return files + sorted(str(file.relative_to(sources.ROOT)) for file in data)
+
+
+def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
+    """Return the results `wanted` and all that they are made from, each after its inputs."""
+    results: dict[str, None] = {}
+    for path in wanted:
+        inputs = [used for used in build_specs[path].inputs if used in build_specs]
+        results |= dict.fromkeys([*with_dependencies(build_specs, inputs), path])
+    return list(results)
