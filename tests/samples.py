@@ -60,6 +60,7 @@ def states(count, seed):
 def orbits(sizes=(300, 200, 900)):
     variables = {name: ("point", value) for name, value in states(sum(sizes), 1).items()}
     variables["row_size"] = ("orbit", np.array(sizes, dtype=np.int32))
+    variables["type"] = ("orbit", ["regular", "regular", "chaotic"])
     return xr.Dataset(variables, attrs=ATTRS)
 
 
@@ -110,6 +111,7 @@ def exponents():
     walk = np.random.default_rng(4).uniform(-1, 1, (200, 3)).cumsum(axis=0) / impact[:, None]
     history = np.stack([0.232 + walk, 0.5 / impact[:, None] + 0 * walk, -0.232 - walk], axis=2)
     variables = {"exponent": (("impact", "orbit", "index"), history)}
+    variables["type"] = ("orbit", ["chaotic"] * 3)
     return xr.Dataset(variables, coords={"impact": impact}, attrs=ATTRS)
 
 

@@ -3,8 +3,9 @@
 import json
 from unittest.mock import patch
 
-from extensions.atlas import cell
+from extensions.atlas.cell import block_of_cells_of_a_sweep
 from extensions.atlas.last_curve import last_curve
+from extensions.atlas.sweep import dataset_of_a_sweep
 from extensions.claims.analyses.clusters import clusters
 from extensions.claims.analyses.control import control
 from extensions.claims.analyses.exclusion import exclusion
@@ -29,8 +30,8 @@ def sweep(ks, energies, starts, impacts):
     """Return the dataset of a sweep over k and E/g^2."""
     work = {"starts": starts, "impacts": impacts}
     cells = [[k, energy] for k in ks for energy in energies]
-    block = cell.block_of_cells_of_a_sweep(cells, **work)
-    dataset = cell.cells_of_a_sweep(block, k=ks, energy=energies)
+    block = block_of_cells_of_a_sweep(cells, **work)
+    dataset = dataset_of_a_sweep(block, k=ks, energy=energies)
     return dataset.assign_attrs(g=0.04, config=json.dumps(work))
 
 

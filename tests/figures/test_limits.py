@@ -96,7 +96,7 @@ def test_a_view_from_which_the_surface_hides_all_is_refused():
     scene = SCENES["portrait"] | {"sea": []}
     seen = Box(scene).seen(states_of(data))
     assert 0 < seen.sum() < seen.size
-    one = data.assign(row_size=("orbit", [1]))
+    one = data.isel(orbit=[0]).assign(row_size=("orbit", [1]))
     assert module("portrait").draw(scene, one.isel(point=[int(np.argmax(seen))]))
     with pytest.raises(ValueError, match=r"^view .*'azimuth': 115.* hides all"):
         module("portrait").draw(scene, one.isel(point=[int(np.argmin(seen))]))

@@ -169,7 +169,10 @@ def test_more_starts_than_a_key_can_hold_are_refused_by_name():
     data = exponents().isel(impact=slice(None, None, 20))
     history = np.repeat(data["exponent"].values[:, :1], 142, axis=1)
     history[:, 0] = 0.0  # one is regular
-    data = data.drop_vars("exponent").assign(exponent=(("impact", "orbit", "index"), history))
+    data = data.drop_vars(["exponent", "type"]).assign(
+        exponent=(("impact", "orbit", "index"), history),
+        type=("orbit", ["regular"] + ["chaotic"] * 141),
+    )
     starts = [i / 1000 for i in range(142)]
     draw = module("exponents").draw
     with pytest.raises(ValueError, match=r"^starts: 142 of them: expected at most 140"):

@@ -7,6 +7,7 @@ import os
 import re
 import sys
 import tomllib
+from importlib.util import find_spec
 
 import grimp
 import pytest
@@ -17,6 +18,7 @@ from test_style import pins
 from pipeline.config.schema import scene
 from pipeline.config.schema.kinds import KINDS
 from pipeline.declaration import files, parts
+from pipeline.records.sources import source_files
 
 # Each package may import those to its right, and each part of one the parts to its right.
 ORDER = ("extensions", "study", "paper", "pipeline", "pseudorigid")
@@ -246,6 +248,28 @@ def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():
     assert imported[False] == set(project["dependencies"])
     extra = imported[True] - imported[False]
     assert {"verified": sorted(extra)} == project["optional-dependencies"]
+
+
+# What a drawing may import of the numerics: the logarithm of its axes, sine and cosine of the
+# section's outline, closed formulas, and the names of variables.
+DRAWN_WITH = {
+    f"src/pseudorigid/{file}.py"
+    for folder, names in {
+        "dynamics": ("__init__", "variables"),
+        "kernel": ("__init__", "arithmetic", "closed_forms", "compiled"),
+    }.items()
+    for file in (f"{folder}/{name}" for name in names)
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_drawing_computes_nothing(kind):
+    """No edit of a stage, or of the kernel's map, draws a picture again whose data it keeps."""
+    names = KINDS[kind].drawn_by, KINDS[kind].reported_by
+    modules = {name.rpartition(".")[0] for name in names}
+    found = source_files("pipeline.jobs.draw", *filter(find_spec, modules))
+    numerics = re.compile("src/pseudorigid/(dynamics|kernel)/")
+    assert {file for file in found if numerics.match(file)} <= DRAWN_WITH
 
 
 LIBRARIES = ("numpy", "numba", "xarray", "matplotlib", "netCDF4")

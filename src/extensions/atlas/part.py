@@ -11,7 +11,7 @@ PART = Part(
     needs=("study",),
     stages={
         "sweep": Stage(
-            "extensions.atlas.cell.cells_of_a_sweep",
+            "extensions.atlas.sweep.dataset_of_a_sweep",
             "k energy starts impacts",
             blocks="extensions.atlas.kinds.blocks",
             of_block="extensions.atlas.cell.block_of_cells_of_a_sweep",

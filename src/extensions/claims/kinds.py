@@ -23,6 +23,7 @@ from pipeline.config.schema.scene import (
     is_sound,
     not_elliptic,
 )
+from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 from .fields import Between, Energies, OfSea
 
@@ -90,7 +91,7 @@ class Clusters(OfSea):
         if not is_sound(self):
             return
         (k, g), energy = (self.ball.k, self.ball.g), self.energy
-        longest = 2 * (2 * energy + g * g / k) ** 0.5 / g
+        longest = 2 * twice_energy_above_rest(k, g, energy) ** 0.5 / g
         for i, cut in enumerate(self.cuts):
             if not cut < longest:
                 words = f"a time below {longest:.4g}, which no flight at this energy exceeds"

@@ -44,7 +44,7 @@ def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
 def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
     """Return the figure, and the values of the inset, none without one."""
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    final, chaotic = final_exponents(lyapunov), which_are_chaotic(lyapunov)
+    final, chaotic = final_exponents(lyapunov), lyapunov["type"].values == "chaotic"
     mixed = chaotic.any() and not chaotic.all()
     in_inset = chaotic if mixed else np.full(chaotic.shape, True)
     largest = exponent[:, in_inset].max(axis=2)
@@ -88,16 +88,6 @@ def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
     """Return the number of impacts of each orbit."""
     known = ~np.isnan(lyapunov["exponent"].values[:, :, 0])
     return np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
-
-
-def which_are_chaotic(lyapunov: xr.Dataset) -> np.ndarray:
-    """Return which orbits are chaotic: their largest exponent exceeds `regular_bound`."""
-    from pseudorigid.dynamics.regularity import (
-        regular_bound,  # compiled code, which other kinds do not need
-    )
-
-    bounds = [regular_bound(int(length)) for length in _lengths(lyapunov)]
-    return final_exponents(lyapunov).max(axis=1) > bounds
 
 
 def _key_text(start: Any, chaotic: bool) -> str:

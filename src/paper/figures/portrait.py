@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -20,15 +21,11 @@ def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
 
     Raises ValueError if nothing can be seen.
     """
-    from pseudorigid.dynamics.regularity import (
-        chaotic_orbits,  # compiled code: other kinds need none
-    )
-
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
-    chaotic = chaotic_orbits(scene["ball"], orbits)
+    types = orbits["type"].values
+    chaotic, regular = (np.flatnonzero(types == kind).tolist() for kind in ("chaotic", "regular"))
     name = style.plural("chaotic orbit", len(chaotic))
     box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
-    regular = [index for index in range(len(spans)) if index not in chaotic]
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
     for index in chaotic + regular:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)

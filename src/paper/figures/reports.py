@@ -24,10 +24,8 @@ def portrait(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
 
 def portrait_facts(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, Any]:
     """Count the chaotic and the regular orbits."""
-    from pseudorigid.dynamics.regularity import chaotic_orbits
-
-    chaotic = len(chaotic_orbits(block["ball"], orbits))
-    return {"chaotic": chaotic, "regular": orbits.sizes["orbit"] - chaotic}
+    regular = int((orbits["type"] == "regular").sum())
+    return {"chaotic": orbits.sizes["orbit"] - regular, "regular": regular}
 
 
 def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
@@ -118,9 +116,9 @@ def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, An
     """Count chaotic and regular orbits, and say from where to where the largest exponents are."""
     from pseudorigid.dynamics.variables import final_exponents
 
-    from .exponents import drawn, which_are_chaotic
+    from .exponents import drawn
 
-    chaotic = which_are_chaotic(lyapunov)
+    chaotic = lyapunov["type"].values == "chaotic"
     largest = sorted(final_exponents(lyapunov)[chaotic, 0].tolist())
     return {
         "chaotic": len(largest),
@@ -145,12 +143,11 @@ def about_orbit(periodic: xr.Dataset, block: dict[str, Any]) -> dict[str, str]:
 
 def energy_of(block: dict[str, Any], states: xr.Dataset) -> dict[str, str]:
     """Return the energy of a dataset's states, eq. (29), to twelve digits."""
-    import numpy as np
-
-    from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.variables import states_of
+    from pseudorigid.kernel import closed_forms
 
-    energy = np.asarray(Ball(**block["ball"]).energy(*states_of(states)))
+    x, xdot, udot = states_of(states)
+    energy = closed_forms.energy(**block["ball"], x=x, xdot=xdot, udot=udot)
     ends = dict.fromkeys(f"{value:.12g}" for value in (energy.min(), energy.max()))
     return {"energy": " to ".join(ends)}
 

@@ -13,7 +13,8 @@ from .ball import Ball, require_ball
 from .ensemble import in_threads
 from .inputs import StateLike, not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
-from .variables import TIME, described, orbit_dims
+from .regularity import regular_bound
+from .variables import TIME, described, final_exponents, orbit_dims
 
 
 def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
@@ -101,6 +102,7 @@ def scene_exponents(
 
     Starts are as in `orbits.start_state`. `impacts` is one number for all orbits, or one for each.
     Then each orbit has records of its own; `exponent` and `time` are NaN at those of the others.
+    `type` calls an orbit chaotic if its largest exponent exceeds `regular_bound`.
 
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
@@ -115,4 +117,9 @@ def scene_exponents(
         result = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
         result = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
-    return result.assign(start_variables(starts, states))
+    known = ~np.isnan(result["exponent"].values[:, :, 0])
+    lengths = np.where(known, result["impact"].values[:, None], 1).max(axis=0)
+    bounds = [regular_bound(length) for length in lengths.tolist()]
+    types = np.where(final_exponents(result).max(axis=1) > bounds, "chaotic", "regular")
+    table = described({"type": ("orbit", types, "regular or chaotic")})
+    return result.assign(start_variables(starts, states) | table)

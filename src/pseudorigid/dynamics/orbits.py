@@ -8,6 +8,7 @@ import xarray as xr
 
 from .ball import Ball, State, require_ball, require_short_flights
 from .inputs import StateLike, not_allowed, one_of, state_of, whole_number
+from .regularity import chaotic_orbits
 from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
 
@@ -77,7 +78,9 @@ def scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
-    Starts are as in `start_state`. `impacts` is the number of all orbits, or a list.
+    Starts are as in `start_state`. `impacts` is the number of all orbits, or a list. `type` says
+    which orbits are chaotic by `chaotic_orbits`, which follows short ones further; one that grazes
+    exactly counts as chaotic.
 
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
@@ -87,17 +90,20 @@ def scene_orbits(
     states = [start_state(ball, energy, start) for start in starts]
     pairs = zip(states, impacts, strict=True)
     pieces = [ball.history(state, count)[0].T for state, count in pairs]
-    return ragged_orbits(pieces, starts, states, impacts)
+    return ragged_orbits(ball, pieces, starts, states, impacts)
 
 
 def ragged_orbits(
-    pieces: list[np.ndarray], starts: list[Any], states: list[Any], impacts: list[int]
+    ball: Ball, pieces: list[np.ndarray], starts: list[Any], states: list[Any], impacts: list[int]
 ) -> xr.Dataset:
     """Return the Dataset of `scene_orbits` from arrays (4, impacts) of x, xdot, udot and tau."""
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data |= described({"row_size": ("orbit", np.array(impacts, np.int64), "number of impacts")})
     data["row_size"][2]["sample_dimension"] = "point"
-    return xr.Dataset(data)
+    orbits = xr.Dataset(data)
+    chaotic = chaotic_orbits({"k": ball.k, "g": ball.g}, orbits)
+    types = np.where(np.isin(np.arange(len(starts)), chaotic), "chaotic", "regular")
+    return orbits.assign(described({"type": ("orbit", types, "regular or chaotic")}))
 
 
 def start_state(ball: Ball, energy: float, start: Any) -> State:

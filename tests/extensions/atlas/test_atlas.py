@@ -7,6 +7,8 @@ from legible import assert_text_is_whole_and_apart
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas, raster
+from extensions.atlas.grid import edges
+from extensions.atlas.sweep import resonances
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures.axes import limits
 from pseudorigid.figures.axes.panel import Axis
@@ -27,7 +29,8 @@ def dataset(sweep, **given):
     data = {
         name: (("k", "energy"), np.broadcast_to(value, shape)) for name, value in values.items()
     }
-    return xr.Dataset(data, coords={"k": sweep["k"], "energy": sweep["energy"]})
+    data = xr.Dataset(data, coords={"k": sweep["k"], "energy": sweep["energy"]})
+    return data.assign(resonances(sweep["k"]) | {"exponent_95": 1.96 * data["exponent_error"]})
 
 
 def image_of(sweep, **given):
@@ -141,8 +144,8 @@ def test_minor_ticks_and_edges_lie_between():
     assert Axis((0.0, 1.2), [0.0, 0.5, 1.0]).minor_ticks().tolist() == [0.25, 0.75]
     exponents = Axis((-1.1, 0.4), (), decades=True).minor_ticks()
     assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
-    assert raster.edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
-    assert raster.edges(np.array([1.0])).tolist() == [0.5, 1.5]
+    assert edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
+    assert edges(np.array([1.0])).tolist() == [0.5, 1.5]
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 from dataset_hash import content_hash
 
 from extensions.atlas import cell, kinds
+from extensions.atlas.sweep import dataset_of_a_sweep
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import tangents
@@ -123,7 +124,7 @@ def joined(size):
     """The dataset of the small sweep, computed in blocks of this size."""
     sweep = SMALL | {"block": size}
     parts = [cell.block_of_cells_of_a_sweep(**part) for part in kinds.parts(sweep)]
-    return cell.cells_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
+    return dataset_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
 
 
 def test_the_size_of_blocks_does_not_change_the_bytes():
@@ -132,6 +133,12 @@ def test_the_size_of_blocks_does_not_change_the_bytes():
 
 def test_the_dataset_has_each_cell_at_its_coordinates_with_the_bits_that_it_has_alone():
     data = joined(4)
+    at, order = data["resonance_k"].values[700], data["order"].values.tolist()
+    assert data["resonance_energy"].values[:, 700].tolist() == [
+        fixed_point.resonance(float(at), 1, q) for q in order
+    ]
+    assert np.array_equal(data["exponent_95"], cell.NORMAL_95 * data["exponent_error"], True)
+    data = data.drop_dims(["order", "resonance"]).drop_vars("exponent_95")
     assert dict(data.sizes) == {"k": 2, "energy": 3, "period": cell.MAX_ISLANDS}
     assert set(data.data_vars) == set(cell.VARIABLES)
     for k, energy in product(SMALL["k"], SMALL["energy"]):

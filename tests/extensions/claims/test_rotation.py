@@ -38,7 +38,9 @@ def test_plateaus_are_runs_of_one_fraction():
 def test_main_island_ends_at_two_chaotic_starts():
     found = rotation.rotation(BALL, ENERGY, [0.026], 120, 3000, (-0.8, -0.7), 1000)
     good = regular(found["exponent"].values[0], 3000)
-    size = rotation.island(found, 0)
+    size = int(found["island"].values[0])
+    assert np.array_equal(found["type"].values[0] == "regular", good)
+    assert np.all(regular(found["detail_exponent"].values, 1000)[found["detail_type"] == "regular"])
     assert good[:size].sum() >= size - 1
     assert not good[size] and not good[size + 1]
     # the separatrix of the period-six saddles crosses y = 0 at x = 0.18782

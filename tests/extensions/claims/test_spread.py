@@ -8,7 +8,8 @@ import xarray as xr
 from sections import BALL
 
 from extensions.claims.analyses.sea import section_points
-from extensions.claims.analyses.spread import in_sea, spread, stretches
+from extensions.claims.analyses.spread import spread
+from extensions.claims.analyses.stretches import in_sea, stretches
 from pseudorigid import lyapunov_spectrum, orbit
 
 ENERGY = 0.01
@@ -84,5 +85,6 @@ def test_sections_without_chaos_and_uneven_blocks_are_refused(energy, length, me
 def test_the_largest_exponent_of_a_stretch_is_the_largest_by_value():
     chaotic = np.array([[1.2, 1.0, 0.8], [1.0, 1.3, 0.7]])
     blocks = xr.Dataset({"exponent": (("block", "orbit", "index"), chaotic[None])})
+    blocks["type"] = "orbit", ["chaotic"] * 2
     long = stretches(blocks.assign_attrs(block_impacts=100), 100)
     assert np.array_equal(long, [1.2, 1.3])

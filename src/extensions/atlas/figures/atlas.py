@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import (
     Axis,
@@ -24,10 +23,9 @@ from pseudorigid.figures.axes.panel import (
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, pieces
 
-from ..cell import NORMAL_95
+from ..grid import edges, inertias
 from . import raster
 
-RESONANCES = tuple((1, q) for q in range(2, 11))
 PAPER_K = 0.2
 PAPER_ENERGIES = {"Figure 8": 0.625, "Figure 2": 6.25}  # E/g^2
 QUOTATION = (
@@ -64,7 +62,7 @@ def plane(sweep: Sweep, data: xr.Dataset) -> Figure:
     for bottom, text, values, most, table in panels:
         panel = cells(sheet, bottom, sweep, values, most, table, text)
         frames.append(panel.frame)
-        names, jumps = _curves(panel, named=bottom == upper)
+        names, jumps = _curves(panel, data, named=bottom == upper)
         for energy in PAPER_ENERGIES.values():
             panel.dots([energy], [PAPER_K], "white", size=5.0, hollow=True)
             panel.dots([energy], [PAPER_K], style.BLACK, size=2.5)
@@ -91,9 +89,7 @@ def cells(
     """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
-    first, *_, last = raster.edges(sweep["k"])
-    largest = 1.0 / 3.0 if sweep["k"][-1] <= 1.0 / 3.0 else 1.0  # a shell's, or what is allowed
-    up = linear(max(first, 0.0), min(last, largest), 7, "$k$")
+    up = linear(*inertias(sweep["k"]), 7, "$k$")
     panel = Window(sheet, frame, _energy_axis(sweep), up, grid=False)
     panel.minor()
     raster.cells(panel, sweep, values / most, table)
@@ -153,8 +149,8 @@ def line(sweep: Sweep, data: xr.Dataset) -> Figure:
         panel.minor()
         title(sheet, panel.frame, text, rise)
         corner(sheet, panel.frame, bars, rise, _SIZE)
-    _upright_lines((above, below), k, energy[0], unit)
-    error = NORMAL_95 * data["exponent_error"].values[0]
+    _upright_lines((above, below), data, energy[0], unit)
+    error = data["exponent_95"].values[0]
     mean, low, high = (data[f"exponent{end}"].values[0] for end in ("", "_low", "_high"))
     regular, least, most = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
     above.estimates(energy, regular, least, most, style.BLUE)
@@ -171,16 +167,17 @@ def line(sweep: Sweep, data: xr.Dataset) -> Figure:
     return sheet.figure
 
 
-def _upright_lines(panels: Sequence[Panel], k: float, first: float, unit: float) -> None:
+def _upright_lines(panels: Sequence[Panel], data: xr.Dataset, first: float, unit: float) -> None:
     """Draw the energies of resonances and of the onset of jumps, as far as they are swept."""
     sheet, last = panels[0].sheet, panels[0].across.limits[1]
-    energies = [(f"{p}/{q}", fixed_point.resonance(k, p, q) * unit) for p, q in RESONANCES]
+    at = zip(data["order"].values, data["resonance_energy"].values[:, 0].tolist(), strict=True)
+    energies = [(f"1/{order}", energy * unit) for order, energy in at]
     energies = [(name, energy) for name, energy in energies if first < energy < last]
     lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
     for (name, _), x in zip(energies, apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
-    onset = (1.0 + 0.5 * k) * unit
+    onset = (1.0 + 0.5 * float(data["k"].values[0])) * unit
     if first < onset < last:
         x = upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
         up = panels[1].frame[3] - 8
@@ -197,23 +194,19 @@ def apart(centres: list[float]) -> list[float]:
     return moved
 
 
-def _curves(panel: Panel, named: bool) -> tuple[list[str], bool]:
+def _curves(panel: Panel, data: xr.Dataset, named: bool) -> tuple[list[str], bool]:
     """Draw the curves of the fixed point's resonances, `named` if asked, and the onset of jumps.
 
     Return the rotation numbers of the curves that are seen, and whether the onset is.
     """
-    seen = []
-    bottom, top = panel.up.limits
-    k = bottom + (top - bottom) * np.arange(1001) / 1000
-    k = k[k > 0.0]
-    for turns, impacts in RESONANCES:
-        energy = np.array([fixed_point.resonance(value, turns, impacts) for value in k.tolist()])
+    seen, k = [], data["resonance_k"].values
+    for order, energy in zip(data["order"].values, data["resonance_energy"].values, strict=True):
         visible = _is_between(panel.across, energy)
         for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
             _stroke(panel.sheet, piece)
-        seen += [f"{turns}/{impacts}"] if visible.any() else []
+        seen += [f"1/{order}"] if visible.any() else []
         if named:
-            name_curve(panel, visible, energy, k, f"{turns}/{impacts}")
+            name_curve(panel, visible, energy, k, f"1/{order}")
     ends = k[[0, -1]]
     jumps = bool(_is_between(panel.across, 1.0 + 0.5 * ends).all())
     if jumps:
@@ -247,9 +240,9 @@ def _energy_axis(sweep: Sweep) -> Axis:
     name, values, k = r"$E/g^2$", sweep["energy"], sweep["k"]
     highest = (0.5 * k[0] / sweep["g"] - 1.0) / sweep["g"] if "g" in sweep else np.inf
     if values[0] <= 0.0 or values[-1] / values[0] < 20.0:
-        first, *_, last = raster.edges(values)
+        first, *_, last = edges(values)
         return linear(max(first, -0.5 / k[-1]), min(last, highest), 5, name)
-    first, *_, last = raster.edges(log10(values)).tolist()
+    first, *_, last = edges(log10(values)).tolist()
     axis = decades((first, min(last, float(log10(highest)[0]))), name)
     return replace(axis, labels=[f"{10.0**tick:g}" for tick in axis.ticks])
 

@@ -11,6 +11,8 @@ from pseudorigid.figures.axes.panel import Panel, log10
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
+from ..grid import edges
+
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
 GREYS = "greys"
@@ -69,12 +71,3 @@ def _pixels(values: np.ndarray, limits: Sequence[float], size: int) -> list[int]
     """Return whole pixels of values, 0 up to the lower limit and `size` from the upper one on."""
     low, high = limits
     return [int((value - low) / (high - low) * size + 0.5) for value in np.clip(values, low, high)]
-
-
-def edges(values: Sequence[float] | np.ndarray) -> np.ndarray:
-    """Return the borders of cells, halfway between their values; a single cell is a unit wide."""
-    values = np.asarray(values)
-    if values.size == 1:
-        return np.array([values[0] - 0.5, values[0] + 0.5])
-    middle = 0.5 * (values[1:] + values[:-1])
-    return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])

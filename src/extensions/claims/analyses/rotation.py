@@ -8,7 +8,7 @@ import xarray as xr
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
-from pseudorigid.dynamics.variables import ENERGY, RADIUS, described, variables
+from pseudorigid.dynamics.variables import ENERGY, RADIUS, Variables, described, variables
 
 _MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports
 _ORBITS = {
@@ -24,7 +24,8 @@ def rotation(
 ) -> xr.Dataset:  # fmt: skip
     """Compute rotation numbers around the fixed point, and exponents, of starts along y = 0.
 
-    At each energy the starts go evenly from the fixed point to the section's rim. At the first
+    At each energy the starts go evenly from the fixed point to the section's rim. `island` is how
+    many of them, from the fixed point on, precede two chaotic neighbours. At the first
     energy as many starts again go over the part `detail` of y = 0; the names of their variables
     begin with detail_. Rotation numbers and exponents are those of `winding`.
 
@@ -53,14 +54,35 @@ def rotation(
     place = detail[0] + (detail[1] - detail[0]) * middle
     values = place, *winding(ball, energy, place, detail_impacts)
     data |= variables("detail", values, {f"detail_{name}": text for name, text in _ORBITS.items()})
+    data |= _classified(data, impacts, detail_impacts)
     return xr.Dataset(data, attrs={"impacts": impacts, "detail_impacts": detail_impacts})
 
 
-def island(dataset: xr.Dataset, row: int) -> int:
-    """Return how many starts from the fixed point on precede two chaotic neighbours."""
-    chaotic = ~regular(dataset["exponent"].values[row], dataset.attrs["impacts"])
-    both = chaotic[:-1] & chaotic[1:]
-    return int(np.argmax(both)) if both.any() else chaotic.size
+def _classified(data: Variables, impacts: int, detail_impacts: int) -> Variables:
+    """Return which orbits are regular, the main islands' sizes and the plateaus of the detail."""
+    calm = regular(data["exponent"][1], impacts)
+    of_detail = regular(data["detail_exponent"][1], detail_impacts)
+    place, turns = (data[f"detail_{name}"][1][of_detail] for name in ("place", "rotation"))
+    p, q, first, last = np.array(plateaus(place, turns)).reshape(-1, 4).T
+    words, meaning = ("regular", "chaotic"), "regular or chaotic"
+    ends = "start along y = 0 of a chain of islands in the detail"
+    return described(
+        {
+            "type": (("energy", "start"), np.where(calm, *words), meaning),
+            "detail_type": ("detail", np.where(of_detail, *words), meaning),
+            "island": ("energy", [*map(island, calm)], "starts before two chaotic neighbours"),
+            "plateau_turns": ("plateau", p.astype(int), "turns of a chain of islands"),
+            "plateau_islands": ("plateau", q.astype(int), "islands of that chain"),
+            "plateau_first": ("plateau", first, f"first {ends}", RADIUS),
+            "plateau_last": ("plateau", last, f"last {ends}", RADIUS),
+        }
+    )
+
+
+def island(regular: np.ndarray) -> int:
+    """Return how many orbits, of which some are `regular`, precede two chaotic neighbours."""
+    both = ~(regular[:-1] | regular[1:])
+    return int(np.argmax(both)) if both.any() else regular.size
 
 
 def plateaus(place: np.ndarray, turns: np.ndarray) -> list[tuple[int, int, float, float]]:

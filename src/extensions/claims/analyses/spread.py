@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from pseudorigid.dynamics import paper
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.regularity import regular_bound
@@ -35,8 +36,8 @@ def spread(
 
     >>> from pseudorigid import Ball
     >>> data = spread(Ball(k=0.2, g=0.04), 0.01, 5, 400, 4, [0.1], 4, 4, 4)
-    >>> in_sea(data)
-    array([ True,  True,  True,  True, False])
+    >>> data["type"].values.tolist()
+    ['chaotic', 'chaotic', 'chaotic', 'chaotic', 'regular']
     """
     if length % blocks:
         raise ValueError(f"blocks = {blocks} is not allowed: length = {length} is no multiple")
@@ -52,25 +53,26 @@ def spread(
             f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
             "give more orbits, longer ones or another energy"
         )
+    words, meaning = ("chaotic", "regular"), "regular or chaotic"
     lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
     islands = ball.start(starts, energy)
     calm = [lyapunov_spectrum(ball, islands, n, 1)["exponent"].values[0] for n in lengths]
+    wrong = calm[-1].max(axis=-1) > regular_bound(lengths[-1])
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
+        "type": ("orbit", np.where(chaotic, *words), meaning),
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
         "length": ("length", lengths, "number of impacts"),
         "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), calm, "exponent of a regular orbit"),
+        "regular_type": ("island", np.where(wrong, *words), meaning),
     }
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
-    return xr.Dataset(described(data), attrs={"block_impacts": length // blocks})
-
-
-def in_sea(dataset: xr.Dataset) -> np.ndarray:
-    """Return which orbits of a dataset of `spread` have an exponent above `regular_bound`."""
-    length = int(dataset.attrs["block_impacts"]) * dataset.sizes["block"]
-    return dataset["exponent"].values.mean(axis=0).max(axis=-1) > regular_bound(length)
+    attributes: dict[str, Any] = {"block_impacts": length // blocks}
+    if (energy, {"k": ball.k, "g": ball.g}) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
+        attributes["printed_exponent"] = paper.EXPONENT
+    return xr.Dataset(described(data), attrs=attributes)
 
 
 def _halves(number: int) -> list[int]:
@@ -106,14 +108,3 @@ def _entered_cells(
         "entered_all": ("visit", all_of, "cells entered by each chaotic orbit"),
         "entered_least": ("visit", least, "cells entered by the chaotic orbit that enters fewest"),
     }
-
-
-def stretches(dataset: xr.Dataset, length: int) -> np.ndarray:
-    """Return the largest exponent of each stretch of `length` impacts of the chaotic orbits.
-
-    `length` is a multiple of the dataset's block_impacts; the exponents are in nats an impact.
-    """
-    block = dataset["exponent"].values[:, in_sea(dataset)]
-    count = length // int(dataset.attrs["block_impacts"])
-    whole = block[: block.shape[0] // count * count]
-    return whole.reshape(-1, count, *block.shape[1:]).mean(axis=1).max(axis=-1).ravel()

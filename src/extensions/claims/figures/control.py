@@ -8,6 +8,7 @@ import xarray as xr
 
 from pseudorigid.figures.axes.limits import linear
 from pseudorigid.figures.axes.panel import Axis, Window, key, letters, log10, title
+from pseudorigid.figures.axes.section import circle
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
@@ -55,8 +56,6 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
 
 def _portraits(sheet: Sheet, control: xr.Dataset) -> Frame:
     """Draw the orbits of each panel, chaotic ones first; return the first frame."""
-    from pseudorigid.kernel.arithmetic import sincos_each
-
     first = _LEFT, sheet.high - 105 - _SIDE, _LEFT + _SIDE, sheet.high - 105
     columns, last = [*_KEPT][1:], len(_FORMS) - 1
     for i, name in enumerate(control["panel"].values.tolist()):
@@ -74,8 +73,7 @@ def _portraits(sheet: Sheet, control: xr.Dataset) -> Frame:
         if column == 0:
             up = Axis((-1.04, 1.04), (-0.5, 0, 0.5), labels=[style.number(-0.5), "$b$", "0.5"])
         panel = Window(sheet, frame, across, up, grid=False)
-        sine, cosine = sincos_each(np.arange(181) * (np.pi / 90.0))
-        panel.line(cosine, sine, color=style.BLACK, lw=0.5)
+        panel.line(*circle(180), color=style.BLACK, lw=0.5)
         kinds = control["kind"].values[i]
         for kind in (2, 1, 0):
             a, b = (control[axis].values[i][kinds == kind].ravel() for axis in "ab")

@@ -4,7 +4,6 @@ import numpy as np
 import xarray as xr
 
 from extensions.atlas.figures import raster
-from pseudorigid.dynamics.regularity import chaotic_orbits
 from pseudorigid.dynamics.variables import chart, rows, states_of
 from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.limits import decades, linear
@@ -26,9 +25,9 @@ def draw(scene: Scene, exclusion: xr.Dataset, curves: xr.Dataset, orbits: xr.Dat
     panel = section.at_top(sheet, scene)
     _colours(panel, exclusion, scene["followed"])
     x, y = chart(panel.k, *states_of(orbits))
-    chaotic = set(chaotic_orbits(scene["ball"], orbits))
-    for index, span in enumerate(rows(orbits)):
-        if index not in chaotic:
+    regular = orbits["type"].values == "regular"
+    for one, span in zip(regular, rows(orbits), strict=True):
+        if one:
             panel.dots(x[span], y[span], style.BLACK, size=0.6)
     panel.line(curves["x"].values, curves["y"].values, color=style.VERMILION, lw=1.0, zorder=5)
     panel.rim()
@@ -36,7 +35,7 @@ def draw(scene: Scene, exclusion: xr.Dataset, curves: xr.Dataset, orbits: xr.Dat
     entries = [
         ("not excluded", style.FRAME, "s", True, 5.0),
         ("proved curve", style.VERMILION),
-        ("regular orbit", style.BLACK, "o") if orbits.sizes["orbit"] > len(chaotic) else None,
+        ("regular orbit", style.BLACK, "o") if regular.any() else None,
     ]
     key(sheet, [*filter(None, entries)], panel.frame[1] - 128, 3, section.LEFT, section.SIDE)
     _scale(sheet, scene["followed"])

@@ -12,10 +12,9 @@ from pseudorigid.figures.axes.panel import Panel, corner, key, letters, title, v
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
 
-from ..analyses.flux import SIDES
 from . import Figure, Frame, Scene
 
-_SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index in SIDES, colour, points
+_SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index of the side, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
@@ -49,7 +48,7 @@ def _has_edge(flux: xr.Dataset, side: int) -> bool:
 
 def _edge_name(flux: xr.Dataset, side: int) -> str:
     """Return the name of a region's edge, or why there is none."""
-    name = SIDES[side]
+    name = flux["side"].values[side]
     if np.isnan(flux["area"].values[side]):
         return f"{name} region: none"
     if not _has_edge(flux, side):
@@ -80,7 +79,8 @@ def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
             left, _, right, top = panel.frame
             across, ha = (right, "right") if side else (left, "left")
             across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
-            sheet.text(across, up, f"{SIDES[side]}: {text}", ha=ha, va="top", size=panel.small)
+            text = f"{flux['side'].values[side]}: {text}"
+            sheet.text(across, up, text, ha=ha, va="top", size=panel.small)
     if not any(_has_edge(flux, side) for side, *_ in _SIDES):
         text = "neither region has an edge that can be drawn"
         panel.note(panel.centre, 0.5 * panel.high * panel.radius, text, ha="center")
@@ -89,9 +89,10 @@ def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
 
 def _lobe(sheet: Sheet, frame: Frame, side: int, flux: xr.Dataset) -> str:
     """Draw two branches at their crossing, or the distance between them, and return a title."""
-    x, y = (flux[f"branch_{name}"].values[side] for name in "xy")
+    x, y = (flux[f"branch_{axis}"].values[side] for axis in "xy")
+    name = flux["side"].values[side]
     if np.isnan(x[0]):
-        reason = flux.attrs.get(f"missing_{SIDES[side]}", "none is closed")
+        reason = flux.attrs.get(f"missing_{name}", "none is closed")
         vacant(sheet, frame, textwrap.fill(f"no lobe: {reason}", _LONGEST))
     elif side == 0 and np.unique(y).size > 7 and np.ptp(np.sign(np.diff(y))) < 2.0:
         _difference(sheet, frame, x, y)
@@ -101,7 +102,7 @@ def _lobe(sheet: Sheet, frame: Frame, side: int, flux: xr.Dataset) -> str:
         panel = Panel(sheet, frame, around(x, 0.06, 3, "$x$"), up)
         panel.line(x, -y, color=style.STABLE, lw=1.0)
         panel.line(x, y, color=style.UNSTABLE, lw=1.0)
-    return f"{SIDES[side].title()} branches at the crossing"
+    return f"{name.title()} branches at the crossing"
 
 
 def _difference(sheet: Sheet, frame: Frame, x: np.ndarray, y: np.ndarray) -> None:

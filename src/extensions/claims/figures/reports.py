@@ -13,7 +13,7 @@ from paper.figures.reports import listing
 
 def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:
     """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
-    from ..analyses.spread import in_sea
+    from ..analyses.stretches import in_sea
 
     # the mean over an orbit's blocks, then its largest exponent
     largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)

@@ -3,8 +3,6 @@
 import numpy as np
 import xarray as xr
 
-from extensions.claims.analyses.rotation import island, plateaus
-from pseudorigid.dynamics.regularity import regular
 from pseudorigid.figures.axes.limits import around, inside, linear, ticks
 from pseudorigid.figures.axes.panel import Axis, Entry, Panel, corner, key, letters, vacant
 from pseudorigid.figures.canvas import style
@@ -21,7 +19,7 @@ _FAR = 4.0  # a curve longer than this times the median does not set the lowest 
 def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
     sheet = Sheet(style.COLUMN, 2100)
-    good = regular(rotation["exponent"].values[0], rotation.attrs["impacts"])
+    good = rotation["type"].values[0] == "regular"
     detail = _regular_detail(rotation)
     entries: list[Entry] = []
     if good.any() or detail[0].size:
@@ -29,7 +27,7 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     if not good.all():
         entries.append(("chaotic", style.SEA, "o"))
     entries.append(("fixed point", style.VERMILION, "o"))
-    if plateaus(*detail):
+    if rotation.sizes["plateau"]:
         entries.append(("islands", style.VERMILION, "", False, 1.6))
     key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
     spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
@@ -44,7 +42,7 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
 def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.Dataset) -> None:
     """Draw rotation numbers up to the last regular start, and exponents, at the first energy."""
     start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
-    good = regular(growth, rotation.attrs["impacts"])
+    good = rotation["type"].values[0] == "regular"
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     regular_turns = turns[good] if good.any() else turns
     last = min(start[good].max() + 0.03, 1.0) if good.any() else 1.0
@@ -71,10 +69,8 @@ def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.
 
 def _regular_detail(rotation: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Return the regular starts of the detail and their rotation numbers."""
-    names = ("place", "rotation", "exponent")
-    start, turns, growth = (rotation[f"detail_{name}"].values for name in names)
-    good = regular(growth, rotation.attrs["detail_impacts"])
-    return start[good], turns[good]
+    good = rotation["detail_type"].values == "regular"
+    return rotation["detail_place"].values[good], rotation["detail_rotation"].values[good]
 
 
 def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
@@ -88,7 +84,8 @@ def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     if not turns.size:
         vacant(sheet, frame, "all these starts are chaotic")
     panel.dots(start, turns, style.BLUE, size=1.6)
-    for p, q, first, last in plateaus(start, turns):
+    columns = (rotation[f"plateau_{name}"].values for name in ("turns", "islands", "first", "last"))
+    for p, q, first, last in zip(*columns, strict=True):
         panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
         middle, name = 0.5 * (first + last), f"{p}/{q}"
         if first > place[0] + 0.8 * (place[-1] - place[0]):
@@ -101,8 +98,8 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     """Draw the departure from the fixed point's rotation number against the start, by energy."""
     curves = []
     for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
-        growth = rotation["exponent"].values[row, : island(rotation, row)]
-        starts = np.flatnonzero(regular(growth, rotation.attrs["impacts"]))
+        types = rotation["type"].values[row, : int(rotation["island"].values[row])]
+        starts = np.flatnonzero(types == "regular")
         start = rotation["place"].values[row, starts] - float(rotation["fixed_place"].values[row])
         change = rotation["rotation"].values[row, starts] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), start, change))

@@ -3,15 +3,13 @@
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
-from pseudorigid.dynamics.regularity import regular_bound
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.axes.limits import decades, of_data
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, letters, log10
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
-from ..analyses.spread import stretches
+from ..analyses.stretches import stretches
 from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 135, 1005  # pixels
@@ -25,18 +23,17 @@ def draw(scene: Scene, spread: xr.Dataset, lyapunov: xr.Dataset) -> Figure:
     """Draw exponents against length, the distribution of short runs, and regular orbits."""
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
-    paper = (scene["energy"], scene["ball"]) == (FIGURES["fig7"]["energy"], BALL)
     frames: list[Frame] = [
         (_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))
     ]
     letters(sheet, *frames)
-    _lengths(sheet, frames[0], spread, paper)
-    _short_runs(sheet, frames[1], spread, lyapunov, paper)
+    _lengths(sheet, frames[0], spread)
+    _short_runs(sheet, frames[1], spread, lyapunov)
     _regular(sheet, frames[2], spread)
     return sheet.figure
 
 
-def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset, paper: bool) -> None:
+def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     """Draw range, quartiles and mean against the length; a triangle if the range is cut off."""
     first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
@@ -48,9 +45,9 @@ def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset, paper: bool) -> Non
     panel = Panel(
         sheet, frame, across, Axis(axis["limits"], axis["ticks"], "Largest exponent in the sea")
     )
-    if paper:
-        panel.line([1.0, 1e30], [EXPONENT] * 2, color=style.BLUE, lw=0.7, ls="--")
-        panel.note(lengths[-1], EXPONENT, f"the paper: {EXPONENT}", ha="right", shift=(0, 5))
+    if printed := spread.attrs.get("printed_exponent"):
+        panel.line([1.0, 1e30], [printed] * 2, color=style.BLUE, lw=0.7, ls="--")
+        panel.note(lengths[-1], printed, f"the paper: {printed}", ha="right", shift=(0, 5))
     for length in lengths:
         values = np.sort(stretches(spread, length))
         last = values.size - 1
@@ -62,22 +59,20 @@ def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset, paper: bool) -> Non
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
-def _short_runs(
-    sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dataset, paper: bool
-) -> None:
+def _short_runs(sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dataset) -> None:
     """Draw the histogram of short runs, with their mean and the marked orbits."""
     marked = final_exponents(lyapunov)[:, 0]
     block, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
     # Runs are as long as those of the marked orbits, as far as blocks allow.
     short = block * min(max(int(lyapunov["impact"].values[-1]) // block, 1), blocks)
     runs = stretches(spread, short)
-    paper = paper and short == 200_000
+    printed = spread.attrs.get("printed_exponent") if short == 200_000 else None
     axis = of_data(runs, marked)
     low, high = axis["limits"]
-    bar = _BAR if paper else (high - low) / 50
+    bar = _BAR if printed else (high - low) / 50
     edges = low + bar * np.arange(round((high - low) / bar) + 1)
     share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
-    room = 1.0 if paper else 1.2  # for the mean's name
+    room = 1.0 if printed else 1.2  # for the mean's name
     highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
     across = Axis(axis["limits"], axis["ticks"], f"Exponent of {short:,} impacts")
     step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
@@ -89,11 +84,11 @@ def _short_runs(
     mean = float(runs.mean())
     panel.line([mean] * 2, [0.0, highest], color=style.BLACK, lw=0.9)
     panel.note(mean, highest, "mean", ha="right", va="top", shift=(-3, -4))
-    if paper:
-        panel.line([EXPONENT] * 2, [0.0, highest], color=style.BLUE, lw=0.9, ls="--")
-        panel.note(EXPONENT, highest, "the paper", va="top", shift=(3, -4))
+    if printed:
+        panel.line([printed] * 2, [0.0, highest], color=style.BLUE, lw=0.9, ls="--")
+        panel.note(printed, highest, "the paper", va="top", shift=(3, -4))
     panel.dots(marked, [0.35 * share.max()] * marked.size, style.VERMILION, size=3.4)
-    orbits = "Figure 7's" if paper else "orbits from starts"
+    orbits = "Figure 7's" if printed else "orbits from starts"
     corner(sheet, frame, f"{runs.size:,} runs; dots: {orbits}")
 
 
@@ -103,7 +98,7 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     n, values = spread["length"].values[long], spread["regular_exponent"].values[long]
     across = decades((1, len(str(int(n[-1])))), "Length in impacts")
     largest = values.max(axis=-1)
-    chaotic = largest[-1] > regular_bound(int(n[-1]))
+    chaotic = spread["regular_type"].values == "chaotic"
     lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
     lowest = min(-5, int(np.floor(lowest)))
     highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))

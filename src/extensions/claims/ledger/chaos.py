@@ -10,7 +10,7 @@ from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
 from pseudorigid.dynamics.regularity import regular, regular_bound
 from pseudorigid.dynamics.variables import final_exponents
 
-from ..analyses.spread import in_sea, stretches
+from ..analyses.stretches import in_sea, stretches
 from .lookup import enclosed, energy_of, entropy_bound, formula, regular_share
 from .outcomes import CORRECTED, FALSE, HOLDS, UNDECIDED, Outcome, Series, outcome_of
 

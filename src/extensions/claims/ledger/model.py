@@ -14,8 +14,8 @@ from pseudorigid.dynamics.variables import states_of
 
 from ..analyses.clusters import STRAIN
 from ..analyses.sea import ratio
-from ..analyses.spread import stretches
 from ..analyses.strains import least_flight_strain
+from ..analyses.stretches import stretches
 from .lookup import bounds_of, derived, enclosed, formula, numbers_of, regular_share
 from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, Outcome, Series, outcome_of
 

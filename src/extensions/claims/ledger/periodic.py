@@ -225,9 +225,9 @@ def no_twist_map(rotation: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:
 
 def _rises_and_falls(rotation: xr.Dataset, row: int) -> tuple[int, int]:
     """Count rises and falls of the rotation number from start to start across the main island."""
-    size = island(rotation, row)
-    good = regular(rotation["exponent"].values[row, :size], rotation.attrs["impacts"])
-    steps = np.diff(rotation["rotation"].values[row, :size][good])
+    good = regular(rotation["exponent"].values[row], rotation.attrs["impacts"])
+    size = island(good)
+    steps = np.diff(rotation["rotation"].values[row, :size][good[:size]])
     return int(np.sum(steps > ROTATION_ACCURACY)), int(np.sum(steps < -ROTATION_ACCURACY))
 
 

@@ -14,6 +14,7 @@ from pseudorigid.figures.axes.limits import around, inside, linear
 from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
+from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 _LEFT, _RIGHT = 125, 1000  # pixels
 _WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
@@ -134,7 +135,7 @@ def _rim(scene: dict[str, Any]) -> np.ndarray:
     value = low + (high - low) * (np.arange(401) / 400.0)
     of_rim = {"energy": scene["energy"], **scene["ball"], scene["parameter"]: value}
     energy, k, g = (of_rim[name] for name in ("energy", "k", "g"))
-    radius = np.sqrt((2.0 * energy + g * g / k) / k)
+    radius = np.sqrt(twice_energy_above_rest(k, g, energy) / k)
     return np.array([value, g / k - radius, g / k + radius])
 
 

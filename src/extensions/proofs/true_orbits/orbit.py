@@ -113,7 +113,7 @@ def true_scene_orbits(
 
         pieces.append(follow(start, count, report).values.T)
     states = [start_state(ball, energy, start) for start in starts]
-    return ragged_orbits(pieces, starts, states, impacts)
+    return ragged_orbits(ball, pieces, starts, states, impacts)
 
 
 def _as_text(start: float | dict[str, float]) -> str | dict[str, str]:

@@ -13,6 +13,7 @@ from annotated_types import Predicate
 from pydantic import Field
 
 from pseudorigid.figures.axes.direction import disproportion
+from pseudorigid.kernel.closed_forms import fixed_point, twice_energy_above_rest
 
 from . import fields
 from .fields import ABSENT, allowed
@@ -262,22 +263,11 @@ def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:
     k, g = scene.ball.k, scene.ball.g
     low, high = 0.0, math.pi  # of theta: the trace falls through -2 between them
     while (theta := (low + high) / 2) not in (low, high):
-        low, high = (theta, high) if _fixed_point(k, theta)[1] > -2 else (low, theta)
-    highest = _fixed_point(k, theta)[0] * g * g
+        low, high = (theta, high) if fixed_point(k, theta)[1] > -2 else (low, theta)
+    highest = fixed_point(k, theta)[0] * g * g
     for place, energy in _entries(scene, name):
         if not energy < highest:
             yield place, energy, f"an energy below {highest:.6g}, where the fixed point is elliptic"
-
-
-def _fixed_point(k: float, theta: float) -> tuple[float, float]:
-    """Return E/g^2 and the trace for theta = tau/2, as `pseudorigid.dynamics.fixed_point` does.
-
-    That module compiles code when it is imported, which takes too long for a check of the config.
-    """
-    b = 1 - theta / math.tan(theta)
-    energy = ((1 + k) * theta * theta + b * b - 1) / (2 * k)
-    shear = b * (2 * theta - math.sin(2 * theta)) / (theta * (1 + k))
-    return energy, 2 * (1 + k * (math.cos(2 * theta) - shear)) / (1 + k)
 
 
 def exact(value: float) -> Fraction:
@@ -323,7 +313,7 @@ def _start_errors(
     x = exact(start.x)
     twice_kinetic_energy = 2 * energy + 2 * g * x - k * x * x
     # Nearer to the rim than this, rounding decides whether the ball leaves the floor.
-    margin = Fraction(1, 10**12) * (2 * energy + g * g / k)
+    margin = Fraction(1, 10**12) * twice_energy_above_rest(k, g, energy)
     if start.y is not None:
         y = exact(start.y)
         inside = (1 + k) * twice_kinetic_energy - y * y > margin

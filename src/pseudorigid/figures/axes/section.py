@@ -1,16 +1,14 @@
 """The section at an energy in the chart (x, y): an elliptic disk bounded by the grazing rim."""
 
 import math
-from collections.abc import Container
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ...dynamics.ball import Ball
-from ...dynamics.regularity import chaotic_orbits
 from ...dynamics.variables import chart, rows, states_of
 from ...kernel.arithmetic import sincos_each
+from ...kernel.closed_forms import twice_energy_above_rest
 from ..canvas import style
 from ..canvas.sheet import Sheet
 from .limits import linear
@@ -19,7 +17,6 @@ from .panel import Entry, Frame, Panel, corner
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
 SEA = "#d4d4d4"  # of chaotic orbits beside regular ones
 LEFT, SIDE = 150, 825  # pixels: left and width of a large panel
-_SIDES = 720  # of the rim
 _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
 
@@ -45,26 +42,35 @@ class Section(Panel):
         super().__init__(sheet, frame, across, up, grid=False)
         self.minor()
 
-    def orbits(self, orbits: xr.Dataset, chaotic: Container[int]) -> None:
-        """Draw orbits as dots, first and paler those whose indices are in `chaotic`."""
+    def orbits(self, orbits: xr.Dataset) -> None:
+        """Draw orbits as dots, first and paler the chaotic ones."""
         x, y = chart(self.k, *states_of(orbits))
+        regular = orbits["type"].values == "regular"
         spans = rows(orbits)
-        for index in sorted(range(len(spans)), key=lambda i: (i not in chaotic, i)):
-            hue, size = (SEA, 0.7) if index in chaotic else (style.BACKDROP, 0.9)
+        for index in np.argsort(regular, kind="stable").tolist():
+            hue, size = (style.BACKDROP, 0.9) if regular[index] else (SEA, 0.7)
             self.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
     def rim(self, zorder: float = 4.5) -> None:
         """Draw the rim."""
-        sine, cosine = sincos_each(2.0 * math.pi * np.arange(_SIDES + 1) / _SIDES)
+        cosine, sine = circle()
         x = self.centre + self.radius * cosine
         self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
+
+
+def circle(sides: int = 720) -> tuple[np.ndarray, np.ndarray]:
+    """Return cosines and sines of angles all around, from 0 to 2 pi."""
+    sine, cosine = sincos_each(2.0 * math.pi * np.arange(sides + 1) / sides)
+    return cosine, sine
 
 
 def at_top(sheet: Sheet, scene: dict[str, Any]) -> Section:
     """Return a large panel of the section of a scene's ball and energy at the top of a sheet."""
     top = sheet.high - 75
     frame = LEFT, top - SIDE, LEFT + SIDE, top
-    return Section(sheet, frame, scene["ball"], Ball(**scene["ball"]).section(scene["energy"])[1])
+    ball, energy = scene["ball"], scene["energy"]
+    radius = math.sqrt(twice_energy_above_rest(ball["k"], ball["g"], energy) / ball["k"])
+    return Section(sheet, frame, ball, radius)
 
 
 def over_orbits(
@@ -77,11 +83,11 @@ def over_orbits(
     """
     sheet = Sheet(style.COLUMN, high)
     panel = at_top(sheet, scene)
-    chaotic = chaotic_orbits(scene["ball"], orbits)
-    panel.orbits(orbits, chaotic)
+    panel.orbits(orbits)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))
-    rest = orbits.sizes["orbit"] - len(chaotic)
+    rest = int(np.sum(orbits["type"].values == "regular"))
     regular = (style.plural("regular orbit", rest), style.BACKDROP, "o") if rest else None
-    sea = (style.plural("chaotic orbit", len(chaotic)), SEA, "o") if chaotic else None
-    return panel, regular, sea
+    sea = orbits.sizes["orbit"] - rest
+    chaotic = (style.plural("chaotic orbit", sea), SEA, "o") if sea else None
+    return panel, regular, chaotic

@@ -6,6 +6,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...kernel.closed_forms import twice_energy_above_rest
 from .direction import directions
 
 _SIDES = 360  # of a quarter of a closed curve
@@ -49,7 +50,7 @@ class OccludingEllipsoid:
 
     def __init__(self, k: float, g: float, energy: float) -> None:
         self.k, self.centre = float(k), float(g / k)
-        self.radius = math.sqrt(2.0 * energy + g * g / k)
+        self.radius = math.sqrt(twice_energy_above_rest(k, g, energy))
 
     def has(self, points: np.ndarray) -> np.ndarray:
         """Return whether points of the whole ellipsoid belong to the half."""
