@@ -3,9 +3,7 @@
 from collections.abc import Iterator
 from typing import Literal
 
-from pipeline.config.schema.fields import ABSENT, Axis, Window, allowed, whole
-from pipeline.config.schema.scene import (
-    CrossFieldError,
+from paper.groups import (
     OfBranches,
     OfChaoticOrbits,
     OfManifolds,
@@ -13,7 +11,10 @@ from pipeline.config.schema.scene import (
     OfPeriodicOrbit,
     OfRecords,
     OnSurface,
+    Window,
 )
+from pipeline.config.schema.fields import ABSENT, Axis, allowed, whole
+from pipeline.config.schema.scene import CrossFieldError
 
 
 class Portrait(OnSurface, OfChaoticOrbits):

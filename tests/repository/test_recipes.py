@@ -46,8 +46,8 @@ def mean_flights(ball, energy, orbits):
 
 from typing import Literal
 
+from paper.groups import OfOrbits
 from pipeline.config.schema.fields import Axis
-from pipeline.config.schema.scene import OfOrbits
 
 
 class Returns(OfOrbits):

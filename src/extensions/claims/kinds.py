@@ -6,23 +6,9 @@ from typing import Annotated
 from annotated_types import Predicate
 
 from extensions.proofs.kinds import Curves
-from pipeline.config.schema.fields import (
-    ABSENT,
-    LARGEST,
-    Fraction,
-    allowed,
-    rising,
-    whole,
-)
-from pipeline.config.schema.scene import (
-    CrossFieldError,
-    OfChaoticOrbits,
-    OfRecords,
-    Scene,
-    bounded,
-    is_sound,
-    not_elliptic,
-)
+from paper.groups import OfChaoticOrbits, OfRecords, bounded, is_sound, not_elliptic
+from pipeline.config.schema.fields import ABSENT, LARGEST, Fraction, allowed, rising, whole
+from pipeline.config.schema.scene import CrossFieldError, Scene
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 from .fields import Between, Energies, OfSea

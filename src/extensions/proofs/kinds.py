@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from annotated_types import Predicate
 
+from paper.groups import OfBranches, OfChaoticOrbits, OfOrbits, bounded, not_elliptic
 from pipeline.config.schema.fields import (
     ABSENT,
     Axis,
@@ -18,17 +19,7 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
-from pipeline.config.schema.scene import (
-    CrossFieldError,
-    OfBranches,
-    OfChaoticOrbits,
-    OfOrbits,
-    Picture,
-    Scene,
-    bounded,
-    exact,
-    not_elliptic,
-)
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, exact
 from pseudorigid.dynamics import paper
 
 from .search.rotation_numbers import quotients_near

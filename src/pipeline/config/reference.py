@@ -6,7 +6,7 @@ Run `.venv/bin/python -m pipeline.config.reference` to renew the page.
 from collections.abc import Iterable
 from pathlib import Path
 from textwrap import dedent, fill
-from typing import Any
+from typing import Any, get_args, get_origin
 
 import jinja2
 
@@ -15,7 +15,7 @@ from ..records.files import write_whole
 from ..records.sources import ROOT
 from .json_schema import Described
 from .schema import fields
-from .schema.fields import Block
+from .schema.fields import BallBlock, Block
 from .schema.kinds import KINDS
 from .schema.method import METHOD_BLOCKS
 from .schema.scene import Picture, Scene
@@ -34,7 +34,7 @@ def page() -> str:
         text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
     used: tuple[Any, ...] = (Scene, Variant, example, key_of, listed)
-    used += (mappings, own_fields, upstream)
+    used += (mappings, nested, own_fields, upstream)
     names = {each.__name__: each for each in used}
     tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
     sets = {each.key: each for name, each in SETS.items() if each.key and name != MAIN}
@@ -54,6 +54,28 @@ def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
     """Map names to the Block classes that a kind's module declares for values of its fields."""
     declared = [each for each in Block.__subclasses__() if each.__module__ == kind.__module__]
     return {each.__name__.lower(): each for each in declared if not issubclass(each, Picture)}
+
+
+def nested(kinds: Iterable[type[Picture]]) -> dict[str, type[Block]]:
+    """Map places to the Block classes that groups of fields declare for values of their fields."""
+    found: dict[type[Block], str] = {}
+
+    def look(place: str, annotation: Any) -> None:
+        block = isinstance(annotation, type) and issubclass(annotation, Block)
+        if block and found.setdefault(annotation, place) == place:
+            look_in(annotation, f"{place}: ")
+        place += {dict: ": each", list: ": an entry"}.get(get_origin(annotation), "")
+        for each in get_args(annotation):
+            look(place, each)
+
+    def look_in(model: type[Block], before: str = "") -> None:
+        for name, field in model.model_fields.items():
+            look(f"{before}{name}", field.annotation)
+
+    for kind in kinds:
+        look_in(kind)
+    own = {BallBlock, *METHOD_BLOCKS.values()} | {m for k in kinds for m in mappings(k).values()}
+    return {place: model for model, place in found.items() if model not in own}
 
 
 def own_fields(kind: type[Picture]) -> list[str]:

@@ -87,7 +87,7 @@ NOT_EMPTY = Predicate(lambda block: bool(block.model_fields_set))  # of a block 
 
 # A union of two types names them by tags, of which pydantic makes a part of an error's location.
 TAGS = ("(first)", "(second)")
-_FIRST, _SECOND = map(Tag, TAGS)
+FIRST, SECOND = map(Tag, TAGS)
 
 
 def first_if(*types: type) -> Discriminator:
@@ -141,17 +141,6 @@ class Axis(Block):
         return low <= value <= high
 
 
-class View(Block):
-    """a mapping with the keys elevation and azimuth"""
-
-    elevation: float = allowed("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
-    """Angle of the viewing direction above the plane of x and xdot, in degrees. Small angles show
-    the surface from the side, large ones from above."""
-    azimuth: float = allowed("a number of degrees from -360 to 360", ge=-360, le=360)
-    """Angle of the viewing direction around the axis of udot, in degrees, from the axis of x
-    towards the axis of xdot. Turn it until the islands of interest face the viewer."""
-
-
 class Point(Block):
     """a mapping with the keys x and xdot, or x and y = xdot - k udot"""
 
@@ -164,69 +153,7 @@ class Point(Block):
     """The coordinate y = xdot - k udot of the section, in omega R."""
 
 
-class Branch(Block):
-    """a mapping with the key length"""
-
-    length: float = allowed("a positive number, in radii of the section", gt=0)
-    """Arc length along which each of these branches is traced from its periodic point, in section
-    radii. Longer branches fold more often, and need more points and more time."""
-
-
-class BothBranches(Block):
-    """a mapping with the keys outer and inner, or one of them"""
-
-    outer: Branch = ABSENT
-    """Branches on the far side of the fixed point, which fold in the chaotic sea."""
-    inner: Branch = ABSENT
-    """Branches on the fixed point's side, which enclose the main island."""
-
-
-class Resolution(Block):
-    """a mapping with the keys distance and bend"""
-
-    distance: float = allowed("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
-    """Largest distance between neighbouring points of a traced line, in section radii. Use 0.01
-    for a picture of the whole section. Points are inserted until it holds."""
-    bend: float = allowed("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
-    """Largest angle between neighbouring pieces of a traced line, in degrees. A smaller angle
-    resolves folds better. 10 looks smooth."""
-
-
-class Window(Block):
-    """a mapping with the keys x and xdot"""
-
-    x: Range
-    """Ends of the window in x, measured from the point, in section radii."""
-    xdot: Range
-    """Ends of the window in xdot, measured from the point, in section radii times omega."""
-
-
 Fraction = Annotated[float, allowed("a fraction with -1 < start < 1", gt=-1, lt=1)]
-_ON_LINE = "a fraction of the section's radius with -1 < start < 1 (others are off the section)"
-_STARTS = (
-    "a list of fractions of the section's radius, each with -1 < start < 1, "
-    "or of points {x, xdot} or {x, y}"
-)
-Start = Annotated[
-    Annotated[Point, _FIRST] | Annotated[float, allowed(_ON_LINE, gt=-1, lt=1), _SECOND],
-    first_if(dict, Point),
-    allowed("a fraction of the section's radius, or a point {x, xdot} or {x, y}"),
-]
-Starts = Annotated[list[Start], allowed(_STARTS, min_length=1)]
-_Count = Annotated[int, whole(1, LARGEST)]
-_Counts = Annotated[
-    list[_Count], allowed("a list of whole numbers, one for each start", min_length=1)
-]
-Impacts = Annotated[
-    Annotated[_Counts, _FIRST] | Annotated[_Count, _SECOND],
-    first_if(list),
-    allowed("a whole number, or a list of them, one for each start"),
-]
-OrbitType = Literal["elliptic", "hyperbolic", "inverse hyperbolic"]
-Saddle = Annotated[
-    Literal["hyperbolic", "inverse hyperbolic"],
-    allowed("one of hyperbolic, inverse hyperbolic (others have no manifolds)"),
-]
 _Format = Literal["png", "svg", "pdf"]
 Formats = Annotated[
     list[_Format],

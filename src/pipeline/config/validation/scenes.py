@@ -16,7 +16,7 @@ from pydantic import create_model
 from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.scene import CompletionError, OfOrbits, Picture, Scene, exact
+from ..schema.scene import CompletionError, Picture, Scene, exact
 from ..schema.sets import SETS
 from ..schema.variant import Variant
 from .mistakes import Place, dotted, refusal, unknown, validate
@@ -170,8 +170,7 @@ def _scaled(scene: Picture, scale: float) -> Picture:
     for name in energies:
         if (value := getattr(scene, name, None)) is not None:
             scaled[name] = _times(value, scale, scale)
-    if isinstance(scene, OfOrbits):  # fractions of the section stay
-        starts = scene.starts
+    if starts := getattr(scene, "starts", None):  # fractions of the section stay
         scaled["starts"] = [_times(s, scale) if isinstance(s, Point) else s for s in starts]
     return scene.model_copy(update=scaled)
 
