@@ -13,7 +13,7 @@ from annotated_types import Predicate
 from pydantic import Field
 
 from pseudorigid.figures.axes.direction import disproportion
-from pseudorigid.kernel.closed_forms import fixed_point, twice_energy_above_rest
+from pseudorigid.kernel.closed_forms import energy_bounds, fixed_point, twice_energy_above_rest
 
 from . import fields
 from .fields import ABSENT, allowed
@@ -288,7 +288,7 @@ def _entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...
 def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
     """Yield energies without motion, with flights too long, or at which the ball could flatten."""
     k, g = exact(scene.ball.k), exact(scene.ball.g)
-    lowest, highest = -g * g / (2 * k), k / 2 - g
+    lowest, highest = energy_bounds(k, g)
     long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
     names = ["energy", "energies"] + ["span"] * scene.along_energy()
     for place, energy in _entries(scene, *names):
