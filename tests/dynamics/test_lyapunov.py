@@ -132,3 +132,8 @@ def test_exponents_and_time_are_unknown_together():
     for each in (found, many, scene):
         exponents, time = each["exponent"].values, each["time"].values
         assert np.array_equal(np.isnan(exponents).any(axis=-1), np.isnan(time))
+
+
+def test_orbits_of_a_scene_are_called_chaotic_by_their_largest_exponents():
+    data = scene_exponents(BALL, 0.01, [1.0, -0.2, 0.6], [400, 4000, 4000], 4)
+    assert data["type"].values.tolist() == ["undefined", "regular", "chaotic"]

@@ -7,7 +7,7 @@ import pytest
 from cycles import SETTINGS, motion_of
 from sections import BALL
 
-from pseudorigid import Ball, lyapunov_spectrum, motion, orbit, symmetric_orbits
+from pseudorigid import Ball, classify_orbits, lyapunov_spectrum, motion, orbit, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import of_type
 
@@ -55,6 +55,13 @@ def test_keep_last_takes_constant_memory():
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 5_000_000  # all impacts would take 128 MB
+
+
+def test_an_orbit_of_a_scene_that_grazes_exactly_is_undefined():
+    starts = [-1.0, 1.0, 0.5, -0.2]  # the first one leaves the rim, the second one rests there
+    types = scene_orbits(BALL, 0.01, starts, 20)["type"].values.tolist()
+    assert types == ["undefined", "undefined", "chaotic", "regular"]
+    assert types == classify_orbits(BALL, BALL.start(starts, 0.01))["type"].values.tolist()
 
 
 def test_a_scene_is_a_ragged_array():

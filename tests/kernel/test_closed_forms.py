@@ -27,8 +27,10 @@ def test_energies_have_the_bits_of_a_ball():
     assert np.array_equal(energy, BALL.energy(x, xdot, udot))
     above = closed_forms.twice_energy_above_rest(K, G, ENERGY)
     assert np.array_equal(above / K, formulas.radius_squared(K, G, ENERGY))
+    assert closed_forms.energy_bounds(K, G) == BALL.energy_bounds()
 
 
 def test_fractions_stay_exact():
     k, g, energy = Fraction("0.2"), Fraction("0.04"), Fraction("0.01")
     assert closed_forms.twice_energy_above_rest(k, g, energy) == Fraction("0.028")
+    assert closed_forms.energy_bounds(k, g) == (Fraction("-0.004"), Fraction("0.06"))

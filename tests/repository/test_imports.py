@@ -182,9 +182,10 @@ def names_of_parts():
         found |= {each.key for each in part.sets.values()}
         found |= {each.folder for each in part.sets.values()}
         found |= {pattern.partition("/")[0] for pattern in part.generated}
+    keys = {each.key for each in SETS.values()}
     for file in files("scenes.yaml").values():
         for key, block in yaml.safe_load(file.read_text()).items():
-            found |= {key, *block} if key != "ball" else set()
+            found |= {*block} if key in keys else set()
     return found - KEYS - {""}
 
 

@@ -19,6 +19,7 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, exact
+from pseudorigid.kernel.closed_forms import energy_bounds
 
 # Bounds of a sweep.
 LARGEST_IMPACTS = 10_000_000_000_000  # a larger number is a slip
@@ -160,7 +161,7 @@ def _energy_errors(
     first: float, last: float, k: list[float], g: float | None
 ) -> Iterator[CrossFieldError]:
     """Yield an error for the first or last energy, or for g, if a ball could rest or flatten."""
-    lowest = -1 / (2 * exact(k[-1]))
+    lowest, _ = energy_bounds(exact(k[-1]), 1)
     if not exact(first) > lowest:
         words = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k[-1]} is at rest"
         yield ("energy",), first, words
@@ -169,7 +170,7 @@ def _energy_errors(
     elif g is not None and not g < k[0]:
         yield ("g",), g, f"0 < g < k = {k[0]}"
     elif g is not None:
-        highest = (exact(k[0]) / 2 - exact(g)) / exact(g) ** 2
+        highest = energy_bounds(exact(k[0]), exact(g))[1] / exact(g) ** 2
         if not exact(last) < highest:
             words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
             yield ("energy",), last, words

@@ -64,8 +64,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
     if mixed:
-        names = zip(scene["starts"], chaotic, lines, strict=True)
-        entries = [(_key_text(start, sea), hue, "", dashes) for start, sea, (hue, dashes) in names]
+        names = zip(scene["starts"], lyapunov["type"].values, lines, strict=True)
+        entries = [(_key_text(start, kind), hue, "", dash) for start, kind, (hue, dash) in names]
         panel.key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
     ends = np.median(final[in_inset], axis=0)
     inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
@@ -90,11 +90,11 @@ def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
     return np.where(known, lyapunov["impact"].values[:, None], 1).max(axis=0)
 
 
-def _key_text(start: Any, chaotic: bool) -> str:
-    """Return the key's text for a start: its coordinates, and "chaotic" or "regular"."""
+def _key_text(start: Any, kind: str) -> str:
+    """Return the key's text for a start: its coordinates, and the type of its orbit."""
     points = start.items() if isinstance(start, dict) else [("start", start)]
     text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
-    return f"{text}: {'chaotic' if chaotic else 'regular'}"
+    return f"{text}: {kind}"
 
 
 class _Inset(panel.Window):

@@ -22,8 +22,8 @@ def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
     Raises ValueError if nothing can be seen.
     """
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
-    types = orbits["type"].values
-    chaotic, regular = (np.flatnonzero(types == kind).tolist() for kind in ("chaotic", "regular"))
+    is_regular = orbits["type"].values == "regular"
+    chaotic, regular = (np.flatnonzero(is_regular == each).tolist() for each in (False, True))
     name = style.plural("chaotic orbit", len(chaotic))
     box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
     hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}

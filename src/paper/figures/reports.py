@@ -122,7 +122,7 @@ def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, An
     largest = sorted(final_exponents(lyapunov)[chaotic, 0].tolist())
     return {
         "chaotic": len(largest),
-        "regular": chaotic.size - len(largest),
+        "regular": int((lyapunov["type"] == "regular").sum()),
         "largest": [f"{value:.4f}" for value in largest[:: max(len(largest) - 1, 1)]],
         "inset": bool(drawn(block, lyapunov)[1].size),
     }

@@ -102,7 +102,8 @@ def scene_exponents(
 
     Starts are as in `orbits.start_state`. `impacts` is one number for all orbits, or one for each.
     Then each orbit has records of its own; `exponent` and `time` are NaN at those of the others.
-    `type` calls an orbit chaotic if its largest exponent exceeds `regular_bound`.
+    `type` is "chaotic" for an orbit whose largest exponent exceeds `regular_bound`, "regular" for
+    another one, and "undefined" for one that grazes at once.
 
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
@@ -120,6 +121,9 @@ def scene_exponents(
     known = ~np.isnan(result["exponent"].values[:, :, 0])
     lengths = np.where(known, result["impact"].values[:, None], 1).max(axis=0)
     bounds = [regular_bound(length) for length in lengths.tolist()]
-    types = np.where(final_exponents(result).max(axis=1) > bounds, "chaotic", "regular")
+    largest = final_exponents(result).max(axis=1)
+    types = np.where(
+        largest > bounds, "chaotic", np.where(np.isnan(largest), "undefined", "regular")
+    )
     table = described({"type": ("orbit", types, "regular or chaotic")})
     return result.assign(start_variables(starts, states) | table)

@@ -78,9 +78,9 @@ def scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
-    Starts are as in `start_state`. `impacts` is the number of all orbits, or a list. `type` says
-    which orbits are chaotic by `chaotic_orbits`, which follows short ones further; one that grazes
-    exactly counts as chaotic.
+    Starts are as in `start_state`. `impacts` is the number of all orbits, or a list. `type` is
+    "regular" or "chaotic" by `chaotic_orbits`, which follows short orbits further, and "undefined"
+    for one that grazes exactly, as in `classify_orbits`.
 
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
@@ -101,8 +101,11 @@ def ragged_orbits(
     data |= described({"row_size": ("orbit", np.array(impacts, np.int64), "number of impacts")})
     data["row_size"][2]["sample_dimension"] = "point"
     orbits = xr.Dataset(data)
-    chaotic = chaotic_orbits({"k": ball.k, "g": ball.g}, orbits)
-    types = np.where(np.isin(np.arange(len(starts)), chaotic), "chaotic", "regular")
+    types = np.full(len(starts), "regular", dtype=object)
+    types[chaotic_orbits({"k": ball.k, "g": ball.g}, orbits)] = "chaotic"
+    for orbit, (state, piece) in enumerate(zip(states, pieces, strict=True)):
+        speeds = np.append(piece[1] + piece[2], state[1] + state[2])
+        types[orbit] = types[orbit] if np.all(speeds > 0.0) else "undefined"
     return orbits.assign(described({"type": ("orbit", types, "regular or chaotic")}))
 
 

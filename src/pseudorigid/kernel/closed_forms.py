@@ -1,7 +1,7 @@
 """Closed formulas for any kind of number; to import them loads no compiler.
 
 k is the Euler inertia, eq. (5), and g gravity. Lengths are in R, times in 1/omega and energies in m
-omega^2 R^2. Only + - * / act on the arguments, so that Fractions give exact results.
+omega^2 R^2. The section and the bounds of the energy are exact for Fractions.
 """
 
 import math
@@ -21,6 +21,11 @@ def twice_energy_above_rest(k: Any, g: Any, energy: Any) -> Any:
     udot).
     """
     return 2 * energy + g * g / k
+
+
+def energy_bounds(k: Any, g: Any) -> tuple[Any, Any]:
+    """Return the energy at rest on the floor, and the upper bound, eq. (31), that keeps u > -1."""
+    return -g * g / (2 * k), k / 2 - g
 
 
 def _sincos(angle: float) -> tuple[float, float]:

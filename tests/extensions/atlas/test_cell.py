@@ -123,7 +123,7 @@ def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
 def joined(size):
     """The dataset of the small sweep, computed in blocks of this size."""
     sweep = SMALL | {"block": size}
-    parts = [cell.block_of_cells_of_a_sweep(**part) for part in kinds.parts(sweep)]
+    parts = [cell.block_of_cells_of_a_sweep(**part) for part in kinds.blocks(sweep)]
     return dataset_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
 
 

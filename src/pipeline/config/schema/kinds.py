@@ -18,7 +18,8 @@ def _declared() -> dict[str, type[Picture]]:
             if ours and issubclass(value, Picture):
                 kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
                 value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
-                value.reported_by = f"{package}.figures.reports.{kind}"
+                figures = value.drawn_by.rsplit(".", 2)[0]
+                value.reported_by = f"{figures}.reports.{kind}"
                 kinds[kind] = value
     return dict(sorted(kinds.items()))
 

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any, ClassVar, Self
 
+from pseudorigid.kernel.closed_forms import energy_bounds
+
 from . import fields
 from .fields import ABSENT, allowed
 from .method import Method
@@ -110,7 +112,7 @@ def entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...]
 def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
     """Yield energies without motion, with flights too long, or at which the ball could flatten."""
     k, g = exact(scene.ball.k), exact(scene.ball.g)
-    lowest, highest = -g * g / (2 * k), k / 2 - g
+    lowest, highest = energy_bounds(k, g)
     long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
     names = ["energy", "energies"] + ["span"] * scene.along_energy()
     for place, energy in entries(scene, *names):
