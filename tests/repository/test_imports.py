@@ -17,6 +17,7 @@ from test_style import pins
 
 from pipeline.config.schema import scene
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.sets import SETS
 from pipeline.declaration import files, parts
 from pipeline.records.sources import source_files
 
