@@ -78,6 +78,15 @@ def test_the_control_separates_the_properties_at_both_energies(datasets, energy,
     assert claim.judge(datasets, {}).verdict == CORRECTED
 
 
+def test_the_twins_of_the_figures_have_strains_below_the_bounds(datasets):
+    claim = claims.CLAIMS[74]
+    numbers = claim.function(*(datasets[name] for name in claim.data)).numbers
+    for figure, least in zip("28", numbers["least"][2:], strict=True):
+        for name, most in ((f"g{figure}", 0.1), (f"g{figure}_tenth", 0.01)):
+            assert f"{{{name}:.3g}}" in claim.value
+            assert 0.99 * most < -least * float(f"{numbers[name]:.3g}") / 0.04 <= most
+
+
 # -- a wrong dataset changes the verdict ----------------------------------------------------------
 
 

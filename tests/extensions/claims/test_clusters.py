@@ -32,22 +32,22 @@ def start_of(i):
 
 @pytest.mark.parametrize("row, cut", [(0, 4.0), (1, 6.5)])
 def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
-    count, sizes, lengths, periods, pairs = 0, [], [], [], []
+    count, within, time, pairs = 0, 0.0, 0.0, []
     for i in range(CHAOTIC):
         path = orbit(BALL, start_of(i), 1500)
         x, tau = path["x"].values, path["tau"].values
         y = path["xdot"].values - 0.2 * path["udot"].values
         begun = [i for i in range(1500) if tau[i] > cut]
         count += len(begun)
+        within += sum(t for t in tau if t <= cut)
+        time += sum(tau)
         for first, then in itertools.pairwise(begun):
-            sizes.append(then - first)
-            lengths.append(sum(tau[first + 1 : then]))
-            periods.append(sum(tau[first + 1 : then + 1]))
             pairs.append((x[first], y[first], x[then], y[then]))
     assert int(clustering["count"].values[row]) == count
-    assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(np.mean(sizes))
-    assert float(clustering["cluster_time"].values[row]) == pytest.approx(np.mean(lengths))
-    assert float(clustering["period"].values[row]) == pytest.approx(np.mean(periods))
+    size, length, period = CHAOTIC * 1500 / count, within / count, time / count
+    assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(size)
+    assert float(clustering["cluster_time"].values[row]) == pytest.approx(length)
+    assert float(clustering["period"].values[row]) == pytest.approx(period)
     assert clustering.sizes["orbit"] == CHAOTIC
     expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
     np.testing.assert_allclose(clustering["correlation"].values[row, 0], expected, atol=1e-10)
@@ -79,6 +79,17 @@ def test_energies_and_strains_are_those_of_quadrature(clustering):
     assert float(first["largest_strain"]) == pytest.approx(high, abs=1e-6)
     assert np.all(clustering["energy_error"].values < 1e-14)
     assert int(clustering["flights"].sum()) == CHAOTIC * 1500
+
+
+def test_times_between_clusters_do_not_depend_on_the_length_of_the_orbits():
+    """Parts of orbits, in which the ends cut many clusters, have the same means on average."""
+    states = np.zeros((1, 100_001, 4))
+    states[0, 1:, 3] = np.random.default_rng(4).exponential(1.0, 100_000)
+    _, whole = clusters_module._clusters(states[0], 0.2, 3.0)
+    parts = states[0, 1:].reshape(5_000, 20, 4)
+    parts = np.concatenate([np.zeros((5_000, 1, 4)), parts], axis=1)
+    short = sum(clusters_module._clusters(part, 0.2, 3.0)[1] for part in parts)
+    np.testing.assert_allclose(short / short[0], whole / whole[0], rtol=1e-12)
 
 
 @pytest.mark.parametrize("memory", [0.0, 0.6])

@@ -69,6 +69,11 @@ def test_curves_are_not_excluded_and_everything_else_is(excluded):
     assert np.array_equal(known, known[::-1])
 
 
+def test_the_error_of_a_share_counts_a_point_and_its_mirror_image_once(excluded):
+    share, count = excluded["share"].values, (excluded["excluded"].values >= 0).sum() // 2
+    np.testing.assert_allclose(excluded["share_error"] ** 2, share * (1.0 - share) / count)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("energy", "shares"),

@@ -144,6 +144,13 @@ def test_each_picture_is_of_the_set_that_it_names(data):
     assert titles["study/energy"].startswith("What an energy check detects")
 
 
+def test_the_text_refers_to_each_picture():
+    source = SOURCE.read_text()
+    for names in re.findall(r"#(?:pair|beside)\(([^)]*)\)", source):
+        for name in re.findall(r'"([\w/]+)"', names):
+            assert re.search(rf"@{name.replace('/', '-')}\b", source), name
+
+
 def test_each_tick_that_the_paper_prints_is_in_the_comparison(data):
     ours = {scene: data["figures"][scene]["settings"]["axes"] for scene in numbers.PRINTED_TICKS}
     for scene, axes in numbers.PRINTED_TICKS.items():

@@ -58,8 +58,10 @@ def clusters(
     """Compute flight times in the sea, clusters for each cut, and the memory between clusters.
 
     The orbits are the chaotic ones of `orbits` that start evenly over the section (`sea_states`).
-    A cluster is compared with the next ones, up to `lags` later. Means of clusters are ratios of
-    sums over all orbits. ValueError is raised for a cut that leaves no orbit lags + 2 clusters.
+    A cluster is compared with the next ones, up to `lags` later. Means of clusters are those of all
+    impacts and times over the number of clusters begun (Kac's lemma): means over whole clusters
+    alone would be too small, since an orbit's ends cut long ones. ValueError is raised for a cut
+    that leaves no orbit lags + 2 clusters.
 
     >>> from pseudorigid import Ball
     >>> data = clusters(Ball(k=0.2, g=0.04), 0.01, 4, 200, [4, 6], 2, 10, 1)
@@ -83,7 +85,8 @@ def clusters(
         errors.append(np.max(np.abs(ball.energy(*out.T[:3]) - energy), axis=0))
         for clusters_of_cut, cut in zip(begun, cuts, strict=True):
             clusters_of_cut += [_clusters(row, ball.k, cut) for row in out]
-        highest = max(highest, float(np.sort(out[:, 1:, 3])[:, -(lags + 2)].max()))
+        place = -(lags + 2)
+        highest = max(highest, float(np.partition(out[:, 1:, 3], place)[:, place].max()))
     for cut in cuts:
         if not cut < highest:
             raise ValueError(
@@ -148,19 +151,14 @@ def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
 
 
 def _clusters(out: np.ndarray, k: float, cut: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first states (2, n) of an orbit's clusters, and sums over all but the last.
+    """Return the first states (2, n) of an orbit's clusters, and sums over the orbit.
 
-    The sums are those of ones, of impacts, and of times to a cluster's last impact and to the next
-    cluster's first.
+    The sums are those of clusters, impacts, times within clusters, and times.
     """
     tau = out[1:, 3]
-    begun = np.flatnonzero(tau > cut) + 1
-    first = np.array(chart(k, *out[begun, :3].T))
-    if not begun.size:
-        return first, np.zeros(4)
-    period = float(tau[begun[0] : begun[-1]].sum())
-    within = period - float(tau[begun[1:] - 1].sum())
-    return first, np.array([begun.size - 1.0, float(begun[-1] - begun[0]), within, period])
+    between = tau > cut
+    first = np.array(chart(k, *out[1:][between, :3].T))
+    return first, np.array([between.sum(), tau.size, tau[~between].sum(), tau.sum()])
 
 
 def _row(
@@ -168,11 +166,10 @@ def _row(
 ) -> tuple[Any, ...]:
     """Return the values of _OF_CUTS for one cut, from `_clusters` of each orbit."""
     first, sums = zip(*begun, strict=True)
-    ones, *others = np.transpose(sums)
-    size, length, period = (ratio(values, ones) for values in others)
-    count = float(sum(states.shape[1] for states in first))
+    count, *others = np.transpose(sums)
+    size, length, period = (ratio(values, count) for values in others)
     correlation, dependence = _memory(first, lags, resampled)
-    return count, size[0], length[0], *period, *correlation, *dependence
+    return count.sum(), size[0], length[0], *period, *correlation, *dependence
 
 
 def _memory(

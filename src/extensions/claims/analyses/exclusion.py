@@ -22,7 +22,7 @@ from .sea import as_array, half_axes
 
 _EXCLUDED = "impacts forwards and backwards that exclude the point; 0 if none do"
 _SHARE = "share of the section that so many impacts, forwards and backwards, exclude"
-_ERROR = "its standard error, as if the points of the grid were random"
+_ERROR = "its standard error, as if the points that are followed were random"
 
 
 def exclusion(ball: Ball, energy: float, grid: int, followed: int) -> xr.Dataset:
@@ -49,7 +49,7 @@ def exclusion(ball: Ball, energy: float, grid: int, followed: int) -> xr.Dataset
         *states, centre + width * place, ball.k, ball.g, followed
     )
     excluded = np.concatenate([of_half[::-1], of_half])
-    known = excluded[excluded >= 0]
+    known = of_half[of_half >= 0]
     counts = np.bincount(known, minlength=followed + 1)
     share = np.cumsum(counts[1:]) / known.size
     data = {

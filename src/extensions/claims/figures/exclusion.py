@@ -93,5 +93,5 @@ def _shares(sheet: Sheet, exclusion: xr.Dataset, curves: xr.Dataset) -> None:
     proved = float(curves["share"].values[curves["period"].values == 1].max(initial=0.0))
     if proved:
         panel.line([1, impacts[-1]], [proved] * 2, color=style.VERMILION, lw=0.9, ls="--")
-        panel.note(1, proved, "proved to be inside an invariant curve", shift=(4, -14))
+        panel.note(1, proved, "proved to be inside an invariant curve", shift=(4, -7))
     panel.line(impacts, left, color=style.BLUE, lw=1.1)

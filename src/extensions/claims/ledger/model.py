@@ -1,6 +1,7 @@
 """Checks of claims of the paper's sections 1 to 3: model, map, energy, bounds and figures."""
 
 import json
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -128,10 +129,17 @@ def infinitesimal(
     numbers |= {"percent": 100.0 * clusters["strained"].values.mean()}
     for name, orbits, strain in zip(("2", "8"), (fig2, fig8), least[2:], strict=True):
         g = orbits.attrs["g"]
-        numbers |= {f"g{name}": 0.1 * g / -strain, f"g{name}_tenth": 0.01 * g / -strain}
+        limit = _rounded_down(STRAIN * g / -strain)
+        numbers |= {f"g{name}": limit, f"g{name}_tenth": 0.1 * limit}
         numbers[f"scaled{name}"] = orbits.attrs["energy"] / (g * g)
     small = min(least) > -STRAIN
     return Outcome(HOLDS, numbers, case="small") if small else Outcome(CORRECTED, numbers)
+
+
+def _rounded_down(number: float) -> float:
+    """Return a positive number with three digits, not above it."""
+    unit = 10.0 ** (math.floor(math.log10(number)) - 2)
+    return math.floor(number / unit) * unit
 
 
 def bisection(lyapunov: xr.Dataset) -> Outcome:

@@ -247,6 +247,7 @@ def conjecture(
     if not (separate and formula(algebra, "area", "reversible")[1]):
         return Outcome(UNDECIDED, case="mixed")
     numbers: dict[str, Any] = {"strength": control.attrs["shown"], "unkept": unkept}
+    numbers["impacts"] = int(control["length"][-1])
     numbers["same"] = [row for row in rows if len(row["shares"]) == len(PROPERTIES)]
     numbers["shift"] = [row for row in rows if len(row["shares"]) < len(PROPERTIES)]
     numbers["unchanged"] = numbers["shift"]  # one row for each energy
