@@ -1,12 +1,13 @@
 """Captions say what was computed and drawn, of any scene, and name a scene after its set."""
 
-import json
+from pathlib import Path
 
 import pytest
 from examples import PAPER, SHELL, checked, computed
 from project import ROOT, SHIPPED
 
 from pipeline import config
+from pipeline.checks import manifest
 from pipeline.checks.captions import CAPTIONS, caption_of
 from pipeline.checks.figures_page import page
 from pipeline.checks.quantities import facts
@@ -96,10 +97,10 @@ def test_every_kind_that_is_drawn_has_a_caption_with_and_without_data():
             assert not block.formats or len(caption_of(name, block.as_mapping()).shows) > 100
     assert CAPTIONS.keys() <= KINDS.keys()
     for folder in PUBLISHED.values():
-        for name, scene in json.loads((ROOT / folder / "MANIFEST.json").read_text())[
-            "scenes"
-        ].items():
-            assert caption_of(name, scene["config"], scene["facts"]).shows
+        committed = manifest.read(ROOT, folder)
+        for name, drawing in manifest.published(committed).items():
+            record = committed["results"][drawing]
+            assert caption_of(Path(name).stem, record["config"], record["output"]).shows
 
 
 def test_a_caption_says_what_the_axes_hide():

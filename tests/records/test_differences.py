@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.records.differences import differing_keys, differing_origin
+from pipeline.records.differences import differing_keys, differing_layers
 
 STARTS = [0.1, {"x": 0.2, "xdot": 0.0}, 0.3]
 
@@ -30,9 +30,10 @@ def test_every_field_and_every_package_that_differs_is_named():
     other = {"impacts": 61, "records": 7, "axes": {"t": {"limits": [0, 2]}}, "sea": [1]}
     packages = {"numpy": "1", "numba": "2", "xarray": "3"}
     before = {"config": block, "sources": {"a.py": "0"}, "environment": packages}
+    before |= {"inputs": {"a.nc": "0"}, "output": {"sha256": "0"}}
     after = before | {"config": other, "environment": {"numpy": "2", "xarray": "3"}}
-    assert differing_origin(before, after) == {
+    assert differing_layers(before, after) == {
         "config": "axes.t.limits[1] 1 -> 2; impacts 60 -> 61; records 6 -> 7; sea nothing -> [1]",
         "environment": "numba 2 then, not installed here; numpy 1 then, 2 here",
     }
-    assert differing_origin(before, before) == {}
+    assert differing_layers(before, before) == {}

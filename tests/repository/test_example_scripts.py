@@ -21,7 +21,7 @@ SCRIPTS = sorted(file.stem for file in FOLDER.glob("*.py"))
 
 def save_orbits_of_figure_2(folder):
     manifest = json.loads((ROOT / "paper_figures" / "MANIFEST.json").read_text(encoding="utf-8"))
-    scene = manifest["scenes"]["fig2"]["config"]
+    scene = manifest["results"]["results/paper/figures/fig2.png"]["config"]
     data = scene_orbits(Ball(**scene["ball"]), scene["energy"], scene["starts"], scene["impacts"])
     artifacts.save(data, folder / "results" / "paper" / "orbits_fig2.nc", {})
 

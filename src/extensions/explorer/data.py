@@ -95,17 +95,18 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     orbits = []
     try:
         manifest = json.loads(read_text(root / name))
-        for figure, scene in manifest["scenes"].items():
-            block = scene["config"]
-            if block["picture"] != "portrait":
+        for path, record in manifest["results"].items():
+            block = record["config"]
+            if block.get("picture") != "portrait" or not path.endswith(".png"):
                 continue
+            (data,) = record["inputs"]
             starts, counts = block["starts"], block["impacts"]
             if not all(isinstance(start, float) for start in starts):
                 continue
-            variables = manifest["data"][scene["data"]["orbits"]]["variables"]
+            variables = manifest["results"][data]["output"]["variables"]
             orbits.append(
                 {
-                    "figure": figure,
+                    "figure": Path(path).stem,
                     **block["ball"],
                     "energy": block["energy"],
                     "starts": starts,

@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.checks import manifest, verify
-from pipeline.checks.layers import Comparison, dataset_difference
+from pipeline.checks.freshness import Freshness
+from pipeline.checks.layers import Comparison
 from pipeline.checks.published_sets import (
     MANIFEST,
     SUMS,
@@ -33,9 +34,10 @@ from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.declaration import parts
 from pipeline.records import files
 from pipeline.records.artifacts import ArtifactError, load
+from pipeline.records.differences import differing_data
 from pipeline.records.files import FileError, file_hash, read_bytes
 from pipeline.records.pictures import PictureError, picture_difference
-from pipeline.records.record import SHAPE, git, read_record, record_path
+from pipeline.records.record import RecordError, git, public_record, record_path
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -160,11 +162,10 @@ def _sources(root: Path) -> list[str]:
 def _public_record(root: Path, path: str) -> bytes:
     """Return the record of a result without commit and Python, which belong to one machine."""
     try:
-        record = read_record(root, record_path(path))
-    except ValueError:
+        record = public_record(root, path)
+    except RecordError:
         return b""
-    public = {name: record[name] for name in SHAPE}
-    return (json.dumps(public, sort_keys=True, indent=1) + "\n").encode()
+    return (json.dumps(record, sort_keys=True, indent=1) + "\n").encode()
 
 
 def read(path: Path | str) -> Contents:
@@ -280,7 +281,7 @@ def _data_difference(root: Path, path: str, other: Path) -> str:
     """Return how a dataset of this tree differs from its copy in the folder `other`."""
     try:
         ours, theirs = load(root / path), load(other / path)
-        words = dataset_difference(root, path, manifest.describe_data(theirs))
+        words = differing_data(*map(manifest.describe_data, (theirs, ours)))
     except (ArtifactError, FileError) as error:
         return str(error)
     gaps = [0.0]
@@ -289,7 +290,7 @@ def _data_difference(root: Path, path: str, other: Path) -> str:
         if a.shape == b.shape and {a.dtype.kind, b.dtype.kind} <= {*"iuf"}:
             gaps.append(float(np.nanmax(np.abs(a.values - b.values), initial=0.0)))
     size = f"numbers differ by at most {max(gaps):.3g}"
-    return f"{words}; {size}" if words else "the same in other bytes"
+    return f"{path}: {words}; {size}" if words else "the same in other bytes"
 
 
 def _drawing_differences(
@@ -302,7 +303,8 @@ def _drawing_differences(
     try:
         with suppress(ChecksumError):
             committed = manifest.read(other, published_set.folder)
-            layers = Comparison(root, published_set, committed).layers(name) or {}
+            freshness = Freshness(root, published_set.build_specs)
+            layers = Comparison(freshness, published_set, committed).layers(name) or {}
         if "file" not in layers:
             words = picture_difference(root / path, other / path, image)[0]
             layers["drawing"] = f"{path}: {words}"

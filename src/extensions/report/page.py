@@ -147,9 +147,11 @@ class _Page:
         scene, variant = Path(name).stem, published_set.group
         block = self.variants[variant][scene]
         identifier = published.replace("/", "-")
-        entry = committed["scenes"].get(scene) if committed else None
-        as_committed = entry and entry["config"] == published_set.config.get(scene)
-        known = entry["facts"] if entry and as_committed else None
+        known, as_committed = None, False
+        if drawing and committed and drawing in committed["results"]:
+            entry = committed["results"][drawing]
+            as_committed = entry["config"] == published_set.build_specs[drawing].config
+            known = entry["output"] if as_committed else None
         if drawing and drawing not in findings.stale:
             known = self._facts(variant, scene)
         picture = self._described(identifier, variant, scene, block, published, known)

@@ -7,6 +7,7 @@ report, with the values from which the committed pictures were made.
 from functools import partial
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 import jinja2
 
@@ -22,9 +23,12 @@ def page() -> str:
     """Return the text of docs/figures.md."""
     sections, config = [], load(ROOT / "config.yaml")
     for published_set in published_sets.committed_sets(config):
-        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
+        committed = manifest.read(ROOT, published_set.folder)
         group = published_set.group
-        known = {name: (scene["config"], scene["facts"]) for name, scene in scenes.items()}
+        known: dict[str, tuple[dict[str, Any], dict[str, Any] | None]] = {}
+        for file, drawing in manifest.published(committed).items():
+            record = committed["results"][drawing]
+            known[Path(file).stem] = record["config"], record["output"]
         for scene in (Path(file).stem for file in published_set.measured):
             known[scene] = config.variants[group][scene].as_mapping(), None
         prefix = "" if group == MAIN else f"{group}/"

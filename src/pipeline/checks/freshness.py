@@ -7,21 +7,22 @@ from typing import Any
 
 from ..config.results import with_dependencies
 from ..records.build_spec import BuildSpec
-from ..records.differences import differing_files, differing_origin
+from ..records.differences import differing_layers
 from ..records.files import file_hash, why_not_a_file
 from ..records.record import RecordError, read_record, record_path, refusal_path, versions
 from ..records.sources import syntax_hash
 
 CURRENT = "current"
 MISSING = "missing"
-DAMAGED = "changed after it was made"
 REFUSED = "cannot exist: "  # how the reason begins then
 _FROM_CONFIG = "made from another config:"
-# Differing layer -> the beginning of the reason to recompute a result.
+# Differing layer -> the beginning of the reason to recompute a result, the first reason first.
 _MADE = {
-    "config": _FROM_CONFIG,
-    "source": "made by other code than this tree's:",
-    "environment": "made with",
+    "file": "",
+    "config": f"{_FROM_CONFIG} ",
+    "source": "made by other code than this tree's: ",
+    "environment": "made with ",
+    "data": "made from another ",
 }
 _MOST_CAUSES = 4  # in one line
 
@@ -91,15 +92,17 @@ class Freshness:
         return "; ".join(shown + more) or str(self.reason(paths[0]))
 
     def _refusal(self, path: str) -> str | None:
-        spec = self.build_specs[path]
-        for used in spec.inputs:
+        for used in self.build_specs[path].inputs:
             if used in self.build_specs and (why := self.refusal(used)):
                 return why
         try:
             record = read_record(self.root, refusal_path(path))
         except RecordError:
             return None
-        return None if self._difference(record, spec) else str(record["output"].get("refused"))
+        refused, here = record["output"], self.here(path)
+        return (
+            None if _difference(record, here | {"output": refused}) else str(refused.get("refused"))
+        )
 
     def _reason(self, path: str) -> str | None:
         if why := self.refusal(path):
@@ -118,17 +121,21 @@ class Freshness:
             record = read_record(self.root, record_path(path))
         except RecordError as error:
             return str(error)
-        if self.digest(path) != record["output"]["sha256"]:
-            return DAMAGED
-        return self._difference(record, self.build_specs[path])
+        return _difference(record, self.here(path))
 
-    def _difference(self, record: dict[str, Any], spec: BuildSpec) -> str | None:
-        """Return how a record of a result differs from the one that this tree would write."""
-        sources = {file: self.syntax_hash(file) for file in spec.sources}
-        here = {"config": spec.config, "sources": sources, "environment": self.packages}
-        if layers := differing_origin(record, here):
-            layer, words = next(iter(layers.items()))
-            return f"{_MADE[layer]} {words}"
-        inputs = {used: self.digest(used) for used in spec.inputs}
-        other = differing_files(record["inputs"], inputs)
-        return f"made from another {other.split()[0]}" if other else None
+    def here(self, path: str) -> dict[str, Any]:
+        """Return the record that this tree would write of a result, for the file that is there."""
+        spec = self.build_specs[path]
+        return {
+            "config": spec.config,
+            "sources": {file: self.syntax_hash(file) for file in spec.sources},
+            "environment": self.packages,
+            "inputs": {used: self.digest(used) for used in spec.inputs},
+            "output": {"sha256": self.digest(path)},
+        }
+
+
+def _difference(record: dict[str, Any], here: dict[str, Any]) -> str | None:
+    """Return the first reason why a record is not the one that this tree would write."""
+    layers = differing_layers(record, here)
+    return next((begin + layers[name] for name, begin in _MADE.items() if name in layers), None)

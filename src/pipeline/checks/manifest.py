@@ -1,7 +1,8 @@
-"""MANIFEST.json: what each figure of a folder of published files was made from, layer by layer.
+"""MANIFEST.json: the records of the results behind the published files of a folder.
 
-The layers are config, source, environment, data, drawing and file. `verify` names the layers
-in which a figure differs. Nothing in a manifest depends on the day, the folder or the commit.
+The entry of a result is its record without what belongs to one machine, and a description of its
+file, so that `verify` can name what differs. What records share stands once: the environment, the
+hash of a source, and a list of sources. Nothing depends on the day, the folder or the commit.
 """
 
 import hashlib
@@ -12,22 +13,27 @@ from typing import Any
 import pydantic
 import xarray as xr
 
-from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
+from ..records import pictures
+from ..records.artifacts import (
+    ArtifactError,
+    canonical_json,
+    canonical_values,
+    load,
+    plain_attributes,
+)
+from ..records.differences import BLOCK
 from ..records.files import file_hash, write_whole
-from ..records.pictures import describe
-from ..records.record import versions
-from ..records.sources import syntax_hash
+from ..records.record import public_record, versions
 from . import published_sets
 from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
 from .quantities import facts
 
-BLOCK = 1024  # values that are hashed together, so that a difference can be located
 _SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
 
 Manifest = dict[str, Any]  # with the fields of _Manifest
 
 
-class _VariableEntry(pydantic.BaseModel):
+class _Variable(pydantic.BaseModel):
     """A variable of a dataset; `blocks` has a short hash of each BLOCK of its values."""
 
     dims: list[str]
@@ -38,43 +44,35 @@ class _VariableEntry(pydantic.BaseModel):
     blocks: str
 
 
-class _DatasetEntry(pydantic.BaseModel):
-    """A dataset: hashes of its attributes, sizes of its dims, variables."""
+class _Output(pydantic.BaseModel):
+    """The file of a result, with what `describe` returns; a picture has its `facts` too."""
 
-    attributes: dict[str, str]
-    sizes: dict[str, int]
-    variables: dict[str, _VariableEntry]
-
-
-class _FileEntry(pydantic.BaseModel):
-    """A published file: what `pictures.describe` returns, and its hash."""
-
-    drawing: dict[str, int | str]
     sha256: str
+    drawing: dict[str, int | str] = {}
+    attributes: dict[str, str] = {}
+    variables: dict[str, _Variable] = {}
 
 
-class _SceneEntry(pydantic.BaseModel):
-    """A scene: its block, what its caption says, sources, stage -> name of data, and its files."""
+class _Entry(pydantic.BaseModel):
+    """The record of a result; `sources` are files, or the result that has the same ones."""
 
     config: dict[str, Any]
-    facts: dict[str, Any]
-    sources: list[str]
-    data: dict[str, str]
-    figures: dict[str, _FileEntry]
+    inputs: dict[str, str]
+    sources: list[str] | str
+    output: _Output
 
 
 class _Manifest(pydantic.BaseModel):
-    """Package -> version, path -> hash of texts and of sources, and datasets and scenes by name."""
+    """Package -> version, path -> hash of texts and of sources, and path -> entry of results."""
 
     environment: dict[str, str | None]
     texts: dict[str, str | None]
-    sources: dict[str, str | None]
-    data: dict[str, _DatasetEntry]
-    scenes: dict[str, _SceneEntry]
+    sources: dict[str, str]
+    results: dict[str, _Entry]
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the entry for a dataset in a manifest: hashes of its attributes and variables."""
+    """Describe a dataset by hashes of its attributes and variables."""
     variables = {}
     for name, variable in dataset.variables.items():
         dtype, values = canonical_values(variable)
@@ -95,36 +93,57 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
     return {"attributes": _attribute_hashes(dataset), "sizes": sizes, "variables": variables}
 
 
+def describe(root: Path, path: str) -> dict[str, Any]:
+    """Describe a dataset or a picture; of a damaged one, `error` says what is wrong."""
+    try:
+        if path.endswith(".nc"):
+            return describe_data(load(root / path))
+        return {"drawing": pictures.describe(root / path)}
+    except (ArtifactError, pictures.PictureError) as error:
+        return {"error": str(error).replace(f"{root}/", "")}
+
+
 def build(root: Path, published_set: PublishedSet) -> Manifest:
-    """Return the manifest of a set's files; ValueError or OSError if one cannot be read."""
-    datasets = {path for stages in published_set.data.values() for path in stages.values()}
-    sources = {scene: published_set.sources(scene) for scene in published_set.config}
-    source_files = sorted(set().union(*sources.values()))
-    folder = root / published_set.folder
+    """Return the manifest of a set's results; ValueError or OSError if one cannot be read."""
+    described = dict[str, dict[str, Any]]()
+    for scene, stages in published_set.data.items():
+        data = {stage: load(root / path) for stage, path in stages.items()}
+        described |= {path: describe_data(data[stage]) for stage, path in stages.items()}
+        for path in (path for path in published_set.drawn.values() if Path(path).stem == scene):
+            known = facts(published_set.build_specs[path].config, data)
+            described[path] = known | describe(root, path)
+    sources, results = dict[str, str](), dict[str, dict[str, Any]]()
+    for path in sorted(described):
+        record = public_record(root, path)
+        sources |= record["sources"]
+        files = [*record["sources"]]
+        same = next((p for p, entry in results.items() if entry["sources"] == files), files)
+        del record["environment"]
+        output = record["output"] | described[path]
+        results[path] = record | {"sources": same, "output": output}
     return {
         "environment": versions(),
         "texts": {path: file_hash(root / path) for path in published_set.text_files},
-        "sources": {path: syntax_hash(root / path) for path in source_files},
-        "data": {Path(path).name: describe_data(load(root / path)) for path in sorted(datasets)},
-        "scenes": {
-            scene: {
-                "config": block,
-                "facts": facts(
-                    block, {s: load(root / path) for s, path in published_set.data[scene].items()}
-                ),
-                "sources": sources[scene],
-                "data": {
-                    stage: Path(path).name for stage, path in published_set.data[scene].items()
-                },
-                "figures": {
-                    name: {"drawing": describe(folder / name), "sha256": file_hash(folder / name)}
-                    for name in sorted(published_set.drawn)
-                    if Path(name).stem == scene
-                },
-            }
-            for scene, block in published_set.config.items()
-        },
+        "sources": sources,
+        "results": results,
     }
+
+
+def record_of(manifest: Manifest, path: str) -> dict[str, Any]:
+    """Return the whole record of a result in a manifest."""
+    results, hashes = manifest["results"], manifest["sources"]
+    files = results[path]["sources"]
+    files = results[files]["sources"] if isinstance(files, str) else files
+    whole = {"sources": {file: hashes[file] for file in files}}
+    return results[path] | whole | {"environment": manifest["environment"]}
+
+
+def upstream(manifest: Manifest, path: str) -> list[str]:
+    """Return a result of a manifest and the results in it that it is made from."""
+    results, found = manifest["results"], [path]
+    for each in found:
+        found += [used for used in results[each]["inputs"] if used in results and used not in found]
+    return found
 
 
 def is_present(root: Path, published_set: PublishedSet) -> bool:
@@ -141,33 +160,34 @@ def read(root: Path, folder: str) -> Manifest:
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
         _Manifest.model_validate(manifest, strict=True)
+        for path in manifest["results"]:
+            record_of(manifest, path)
     except pydantic.ValidationError as error:
         first = error.errors()[0]
         key = ".".join(map(str, first["loc"]))
         raise ChecksumError(f"{name}: broken: {key}: {first['msg']}") from None
-    except (ValueError, RecursionError) as error:
+    except (ValueError, LookupError, RecursionError) as error:
         raise ChecksumError(f"{name}: broken: {error}") from None
     return manifest
 
 
-def sums(manifest: Manifest) -> dict[str, str]:
-    """Map each file name of the figures in a manifest to its SHA-256, sorted by name."""
-    figures = (item for scene in manifest["scenes"].values() for item in scene["figures"].items())
-    return {name: figure["sha256"] for name, figure in sorted(figures)}
+def published(manifest: Manifest) -> dict[str, str]:
+    """Map the name of each published file in a manifest to its drawing, sorted by name."""
+    results = manifest["results"].items()
+    return dict(sorted((Path(p).name, p) for p, each in results if "drawing" in each["output"]))
 
 
-def is_listed(root: Path, folder: str, manifest: Manifest) -> bool:
-    """Return whether a folder's checksum list has the sums of a manifest; raises ChecksumError."""
-    return published_sets.read_published_text(root, f"{folder}/{SUMS}") == format_sums(
-        sums(manifest)
-    )
+def sums(manifest: Manifest) -> str:
+    """Return the text of the checksum list that fits a manifest."""
+    results = manifest["results"]
+    return format_sums({n: results[p]["output"]["sha256"] for n, p in published(manifest).items()})
 
 
 def write(root: Path, folder: str, manifest: Manifest) -> None:
     """Write the manifest and the checksum list of a folder."""
     text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
     write_whole(root / folder / MANIFEST, f"{text}\n")
-    write_whole(root / folder / SUMS, format_sums(sums(manifest)))
+    write_whole(root / folder / SUMS, sums(manifest))
 
 
 def _checksum(manifest: Manifest) -> str:

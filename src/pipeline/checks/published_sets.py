@@ -8,10 +8,10 @@ import re
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..config import MAIN, Config
-from ..config.results import SHOWN, drawing, drawn, is_measured, with_dependencies
+from ..config.results import SHOWN, drawn, is_measured, with_dependencies
 from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
 from ..records.files import ABSENT, file_hash, read_text
@@ -41,23 +41,15 @@ class PublishedSet(NamedTuple):
     text_files: tuple[str, ...]  # other files that the command writes
     on_request: bool  # whether only its own command makes it; plain ./reproduce makes the paper's
     drawn: dict[str, str]  # name of a published file -> its drawing in results
-    config: dict[str, dict[str, Any]]  # scene -> the fields of its block that decide the drawing
     data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
     impossible: Mapping[str, str] = {}  # scene that is left out -> why it cannot exist
 
-    def sources(self, scene: str) -> list[str]:
-        """Return the project's files that decide a scene's figures."""
-        drawn = [path for name, path in self.drawn.items() if Path(name).stem == scene]
-        results = [*self.data[scene].values(), *drawn]
-        return sorted({file for path in results for file in self.build_specs[path].sources})
-
     def without(self, scenes: Mapping[str, str]) -> "PublishedSet":
         """Return the set without some scenes, which cannot exist for the given reasons."""
         return self._replace(
             drawn={n: path for n, path in self.drawn.items() if Path(n).stem not in scenes},
-            config={scene: block for scene, block in self.config.items() if scene not in scenes},
             data={scene: stages for scene, stages in self.data.items() if scene not in scenes},
             build_specs={p: s for p, s in self.build_specs.items() if s.scene not in scenes},
             impossible=scenes,
@@ -89,7 +81,6 @@ def _published(config: Config, group: str) -> PublishedSet:
         text_files=SETS[group].texts,
         on_request=group != MAIN,
         drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in SHOWN},
-        config={scene: drawing(block) for scene, block in scenes.items()},
         data={scene: config.data_of(group, scene) for scene in scenes},
         build_specs={path: specs[path] for path in with_dependencies(specs, drawings)},
         measured=measured,

@@ -162,10 +162,10 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
     findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
     try:
         findings.committed = committed = manifest.read(root, folder)
-        comparison = Comparison(root, published_set, committed)
+        comparison = Comparison(freshness, published_set, committed)
         findings.layers = {name: comparison.layers(name) for name in published_set.drawn}
         findings.problems += _other_files(root, published_set, committed)
-        if not manifest.is_listed(root, folder, committed):
+        if published_sets.read_published_text(root, f"{folder}/{SUMS}") != manifest.sums(committed):
             findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
     except published_sets.ChecksumError as error:
         findings.problems.append(str(error))
@@ -180,7 +180,7 @@ def _other_files(
     root: Path, published_set: PublishedSet, committed: manifest.Manifest
 ) -> Iterator[str]:
     """Yield a line for each file that nothing makes, and for each text that is not as committed."""
-    for name in manifest.sums(committed):
+    for name in manifest.published(committed):
         if name not in published_set.drawn:
             cannot = Path(name).stem in published_set.impossible
             words = "whose scene cannot exist" if cannot else "which config.yaml does not publish"

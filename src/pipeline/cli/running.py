@@ -7,8 +7,9 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from ..checks.freshness import DAMAGED, Freshness
+from ..checks.freshness import Freshness
 from ..config.results import with_dependencies
+from ..records.differences import DAMAGED
 from ..records.files import disk_is_full, memory_is_short, why_not_a_file
 from ..records.record import log_path, record_path
 from ..records.sources import ROOT

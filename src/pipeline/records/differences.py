@@ -1,8 +1,12 @@
-"""Describe in words how two config blocks, sets of files or sets of packages differ."""
+"""Describe in words how two records of one result differ."""
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
+
+DAMAGED = "changed after it was made"
+BLOCK = 1024  # values of a dataset that are hashed together, so that a difference can be located
 
 
 def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
@@ -29,59 +33,105 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
         yield place, before, after
 
 
-def differing_block(
-    before: dict[str, Any], after: dict[str, Any], was: str = "", now: str = ""
-) -> str | None:
-    """Describe every key that differs between two blocks of config; None if there is none.
+def differing_layers(
+    before: Mapping[str, Any], after: Mapping[str, Any], was: str = "", now: str = ""
+) -> dict[str, str]:
+    """Compare two records of one result: layer -> how `after` differs, the cause first.
 
-    A description reads `key old -> new` or, with `was` and `now`, `key: old {was}, new {now}`.
+    The layers are config, source, environment, data, drawing and file. Layers without a difference
+    are left out. An input is a hash or, as an output is, a mapping with `sha256` and maybe what
+    `manifest.describe` returns. With `was` and `now`, values of config and versions of packages are
+    named by where they stand.
     """
     form = f"{{}}: {{}} {was}, {{}} {now}" if was else "{} {} -> {}"
-    different = differing_keys(before, after)
-    return (
-        "; ".join(form.format(key, brief(old), brief(new)) for key, old, new in different) or None
-    )
+    blocks = differing_keys(before["config"], after["config"])
+    layers = {
+        "config": "; ".join(form.format(key, brief(old), brief(new)) for key, old, new in blocks),
+        "source": _differing_files(before["sources"], after["sources"]),
+        "environment": _differing_packages(
+            before["environment"], after["environment"], was or "then"
+        ),
+        "data": next(_differing_inputs(before["inputs"], after["inputs"]), ""),
+        **_differing_output(before["output"], after["output"]),
+    }
+    return {layer: words for layer, words in layers.items() if words}
 
 
-def differing_files(
-    before: Mapping[str, str | None], after: Mapping[str, str | None]
-) -> str | None:
-    """Name the first file whose hash differs; None if there is none. A hash of None says: gone."""
+def _differing_files(before: Mapping[str, str | None], after: Mapping[str, str | None]) -> str:
+    """Name the first file whose hash differs, or return "". A hash of None says: gone."""
     different = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if not different:
-        return None
+        return ""
     path = different[0]
     verb = "is new" if path not in before else "is gone" if after.get(path) is None else "differs"
     others = f" (and {len(different) - 1} more)" if len(different) > 1 else ""
     return f"{path} {verb}{others}"
 
 
-def differing_package(
-    before: Mapping[str, str | None], after: Mapping[str, str | None], was: str = "then"
-) -> str | None:
-    """Describe every package whose version differs; None if there is none."""
+def _differing_packages(
+    before: Mapping[str, str | None], after: Mapping[str, str | None], was: str
+) -> str:
+    """Describe every package whose version differs."""
     words = []
     for name in (name for name in sorted({*before, *after}) if before.get(name) != after.get(name)):
         here = f"{after[name]} here" if after.get(name) else "not installed here"
         words.append(f"{name} {before.get(name)} {was}, {here}")
-    return "; ".join(words) or None
+    return "; ".join(words)
 
 
-def differing_origin(
-    before: Mapping[str, Any], after: Mapping[str, Any], was: str = "", now: str = ""
-) -> dict[str, str]:
-    """Compare what a result was made from with what it is made from now: layer -> difference.
+def _differing_inputs(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[str]:
+    """Yield each input of another hash, and the difference of each with another description."""
+    for path in dict.fromkeys([*after, *before]):
+        old, new = before.get(path), after.get(path)
+        if old == new:
+            continue
+        if not isinstance(old, Mapping) or not isinstance(new, Mapping):
+            yield path
+        elif "error" in new:
+            yield new["error"]
+        elif words := differing_data(old, new):
+            yield f"{path}: {words}"
 
-    Both mappings have the block of config, the hashes of the sources and the environment. Layers
-    without a difference are left out.
-    """
-    packages = before["environment"], after["environment"]
-    layers = {
-        "config": differing_block(before["config"], after["config"], was, now),
-        "source": differing_files(before["sources"], after["sources"]),
-        "environment": differing_package(*packages, was or "then"),
-    }
-    return {layer: words for layer, words in layers.items() if words}
+
+def differing_data(before: Mapping[str, Any], after: Mapping[str, Any]) -> str | None:
+    """Describe the first difference of two descriptions of a dataset; None without one."""
+    old, new = before.get("variables", {}), after["variables"]
+    for name in sorted({*old, *new}):
+        if words := _differing_variable(old.get(name), new.get(name)):
+            return f"variable {name}{words}"
+    keys = differing_keys(before.get("attributes", {}), after["attributes"])
+    names = [name for name, *_ in keys]
+    verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
+    return verb.format(", ".join(names)) if names else None
+
+
+def _differing_variable(old: Mapping[str, Any] | None, new: Mapping[str, Any] | None) -> str | None:
+    """Describe the first difference of two descriptions of a variable; None without one."""
+    if old is None or new is None:
+        return f" is {'new' if old is None else 'gone'}"
+    for what in ("dims", "dtype", "shape", "attributes"):
+        if old[what] != new[what]:
+            words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
+            return f": another {what.removesuffix('s')}{words}"
+    if old["sha256"] == new["sha256"]:
+        return None
+    pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=False)
+    block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
+    first, size = block * BLOCK, math.prod(new["shape"])
+    return f" differs from block {block} on (value {first:,} of {size:,})"
+
+
+def _differing_output(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, str]:
+    """Return the layer in which the file of a result differs; empty without a difference."""
+    if before["sha256"] == after["sha256"]:
+        return {}
+    if "error" in after:
+        return {"file" if after["sha256"] is None else "drawing": after["error"]}
+    if "drawing" not in after:
+        return {"file": DAMAGED}
+    if after["drawing"] != before.get("drawing"):
+        return {"drawing": f"{after['file']}: another picture"}
+    return {"file": f"{after['file']}: the same picture in other bytes"}
 
 
 def brief(value: Any) -> str:

@@ -73,6 +73,12 @@ def read_record(root: Path, path: str) -> dict[str, Any]:
     return record
 
 
+def public_record(root: Path, result: str) -> dict[str, Any]:
+    """Return the record of a result without what belongs to one machine; raises RecordError."""
+    record = read_record(root, record_path(result))
+    return {name: record[name] for name in SHAPE}
+
+
 @contextmanager
 def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     """Write the record of a result once the body has made it; the current folder is the root.
@@ -97,7 +103,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     }
     require_unchanged(source_hashes)
     start = time.monotonic()
-    output: dict[str, Any] = {"file": spec.result}
+    output: dict[str, Any] = {}
     try:
         yield output
     except ValueError as error:

@@ -69,11 +69,13 @@ def numbers_of(root: Path, config: Config) -> str:
         raise ValueError(str(error)) from None
     figures: dict[str, Table] = {}
     for each in sets:
-        for scene, entry in committed[each.folder]["scenes"].items():
+        drawings = manifest.published(committed[each.folder]).values()
+        for scene, drawing in {Path(path).stem: path for path in drawings}.items():
             name = scene if each.group == MAIN else f"{each.group}/{scene}"
-            figures[name] = _figure(root, each, name, entry, committed[each.folder]["data"])
-    for scene, entry in committed[PUBLISHED[MAIN]]["scenes"].items():
-        figures[scene] |= {"rows": _rows(root, config, scene), "settings": entry["config"]}
+            figures[name] = _figure(root, each, name, committed[each.folder], drawing)
+            if each.group == MAIN:
+                settings = committed[each.folder]["results"][drawing]["config"]
+                figures[name] |= {"rows": _rows(root, config, scene), "settings": settings}
     return json.dumps(
         {
             **_of_citation(cff),
@@ -130,15 +132,21 @@ def _rows(root: Path, config: Config, scene: str) -> Table:
 
 
 def _figure(
-    root: Path, published: published_sets.PublishedSet, name: str, entry: Table, data: Table
+    root: Path, published: published_sets.PublishedSet, name: str, committed: Table, drawing: str
 ) -> Table:
     """Return what the article says of a committed picture."""
-    caption = caption_of(name, entry["config"], entry["facts"])
+    entry = committed["results"][drawing]
+    caption = caption_of(name, entry["config"], entry["output"])
     # For print an SVG file if there is one, for the web page the file that loads faster.
-    files = [f"{published.folder}/{file}" for file in sorted(entry["figures"])]
+    files = [
+        f"{published.folder}/{file}"
+        for file in manifest.published(committed)
+        if Path(file).stem == Path(drawing).stem
+    ]
     datasets = []
-    for file in sorted(Path(path).name for path in entry["data"].values()):
-        variables = data[file]["variables"]
+    data = {Path(path).name: path for path in manifest.upstream(committed, drawing)[1:]}
+    for file, path in sorted(data.items()):
+        variables = committed["results"][path]["output"]["variables"]
         digests = "".join(variables[name]["sha256"] for name in sorted(variables))
         digest = hashlib.sha256(digests.encode()).hexdigest()
         datasets.append({"file": file, "hash": digest[:_HASH_DIGITS]})

@@ -4,7 +4,13 @@ from pathlib import Path
 
 from ...checks import manifest
 from ...checks.layers import UPSTREAM
-from ...checks.published_sets import MANIFEST, SUMS, ChecksumError, committed_sets
+from ...checks.published_sets import (
+    MANIFEST,
+    SUMS,
+    ChecksumError,
+    committed_sets,
+    read_published_text,
+)
 from ...checks.verify import Findings, inspect
 from ...config import Config
 from ...records.files import read_bytes, write_whole
@@ -53,11 +59,11 @@ def _renew(root: Path, findings: Findings) -> None:
     fresh = manifest.build(root, published_set)
     try:
         committed = manifest.read(root, folder)
-        unchanged = fresh == committed and manifest.is_listed(root, folder, fresh)
+        listed = read_published_text(root, f"{folder}/{SUMS}")
     except ChecksumError as error:
         changes = [f"a new manifest ({error})"]
     else:
-        if unchanged:
+        if fresh == committed and listed == manifest.sums(fresh):
             print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
             return
         changes = _changes(root, findings, committed) or ["other changes behind the same pictures"]
@@ -78,5 +84,5 @@ def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> li
         if layers and set(layers) <= UPSTREAM:
             changes.append(f"{name}  the file is the same")
     drawn = findings.published_set.drawn
-    gone = [f"{name}  gone" for name in manifest.sums(committed) if name not in drawn]
+    gone = [f"{name}  gone" for name in manifest.published(committed) if name not in drawn]
     return changes + gone + findings.published_set.unlisted(root)

@@ -7,7 +7,7 @@ from ...checks.freshness import CURRENT, MISSING, Freshness
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
 from ...config.schema.sets import SETS
-from ...records.differences import columns, differing_block
+from ...records.differences import columns, differing_layers
 from ...records.sources import ROOT
 from ..arguments import Arguments
 
@@ -47,15 +47,16 @@ def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Se
     from ...checks import manifest  # takes long to import
 
     try:
-        scenes = manifest.read(ROOT, published_set.folder)["scenes"]
+        committed = manifest.read(ROOT, published_set.folder)
     except ChecksumError:
-        scenes = {}
+        committed = {"results": {}}
     for name, drawing in published_set.drawn.items():
         scene, path = PurePath(name).stem, f"{published_set.folder}/{name}"
         state, made = committed_state(ROOT, path), freshness.state(drawing)
-        if made == MISSING and scene in scenes:
-            blocks = scenes[scene]["config"], published_set.config[scene]
-            made = f"stale: {words}" if (words := differing_block(*blocks)) else MISSING
+        if made == MISSING and drawing in committed["results"]:
+            record = manifest.record_of(committed, drawing)
+            words = differing_layers(record, freshness.here(drawing)).get("config")
+            made = f"stale: {words}" if words else MISSING
         known = state == MISSING or made in (CURRENT, MISSING)
         yield scene, path, state if known else made
 
