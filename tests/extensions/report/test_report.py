@@ -21,6 +21,7 @@ from report_pages import (
     with_script,
 )
 
+from paper.numbers import PAPER_NUMBERS
 from pipeline import config
 from pipeline.checks import captions, quantities
 from pipeline.config import PUBLISHED
@@ -186,7 +187,7 @@ def test_quantities_are_measured_in_the_data_and_not_read_from_the_config(scenes
         kind = KINDS[block["picture"]]
         values = quantities.reported(block, data)
         assert kind.headline in values
-        assert set(quantities.PAPER_NUMBERS[scene]) <= set(values)
+        assert set(PAPER_NUMBERS[scene]) <= set(values)
         other = block | {"energy": 0.5, "impacts": 3, "starts": [0.1], "duration": 1.0}
         other |= {"window": {"x": [0, 1], "xdot": [0, 1]}, "length": 9, "period": 99}
         assert quantities.reported(other, data) == values
