@@ -36,10 +36,10 @@ for declared in other_rules():
         wildcard_constraints:
             **declared.constraints,
         priority: priority
-        threads: declared.threads
         localrule: declared.local
         conda:
             ROOT / "workflow" / "envs" / "python.yaml"
+        threads: declared.threads
         params:
             python=sys.executable,
         shell:

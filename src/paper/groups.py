@@ -268,10 +268,14 @@ def not_elliptic(scene: Scene, name: str) -> Iterator[CrossFieldError]:
     if not is_sound(scene):
         return
     k, g = scene.ball.k, scene.ball.g
+
+    def of(theta: float) -> tuple[float, float]:
+        return fixed_point(k, theta, lambda angle: (math.sin(angle), math.cos(angle)))
+
     low, high = 0.0, math.pi  # of theta: the trace falls through -2 between them
     while (theta := (low + high) / 2) not in (low, high):
-        low, high = (theta, high) if fixed_point(k, theta)[1] > -2 else (low, theta)
-    highest = fixed_point(k, theta)[0] * g * g
+        low, high = (theta, high) if of(theta)[1] > -2 else (low, theta)
+    highest = of(theta)[0] * g * g
     for place, energy in entries(scene, name):
         if not energy < highest:
             yield place, energy, f"an energy below {highest:.6g}, where the fixed point is elliptic"

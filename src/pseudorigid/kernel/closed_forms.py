@@ -4,7 +4,6 @@ k is the Euler inertia, eq. (5), and g gravity. Lengths are in R, times in 1/ome
 omega^2 R^2. The section and the bounds of the energy are exact for Fractions.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -28,12 +27,8 @@ def energy_bounds(k: Any, g: Any) -> tuple[Any, Any]:
     return -g * g / (2 * k), k / 2 - g
 
 
-def _sincos(angle: float) -> tuple[float, float]:
-    return math.sin(angle), math.cos(angle)
-
-
 def fixed_point(
-    k: float, theta: float, sincos: Callable[[float], tuple[float, float]] = _sincos
+    k: float, theta: float, sincos: Callable[[float], tuple[float, float]]
 ) -> tuple[float, float]:
     """Return E/g^2 and the trace of the symmetric fixed point with a flight of 2 theta < 2 pi.
 
