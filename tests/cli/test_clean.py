@@ -51,7 +51,7 @@ def write(file, text="made"):
 def write_record(root, result):
     write(
         root / record_path(result),
-        json.dumps(dict.fromkeys(SHAPE, {"sha256": ""})),
+        json.dumps({key: {"sha256": ""} for key in SHAPE}),
     )
 
 
