@@ -21,7 +21,7 @@ def without(word, text):
 def test_a_broken_or_edited_manifest_is_a_finding(moved):
     path = moved.path / "paper_figures" / "MANIFEST.json"
     text = path.read_text()
-    edited = [without(word, text) for word in ("{", '"matplotlib"', '"pixels"')]
+    edited = [without(word, text) for word in ("{", '"matplotlib"', '"drawing"')]
     for content in (*edited, "[]", "{"):
         path.write_text(content)
         found = verified(moved)

@@ -119,7 +119,7 @@ def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Con
     counts = []  # of datasets, in words
     for published_set in committed_sets(config):
         paths += published_set.text_files
-        if not manifest.is_present(root, published_set):
+        if not published_set.is_committed(root):
             continue
         names = [*read_sums(root, published_set.folder), SUMS, MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]

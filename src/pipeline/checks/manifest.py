@@ -1,8 +1,8 @@
 """MANIFEST.json: the records of the results behind the published files of a folder.
 
-The entry of a result is its record without what belongs to one machine, and a description of its
-file, so that `verify` can name what differs. What records share stands once: the environment, the
-hash of a source, and a list of sources. Nothing depends on the day, the folder or the commit.
+The entry of a result is its record without what belongs to one machine, and with what `describe`
+says of its file. What records share stands once: environment, hashes of sources, lists of sources.
+Nothing in a manifest depends on the day, the folder or the commit.
 """
 
 import hashlib
@@ -13,7 +13,6 @@ from typing import Any
 import pydantic
 import xarray as xr
 
-from ..records import pictures
 from ..records.artifacts import (
     ArtifactError,
     canonical_json,
@@ -22,10 +21,17 @@ from ..records.artifacts import (
     plain_attributes,
 )
 from ..records.differences import BLOCK
-from ..records.files import file_hash, write_whole
+from ..records.files import file_hash
+from ..records.pictures import PictureError, drawing_hash
 from ..records.record import public_record, versions
-from . import published_sets
-from .published_sets import MANIFEST, SUMS, ChecksumError, PublishedSet, format_sums
+from .published_sets import (
+    MANIFEST,
+    SUMS,
+    ChecksumError,
+    PublishedSet,
+    format_sums,
+    read_published_text,
+)
 from .quantities import facts
 
 _SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
@@ -33,24 +39,13 @@ _SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
 Manifest = dict[str, Any]  # with the fields of _Manifest
 
 
-class _Variable(pydantic.BaseModel):
-    """A variable of a dataset; `blocks` has a short hash of each BLOCK of its values."""
-
-    dims: list[str]
-    shape: list[int]
-    dtype: str
-    attributes: dict[str, str]
-    sha256: str
-    blocks: str
-
-
 class _Output(pydantic.BaseModel):
-    """The file of a result, with what `describe` returns; a picture has its `facts` too."""
+    """The file of a result, as `describe` describes it; a picture has its `facts` too."""
 
     sha256: str
-    drawing: dict[str, int | str] = {}
+    drawing: str = ""
     attributes: dict[str, str] = {}
-    variables: dict[str, _Variable] = {}
+    variables: dict[str, dict[str, Any]] = {}
 
 
 class _Entry(pydantic.BaseModel):
@@ -72,7 +67,7 @@ class _Manifest(pydantic.BaseModel):
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Describe a dataset by hashes of its attributes and variables."""
+    """Describe a dataset by hashes of its attributes, variables and blocks of their values."""
     variables = {}
     for name, variable in dataset.variables.items():
         dtype, values = canonical_values(variable)
@@ -89,8 +84,17 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
             "sha256": hashlib.sha256(b"".join(blocks)).hexdigest(),
             "blocks": " ".join(_short_hash(block) for block in blocks),
         }
-    sizes = {str(name): size for name, size in dataset.sizes.items()}
-    return {"attributes": _attribute_hashes(dataset), "sizes": sizes, "variables": variables}
+    return {"attributes": _attribute_hashes(dataset), "variables": variables}
+
+
+def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
+    """Map each attribute to a short hash of its value."""
+    values = plain_attributes(source).items()
+    return {name: _short_hash(json.dumps(value).encode()) for name, value in values}
+
+
+def _short_hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:_SHORT_DIGITS]
 
 
 def describe(root: Path, path: str) -> dict[str, Any]:
@@ -98,8 +102,8 @@ def describe(root: Path, path: str) -> dict[str, Any]:
     try:
         if path.endswith(".nc"):
             return describe_data(load(root / path))
-        return {"drawing": pictures.describe(root / path)}
-    except (ArtifactError, pictures.PictureError) as error:
+        return {"drawing": drawing_hash(root / path)}
+    except (ArtifactError, PictureError) as error:
         return {"error": str(error).replace(f"{root}/", "")}
 
 
@@ -113,29 +117,24 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
             known = facts(published_set.build_specs[path].config, data)
             described[path] = known | describe(root, path)
     sources, results = dict[str, str](), dict[str, dict[str, Any]]()
-    for path in sorted(described):
+    for path, content in sorted(described.items()):
         record = public_record(root, path)
         sources |= record["sources"]
         files = [*record["sources"]]
         same = next((p for p, entry in results.items() if entry["sources"] == files), files)
-        del record["environment"]
-        output = record["output"] | described[path]
-        results[path] = record | {"sources": same, "output": output}
-    return {
-        "environment": versions(),
-        "texts": {path: file_hash(root / path) for path in published_set.text_files},
-        "sources": sources,
-        "results": results,
-    }
+        results[path] = record | {"sources": same, "output": record["output"] | content}
+        del results[path]["environment"]
+    texts = {path: file_hash(root / path) for path in published_set.text_files}
+    return {"environment": versions(), "texts": texts, "sources": sources, "results": results}
 
 
 def record_of(manifest: Manifest, path: str) -> dict[str, Any]:
     """Return the whole record of a result in a manifest."""
-    results, hashes = manifest["results"], manifest["sources"]
-    files = results[path]["sources"]
-    files = results[files]["sources"] if isinstance(files, str) else files
-    whole = {"sources": {file: hashes[file] for file in files}}
-    return results[path] | whole | {"environment": manifest["environment"]}
+    entry = manifest["results"][path]
+    files = entry["sources"]
+    files = manifest["results"][files]["sources"] if isinstance(files, str) else files
+    sources = {file: manifest["sources"][file] for file in files}
+    return {**entry, "sources": sources, "environment": manifest["environment"]}
 
 
 def upstream(manifest: Manifest, path: str) -> list[str]:
@@ -146,16 +145,17 @@ def upstream(manifest: Manifest, path: str) -> list[str]:
     return found
 
 
-def is_present(root: Path, published_set: PublishedSet) -> bool:
-    """Return whether the folder of a published set has a manifest or a checksum list."""
-    return any((root / published_set.folder / name).exists() for name in (MANIFEST, SUMS))
+def published(manifest: Manifest) -> dict[str, str]:
+    """Map the name of each published file in a manifest to its drawing, sorted by name."""
+    results = manifest["results"].items()
+    return dict(sorted((Path(p).name, p) for p, each in results if "drawing" in each["output"]))
 
 
 def read(root: Path, folder: str) -> Manifest:
     """Return a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(published_sets.read_published_text(root, name))
+        manifest = json.loads(read_published_text(root, name))
         # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
@@ -171,37 +171,14 @@ def read(root: Path, folder: str) -> Manifest:
     return manifest
 
 
-def published(manifest: Manifest) -> dict[str, str]:
-    """Map the name of each published file in a manifest to its drawing, sorted by name."""
-    results = manifest["results"].items()
-    return dict(sorted((Path(p).name, p) for p, each in results if "drawing" in each["output"]))
-
-
-def sums(manifest: Manifest) -> str:
-    """Return the text of the checksum list that fits a manifest."""
+def files_of(manifest: Manifest) -> dict[str, str]:
+    """Return the texts of a manifest's file and of the checksum list, by the files' names."""
     results = manifest["results"]
-    return format_sums({n: results[p]["output"]["sha256"] for n, p in published(manifest).items()})
-
-
-def write(root: Path, folder: str, manifest: Manifest) -> None:
-    """Write the manifest and the checksum list of a folder."""
-    text = json.dumps(manifest | {"checksum": _checksum(manifest)}, sort_keys=True, indent=1)
-    write_whole(root / folder / MANIFEST, f"{text}\n")
-    write_whole(root / folder / SUMS, sums(manifest))
+    sums = {name: results[path]["output"]["sha256"] for name, path in published(manifest).items()}
+    whole = manifest | {"checksum": _checksum(manifest)}
+    return {MANIFEST: f"{json.dumps(whole, sort_keys=True, indent=1)}\n", SUMS: format_sums(sums)}
 
 
 def _checksum(manifest: Manifest) -> str:
     """Return the hash of all entries of a manifest."""
     return hashlib.sha256(canonical_json(manifest).encode()).hexdigest()
-
-
-def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
-    """Map each attribute to a short hash of its value."""
-    return {
-        str(name): _short_hash(json.dumps(value).encode())
-        for name, value in plain_attributes(source).items()
-    }
-
-
-def _short_hash(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:_SHORT_DIGITS]

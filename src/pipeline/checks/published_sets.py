@@ -55,6 +55,10 @@ class PublishedSet(NamedTuple):
             impossible=scenes,
         )
 
+    def is_committed(self, root: Path) -> bool:
+        """Return whether the folder has a manifest or a checksum list."""
+        return any((root / self.folder / name).exists() for name in (MANIFEST, SUMS))
+
     def unlisted(self, root: Path) -> list[str]:
         """Return a line for each picture in the folder that no scene of the set makes."""
         names = {*self.drawn, *self.measured}

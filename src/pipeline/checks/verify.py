@@ -139,7 +139,7 @@ def verify(root: Path, config: Config, committed: bool = False) -> list[Findings
     return [
         inspect(root, published_set, committed or published_set.on_request)
         for published_set in published_sets.committed_sets(config)
-        if not published_set.on_request or manifest.is_present(root, published_set)
+        if not published_set.on_request or published_set.is_committed(root)
     ]
 
 
@@ -165,7 +165,8 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
         comparison = Comparison(freshness, published_set, committed)
         findings.layers = {name: comparison.layers(name) for name in published_set.drawn}
         findings.problems += _other_files(root, published_set, committed)
-        if published_sets.read_published_text(root, f"{folder}/{SUMS}") != manifest.sums(committed):
+        sums = published_sets.read_published_text(root, f"{folder}/{SUMS}")
+        if sums != manifest.files_of(committed)[SUMS]:
             findings.problems.append(f"{folder}/{SUMS}: is not as {MANIFEST} has it")
     except published_sets.ChecksumError as error:
         findings.problems.append(str(error))

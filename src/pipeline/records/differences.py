@@ -110,12 +110,12 @@ def _differing_variable(old: Mapping[str, Any] | None, new: Mapping[str, Any] | 
     if old is None or new is None:
         return f" is {'new' if old is None else 'gone'}"
     for what in ("dims", "dtype", "shape", "attributes"):
-        if old[what] != new[what]:
-            words = "" if what == "attributes" else f": {old[what]} then, {new[what]} now"
+        if old.get(what) != new[what]:
+            words = "" if what == "attributes" else f": {old.get(what)} then, {new[what]} now"
             return f": another {what.removesuffix('s')}{words}"
-    if old["sha256"] == new["sha256"]:
+    if old.get("sha256") == new["sha256"]:
         return None
-    pairs = zip(old["blocks"].split(), new["blocks"].split(), strict=False)
+    pairs = zip(str(old.get("blocks")).split(), new["blocks"].split(), strict=False)
     block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
     first, size = block * BLOCK, math.prod(new["shape"])
     return f" differs from block {block} on (value {first:,} of {size:,})"

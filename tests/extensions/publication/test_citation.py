@@ -23,7 +23,7 @@ def test_each_published_figure_is_in_the_codecheck_manifest():
     published = {
         f"{each.folder}/{name}"
         for each in published_sets.committed_sets(config.load(ROOT / "config.yaml"))
-        for name in manifest.sums(manifest.read(ROOT, each.folder))
+        for name in manifest.published(manifest.read(ROOT, each.folder))
     }
     assert {entry["file"] for entry in listed} == published
     assert all(entry["comment"] for entry in listed)

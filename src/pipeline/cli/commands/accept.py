@@ -1,19 +1,15 @@
 """./reproduce accept: make the published files as they are now the committed ones."""
 
+import hashlib
+from collections.abc import Iterator
 from pathlib import Path
 
 from ...checks import manifest
 from ...checks.layers import UPSTREAM
-from ...checks.published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    committed_sets,
-    read_published_text,
-)
+from ...checks.published_sets import MANIFEST, SUMS, committed_sets
 from ...checks.verify import Findings, inspect
 from ...config import Config
-from ...records.files import read_bytes, write_whole
+from ...records.files import file_hash, read_bytes, write_whole
 from ...records.sources import ROOT
 from ..arguments import Arguments
 from ..session import interruptible, locked
@@ -54,35 +50,30 @@ def accept(root: Path, config: Config) -> int:
 
 def _renew(root: Path, findings: Findings) -> None:
     """Write the manifest and checksum list of a set, and print what changed."""
-    published_set = findings.published_set
-    folder = published_set.folder
-    fresh = manifest.build(root, published_set)
-    try:
-        committed = manifest.read(root, folder)
-        listed = read_published_text(root, f"{folder}/{SUMS}")
-    except ChecksumError as error:
-        changes = [f"a new manifest ({error})"]
-    else:
-        if fresh == committed and listed == manifest.sums(fresh):
-            print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
-            return
-        changes = _changes(root, findings, committed) or ["other changes behind the same pictures"]
-    manifest.write(root, folder, fresh)
-    print(*changes, sep="\n")
-    files = f"{folder}/{SUMS} and {folder}/{MANIFEST}"
-    print(f"{files} renewed: {len(published_set.drawn)} figures")
+    published_set, folder = findings.published_set, findings.published_set.folder
+    texts = manifest.files_of(manifest.build(root, published_set))
+    files = {root / folder / name: text.encode() for name, text in texts.items()}
+    if all(file_hash(file) == hashlib.sha256(text).hexdigest() for file, text in files.items()):
+        print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
+        return
+    changes = [*_changes(findings), *published_set.unlisted(root)]
+    for file, text in files.items():
+        write_whole(file, text)
+    print(*(changes or ["other changes behind the same pictures"]), sep="\n")
+    print(f"{folder}/{SUMS} and {folder}/{MANIFEST} renewed: {len(published_set.drawn)} figures")
 
 
-def _changes(root: Path, findings: Findings, committed: manifest.Manifest) -> list[str]:
-    """Return a line for each difference of a set from its manifest."""
-    changes = []
+def _changes(findings: Findings) -> Iterator[str]:
+    """Yield a line for each difference of a set from its manifest."""
+    if findings.committed is None:
+        yield f"a new manifest ({findings.problems[-1]})"
+        return
     for name, layers in findings.layers.items():
         if layers is None:
-            changes.append(f"{name}  new")
+            yield f"{name}  new"
             continue
-        changes += [f"{name}  {layer}: {words}" for layer, words in layers.items()]
-        if layers and set(layers) <= UPSTREAM:
-            changes.append(f"{name}  the file is the same")
+        yield from (f"{name}  {layer}: {words}" for layer, words in layers.items())
+        if layers and layers.keys() <= UPSTREAM:
+            yield f"{name}  the file is the same"
     drawn = findings.published_set.drawn
-    gone = [f"{name}  gone" for name in manifest.published(committed) if name not in drawn]
-    return changes + gone + findings.published_set.unlisted(root)
+    yield from (f"{n}  gone" for n in manifest.published(findings.committed) if n not in drawn)

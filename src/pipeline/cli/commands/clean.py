@@ -1,6 +1,5 @@
 """./reproduce clean: delete generated files in results/, and .snakemake."""
 
-import json
 import os
 import shutil
 import sys
@@ -11,8 +10,7 @@ from pathlib import Path
 from ...config import ConfigError
 from ...config.schema.sets import SETS
 from ...declaration import SourceError, parts
-from ...records.files import read_text
-from ...records.record import git, record_path
+from ...records.record import RecordError, git, read_record, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
 from ..session import CommandLineError, UsageError, locked, print_error
@@ -104,34 +102,27 @@ def _kept(names: list[str], deleted: set[Path]) -> Iterator[str]:
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
     # The folder may be in another repository.
-    committed = (git("ls-files", "-z", root=RESULTS) or b"").decode().split("\0")
+    tracked = (git("ls-files", "-z", root=RESULTS) or b"").decode().split("\0")
     candidates, known = set[Path](), {*SETS}
     with suppress(ConfigError, SourceError):  # records alone then say which files are results
         known |= args.config.variants.keys()
         specs = args.config.build_specs()
         candidates |= {ROOT / path for path in (*specs, *map(record_path, specs))}
     for record in RESULTS.glob("*/provenance/*.json"):
-        # A forged record may name any file: only these two are accepted.
-        folder, name = record.parents[1], record.stem
-        with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
-            result = ROOT / json.loads(read_text(record))["output"]["file"]
-            if result in (folder / name, folder / "figures" / name):
-                candidates |= {record, result}
-                known.add(folder.name)
-    for name in known:
-        candidates |= {f for each in _BESIDE_RESULTS for f in (RESULTS / name).glob(each)}
-    candidates |= {file for pattern in _OF_COMMANDS for file in RESULTS.glob(pattern)}
-    return [
-        file
-        for file in sorted(candidates)
-        if file.is_file()
-        and _has_no_links(file.parent)
-        and str(file.relative_to(RESULTS)) not in committed
-        and (
-            file.relative_to(RESULTS).parts[0] in names
-            or (file.parent == RESULTS and not args.folder)
-        )
-    ]
+        with suppress(RecordError):
+            read_record(ROOT, str(record))
+            folder, name = record.parents[1], record.stem
+            candidates |= {record, folder / ("." if name.endswith(".nc") else "figures") / name}
+            known.add(folder.name)
+    patterns = [f"{name}/{pattern}" for name in known for pattern in _BESIDE_RESULTS]
+    candidates |= {f for pattern in (*patterns, *_OF_COMMANDS) for f in RESULTS.glob(pattern)}
+    found = []
+    for file in sorted(candidates):
+        path = file.relative_to(RESULTS)
+        wanted = path.parts[0] in names or (len(path.parts) == 1 and not args.folder)
+        if wanted and file.is_file() and _has_no_links(file.parent) and str(path) not in tracked:
+            found.append(file)
+    return found
 
 
 def _has_no_links(folder: Path) -> bool:
