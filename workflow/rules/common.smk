@@ -3,7 +3,7 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import SimpleNamespace
 
 from pipeline.config import MAIN, ConfigError
 from pipeline.config.results import with_dependencies
@@ -132,45 +132,33 @@ def of_kind(kind):
     return {"variant": any_of(pairs)}
 
 
-class Declared(NamedTuple):
-    """What a rule of another part than the paper's is made from."""
-
-    name: str
-    function: str
-    result: str  # the pattern of its path
-    inputs: dict[str, Any]
-    made: dict[str, Any]
-    constraints: dict[str, str] = {}
-    threads: Any = 1
-    local: bool = False  # on a cluster, it is no job of its own
+def rule_of(name, function, result, **more):
+    """Return what a rule is made from. A `local` one is no job of its own on a cluster."""
+    usual = {"inputs": {}, "constraints": {}, "local": False, "threads": 1, "made": made(result)}
+    return SimpleNamespace(name=name, function=function, result=result, **usual | more)
 
 
 def other_rules():
     """Yield the rules of all stages and kinds of picture that have none yet."""
     written = {rule.name for rule in workflow.rules}
-    for name, stage in STAGES.items():
-        if name in written:
-            continue
+    files = {Path(path).name for path in DATASETS.values()}
+    for name in [each for each in STAGES if each not in written]:
+        stage = STAGES[name]
         # Data that depend on no field of a scene have no scene in their path.
-        paths_of_stage = [path for (*_, used), path in DATASETS.items() if used == name]
-        plain = any(Path(path).stem == name for path in paths_of_stage)
-        result = f"results/{{variant}}/{name}{'' if plain else '_{scene}'}.nc"
-        inputs, threads = {used: dataset(used) for used in stage.inputs}, 1
+        scene = "" if f"{name}.nc" in files else "_{scene}"
+        result, more = f"results/{{variant}}/{name}{scene}.nc", {"local": bool(stage.blocks)}
         if stage.blocks:
             block = result.replace(".nc", ".{number}.nc")
-            yield Declared(f"{name}_block", stage.of_block, block, {}, made(block))
-        if stage.blocks or stage.main:
-            inputs = {"datasets": inputs_of(result)}
+            yield rule_of(f"{name}_block", stage.of_block, block)
+        joined = {"datasets": inputs_of(result)} if stage.blocks or stage.main else {}
+        more["inputs"] = joined or {used: dataset(used) for used in stage.inputs}
         if stage.alone:
-            threads = lambda wildcards: workflow.cores
-        made_of = made(result)
-        local = bool(stage.blocks)
-        yield Declared(name, stage.function, result, inputs, made_of, {}, threads, local)
+            more["threads"] = lambda wildcards: workflow.cores
+        yield rule_of(name, stage.function, result, **more)
     result = "results/{variant}/figures/{scene}.{extension}"
     for kind, picture in KINDS.items():
-        if f"draw_{kind}" in written or not picture.model_fields["formats"].default:
-            continue
-        inputs = {used: dataset(used) for used in picture.stages}
-        local = any(STAGES[used].blocks for used in picture.stages)
-        made_of, scenes = made(shown(result)), of_kind(kind)
-        yield Declared(f"draw_{kind}", picture.drawn_by, result, inputs, made_of, scenes, 1, local)
+        if f"draw_{kind}" not in written and picture.model_fields["formats"].default:
+            more = {"local": any(STAGES[used].blocks for used in picture.stages)}
+            more["inputs"] = {used: dataset(used) for used in picture.stages}
+            more |= {"made": made(shown(result)), "constraints": of_kind(kind)}
+            yield rule_of(f"draw_{kind}", picture.drawn_by, result, **more)
