@@ -15,11 +15,11 @@ import yaml
 from pipeline.config import MAIN
 from pipeline.config.schema.sets import SETS
 from pipeline.records import sources
+from pipeline.records.files import write_whole
+from pipeline.records.record import git
 from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]
-# The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
-SHIPPED = Path(__file__).with_name("scenes.yaml")
 PARTS = (
     *("CITATION.cff", "Snakefile", "profiles", "pyproject.toml", "reproduce", "requirements"),
     *("src", "workflow"),
@@ -31,6 +31,22 @@ MEANINGS = "src/pipeline/records/__pycache__"  # where hashes of sources are kep
 # Keys of config.yaml whose blocks are shipped.
 APART = [each.key for name, each in SETS.items() if each.key and name != MAIN]
 NO_CACHES = shutil.ignore_patterns("__pycache__", "*.egg-info")
+
+
+def _shipped_config():
+    """Return config.yaml as committed or staged; without a repository, the file that is there."""
+    file = ROOT / "config.yaml"
+    staged = git("show", ":./config.yaml", root=ROOT)
+    if staged is None or staged == file.read_bytes():
+        return file
+    kept = ROOT / ".venv" / "cache" / "committed" / "config.yaml"
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(kept, staged)
+    return kept
+
+
+# The scenes as committed: tests look at these, never at the config.yaml of whoever runs them.
+SHIPPED = _shipped_config()
 
 
 def shipped():

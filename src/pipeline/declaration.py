@@ -10,7 +10,7 @@ PART. Files beside it are found by their names:
     scenes.yaml       blocks of config.yaml that it ships, and variants
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
-    README.md         its page of documentation
+    README.md         its page of documentation; pipeline.renew adds the fields of its scenes
 
 `reproduce` prints its help before anything is installed: only the standard library is used here,
 and in each `part.py`.
@@ -18,6 +18,7 @@ and in each `part.py`.
 
 import importlib
 import os
+import re
 import traceback
 from collections.abc import Mapping
 from functools import cache, partial
@@ -25,6 +26,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 SRC = Path(__file__).resolve().parents[1]
+SCHEMA = "config.schema.json"
+RENEW = ".venv/bin/python -m pipeline.renew"  # writes every generated file
 
 
 class SourceError(ValueError):
@@ -135,6 +138,7 @@ class Part(NamedTuple):
     report: str = ""  # a module with a section of the report
     benchmark: str = ""  # a module with rows of the benchmark
     generated: tuple[str, ...] = ()  # patterns of files in results/ that its commands write
+    committed: str = ""  # a function () -> committed file that pipeline.renew writes -> its text
     # Result -> its seconds on one core. The longest jobs begin first, so that none of them is left
     # over at the end, when the other cores are idle.
     seconds: Mapping[str, int] = {}
@@ -175,6 +179,22 @@ def lacking(command: str) -> str | None:
             needed = (*part.needs, *part.commands[command].needs)
             return next((name for name in needed if name not in parts()), None)
     return None
+
+
+def stale_pages() -> str:
+    """Say which parts config.schema.json describes without need, or lacks; empty if it fits."""
+    try:
+        with open(SRC.parent / SCHEMA, encoding="utf-8", errors="replace") as file:
+            lines = file.readline() + file.readline()
+    except OSError:  # there are no generated files
+        return ""
+    described = {*re.findall(r"\w+", lines.partition("Parts:")[2].partition(".")[0])}
+    differ = {
+        "describe parts that are not there": sorted(described - parts().keys()),
+        "lack parts that are there": sorted(parts().keys() - described),
+    }
+    words = [f"{what} ({', '.join(names)})" for what, names in differ.items() if names]
+    return f"generated files {' and '.join(words)}: run {RENEW}" if words else ""
 
 
 def imported(name: str) -> Any:

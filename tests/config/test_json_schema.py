@@ -1,21 +1,21 @@
 """config.schema.json accepts config.yaml and refuses mistakes in one value."""
 
 import pytest
-from project import ROOT, check_jsonschema
+from project import ROOT, SHIPPED, check_jsonschema
 
-from pipeline.config import json_schema
 from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
+from pipeline.declaration import SCHEMA
 
 
 def check(text, folder):
     """Check a config by the schema: return the exit status and what is printed."""
     (folder / "config.yaml").write_text(text)
-    return check_jsonschema("--schemafile", ROOT / json_schema.FILE, folder / "config.yaml")
+    return check_jsonschema("--schemafile", ROOT / SCHEMA, folder / "config.yaml")
 
 
 def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
-    text = (ROOT / "tests" / "scenes.yaml").read_text()
+    text = SHIPPED.read_text()
     for kind in (name for name in KINDS if KINDS[name].model_fields["formats"].default):
         block = "".join(f"    {line}\n" for line in example(kind).splitlines())
         text = text.replace("scenes:\n", f"scenes:\n  another_{kind}:\n{block}", 1)
@@ -31,7 +31,7 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     ],
 )
 def test_a_mistake_is_refused_and_named(tmp_path, old, new, named):
-    text = (ROOT / "tests" / "scenes.yaml").read_text()
+    text = SHIPPED.read_text()
     assert old in text
     status, output = check(text.replace(old, new, 1), tmp_path)
     assert status == 1 and named in output

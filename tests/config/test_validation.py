@@ -1,14 +1,13 @@
 """Any file named config.yaml is a correct config or is refused in lines that name it."""
 
 import json
-import subprocess
 
 import pytest
 import yaml
 from documents import complaints, good
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from project import ROOT, SHIPPED, shipped
+from project import SHIPPED, shipped
 from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
@@ -82,12 +81,3 @@ def test_an_added_scene_changes_no_path():
     after = config.check(document).datasets
     assert after["paper", "a", "periodic"] == "results/paper/periodic_a.nc"
     assert before.items() <= after.items()
-
-
-def test_the_scenes_of_the_tests_are_the_committed_ones():
-    """tests/scenes.yaml is a copy of config.yaml, so that users who edit the latter can test."""
-    if (ROOT / "config.yaml").read_bytes() != SHIPPED.read_bytes():
-        command = ["git", "-C", ROOT, "diff", "--quiet", "HEAD", "--", "config.yaml"]
-        if subprocess.run(command, check=False, capture_output=True).returncode:
-            pytest.skip("config.yaml has edits that are not committed")
-        pytest.fail("run: cp config.yaml tests/scenes.yaml")

@@ -7,9 +7,10 @@ import pytest
 import yaml
 from project import ROOT
 
-from pipeline import config, declaration
-from pipeline.config import reference
-from pipeline.declaration import parts
+from pipeline import config
+from pipeline.config import MAIN
+from pipeline.declaration import files, parts, stale_pages
+from pipeline.renew import BEGIN, END, with_section
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
@@ -24,18 +25,26 @@ FILES = [
     if file.is_file()
 ]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
+PAGES = sorted(str(file.relative_to(ROOT)) for file in ROOT.glob("src/**/README.md"))
+
+GENERATED = ("docs/config.md", "docs/figures.md")
+# Folder -> the part that may be deleted with it.
+OF_PARTS = {file.parent: file.parent.name for file in files("part.py").values()}
+for _name, _part in parts().items():
+    OF_PARTS |= {ROOT / each.folder: _name for each in _part.sets.values() if each.folder}
+OF_PARTS = {folder: name for folder, name in OF_PARTS.items() if MAIN not in parts()[name].sets}
 
 
-# Files that a module writes: python -m MODULE renews them.
-GENERATED = {"docs/config.md": reference}
+def links(text):
+    """The links of a document to files, without the places in them."""
+    found = re.findall(r"\]\(([^)\s#]+)[^)\s]*\)", text)
+    return [link for link in found if not link.startswith(("http:", "https:"))]
 
 
 def is_absent(name):
-    """Whether a file is one of an extension that is not there, or of any if there is none."""
-    found = re.search(r"\bextensions/(\w+)/", name)
-    if found:
-        return found[1] not in parts()
-    return not parts() and name in declaration.__doc__
+    """Whether a file is one of a part that is not there."""
+    found = re.search(r"\b(?:extensions/|src/)(?!extensions/)(\w+)/", name)
+    return bool(found) and not [*ROOT.glob(f"src/{found[1]}"), *ROOT.glob(f"src/*/{found[1]}")]
 
 
 def text_of(document):
@@ -48,18 +57,23 @@ def blocks(document):
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip("\n") for block in found]
 
 
-@pytest.mark.skipif(not parts(), reason="the committed pages are those with extensions")
-@pytest.mark.parametrize(("file", "module"), GENERATED.items())
-def test_a_generated_file_is_up_to_date(file, module):
-    assert text_of(file) == module.page(), f"renew it: python -m {module.__name__}"
-
-
-@pytest.mark.parametrize("document", DOCUMENTS)
+@pytest.mark.parametrize("document", DOCUMENTS + PAGES)
 def test_links_lead_to_files(document):
+    if fault := stale_pages():
+        pytest.skip(fault)
+    for link in links(text_of(document)):
+        assert (ROOT / document).parent.joinpath(link).exists(), link
+
+
+@pytest.mark.parametrize("document", DOCUMENTS + PAGES)
+def test_no_link_by_hand_leads_to_files_of_another_part(document):
+    """Such a part may be deleted. Links that pipeline.renew writes are then left out."""
     folder = (ROOT / document).parent
-    for link in re.findall(r"\]\(([^)\s]+)\)", text_of(document)):
-        if not link.startswith(("http:", "https:")) and not is_absent(link):
-            assert (folder / link.partition("#")[0]).exists(), link
+    text = "" if document in GENERATED else with_section(text_of(document), BEGIN, "", END)
+    for link in links(text):
+        file = folder.joinpath(link).resolve()
+        own = [each for each in OF_PARTS if file.is_relative_to(each)]
+        assert not own or OF_PARTS.get(folder, "") in map(OF_PARTS.get, own), link
 
 
 @pytest.mark.parametrize("document", [name for name in DOCUMENTS if name != "CHANGELOG.md"])

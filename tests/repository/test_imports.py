@@ -31,7 +31,7 @@ PACKAGES_OF_PARTS = {
 LAYERS = {
     "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
-        *("cli", "jobs", "checks", "config", "commands", "records"),
+        *("cli", "renew", "jobs", "checks", "config", "commands", "records"),
         *("loading", "declaration"),
     ),
 }

@@ -1,10 +1,13 @@
 """The recipes of CONTRIBUTING in a copy: an extension with a kind and a stage, in one folder."""
 
+import json
+
 import numpy as np
 import pytest
 from project import APART, fresh_tree
 from runs import rows
 
+from pipeline.declaration import SCHEMA
 from pipeline.records.artifacts import load
 
 FILES = {
@@ -89,6 +92,10 @@ def returns(block, orbits, flights):
 returns:
   twice: {picture: returns, energy: 0.01, starts: [0.1, 0.6], impacts: 50}
 """,
+    "presets.js": """
+"use strict";
+Object.assign(PRESETS, { returns: (scene) => ({ orbits: orbitsOf(scene) }) });
+""",
     "captions.toml": """
 [kinds.returns]
 title = "the next position against the present one"
@@ -142,12 +149,13 @@ def test_an_extension_is_one_folder(tree):
     report = (tree.path / "results/report/report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
-    (tree.path / "docs").mkdir()
-    for module in ("pipeline.config.reference", "pipeline.checks.figures_page"):
-        result = tree.python("-P", "-m", module)
-        assert result.returncode == 0, result.stderr
-    page = (tree.path / "docs/config.md").read_text()
+    result = tree.python("-P", "-m", "pipeline.renew")
+    assert result.returncode == 0, result.stderr
+    page = (tree.path / "src/extensions/returns/README.md").read_text()
     assert "### picture: returns\n\nThe next position against the present one." in page
+    assert "### returns/twice: the next" in (tree.path / "docs/figures.md").read_text()
+    names = json.loads((tree.path / SCHEMA).read_text())["$defs"]["AnyScene"]["properties"]
+    assert "returns" in names["picture"]["enum"]
     document = tree.document()
     mine = {"picture": "returns", "energy": 0.01, "starts": [0.1], "impacts": 50, "axes": {"y": {}}}
     tree.write(document | {"returns": {"mine": mine}})

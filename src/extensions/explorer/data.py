@@ -15,15 +15,16 @@ from urllib.parse import quote_plus
 
 import yaml
 
+from pipeline.checks.captions import caption_of
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
+from pipeline.declaration import files
 from pipeline.records.files import read_text, write_whole
 from pipeline.records.sources import ROOT
 
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
-_PRESETS = Path(__file__).with_name("presets.json")  # titles, and what to see
 # The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING stands for no value.
 ATLAS = Path(__file__).with_name("atlas.json")
 STEPS, MISSING = 250, 255
@@ -43,10 +44,29 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
             for scene, block in scenes.items()
             if (name := address(checked, variant, scene, block.as_mapping()))
         },
-        "presets": json.loads(read_text(_PRESETS)),
+        "presets": presets(checked),
         "check": published_orbits(root),
         "atlas": json.loads(read_text(ATLAS)) | {"steps": STEPS, "missing": MISSING},
     }
+
+
+def of_parts(name: str) -> list[Path]:
+    """Return the files of a name beside part.py, those of parts that are no extension first."""
+    return sorted(files(name).values(), key=lambda file: (len(file.parts), file))
+
+
+def presets(checked: Config) -> list[dict[str, str]]:
+    """Return titles of scenes and what to see in them: those of parts, and captions of others."""
+    found = [each for file in of_parts("presets.json") for each in json.loads(read_text(file))]
+    names = {each["name"] for each in found}
+    for variant in PUBLISHED:
+        for scene, block in checked.variants[variant].items():
+            mapping = block.as_mapping()
+            if scene not in names and address(checked, variant, scene, mapping) == scene:
+                caption = caption_of(scene, mapping)
+                title = f"{caption.name}: {caption.title}"
+                found.append({"name": scene, "title": title, "see": caption.see})
+    return found
 
 
 def citation() -> dict[str, Any]:

@@ -4,7 +4,7 @@ Its bytes depend on the tree alone: config.yaml, the kernel, the committed manif
 content security policy allows the page's own scripts, by their hashes, and nothing from elsewhere.
 src/extensions/explorer/explorer.html is a copy. Renew it after a change:
 
-    .venv/bin/python -m extensions.explorer.page
+    .venv/bin/python -m pipeline.renew
 """
 
 import base64
@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pipeline import config
-from pipeline.records.files import write_whole
+from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 
 from . import data
@@ -22,12 +22,14 @@ from .compiled import build
 
 COPY = "src/extensions/explorer/explorer.html"
 WEB = Path(__file__).with_name("web")
+PRESETS = "presets.js of parts"
 # Scripts of both, those of the worker, and of the page, in their order.
 BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "worker.js")
 APP = (
-    *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js"),
-    *("presets.js", "svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
+    *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js", "presets.js"),
+    PRESETS,
+    *("svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
 )
 
 
@@ -72,8 +74,9 @@ def kernel_scripts() -> str:
 
 
 def script(name: str) -> str:
-    """Return the text of a file of the page."""
-    return (WEB / name).read_text(encoding="utf-8")
+    """Return the text of a file of the page, or of the presets of all parts."""
+    paths = data.of_parts("presets.js") if name == PRESETS else [WEB / name]
+    return "".join(map(read_text, paths))
 
 
 def _minified(kind: str, names: tuple[str, ...]) -> str:
@@ -96,5 +99,8 @@ def _json(value: Any) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-if __name__ == "__main__":
-    write_whole(ROOT / COPY, render(config.load(ROOT / "config.yaml")))
+def committed() -> dict[str, str]:
+    """Return the committed copy by its path; compile the kernel for it first if it was edited."""
+    if not build.is_current():
+        build.main()
+    return {COPY: render(config.load(ROOT / "config.yaml"))}

@@ -12,4 +12,5 @@ PART = Part(
     },
     report="extensions.explorer.report",
     generated=("explorer.html",),
+    committed="extensions.explorer.page.committed",
 )

@@ -1,28 +1,54 @@
-"""Write docs/figures.md, which has every committed picture and its caption.
+"""Texts about every committed picture: docs/figures.md, and the manifest of codecheck.yml.
 
-Run `.venv/bin/python -m pipeline.checks.figures_page`. The captions are those of the
-report, with the values from which the committed pictures were made.
+The captions are those of the report, with the values from which the committed pictures were made.
 """
 
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from textwrap import fill
 from typing import Any
 
 import jinja2
+import yaml
 
 from ..config import MAIN, load
 from ..config.schema.sets import SETS
-from ..records.files import write_whole
 from ..records.sources import ROOT
 from . import manifest, published_sets
-from .captions import caption_of
+from .captions import Caption, caption_of
+from .published_sets import MANIFEST, PublishedSet
 
 
 def page() -> str:
     """Return the text of docs/figures.md."""
-    sections, config = [], load(ROOT / "config.yaml")
+    template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
+    environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
+    wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)
+    sections = [(SETS[each.group].heading, each, texts) for each, texts in _captions()]
+    return environment.from_string(template).render(sections=sections, fill=wrapped)
+
+
+def codecheck_manifest() -> str:
+    """Return the entries of `manifest` in codecheck.yml: each picture that keeps its bytes."""
+    entries = [
+        {
+            "file": f"{each.folder}/{file}",
+            "comment": f"{texts[scene].name}: {texts[scene].title}; made by {each.command}",
+        }
+        for each, texts in _captions()
+        for file in manifest.published(manifest.read(ROOT, each.folder))
+        for scene in [Path(file).stem]
+    ]
+    return yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=100)
+
+
+def _captions() -> Iterator[tuple[PublishedSet, dict[str, Caption]]]:
+    """Yield each set that has been accepted, and the captions of its scenes."""
+    config = load(ROOT / "config.yaml")
     for published_set in published_sets.committed_sets(config):
+        if not (ROOT / published_set.folder / MANIFEST).exists():
+            continue
         committed = manifest.read(ROOT, published_set.folder)
         group = published_set.group
         known: dict[str, tuple[dict[str, Any], dict[str, Any] | None]] = {}
@@ -32,13 +58,4 @@ def page() -> str:
         for scene in (Path(file).stem for file in published_set.measured):
             known[scene] = config.variants[group][scene].as_mapping(), None
         prefix = "" if group == MAIN else f"{group}/"
-        captions = [(name, caption_of(prefix + name, *of)) for name, of in known.items()]
-        sections.append((SETS[group].heading, published_set, captions))
-    template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
-    environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
-    wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)
-    return environment.from_string(template).render(sections=sections, fill=wrapped)
-
-
-if __name__ == "__main__":
-    write_whole(ROOT / "docs" / "figures.md", page())
+        yield published_set, {name: caption_of(prefix + name, *of) for name, of in known.items()}

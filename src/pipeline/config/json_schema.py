@@ -1,8 +1,7 @@
 """The JSON schema of config.yaml, made from the declarations, for editors and validators.
 
-Run `.venv/bin/python -m pipeline.config.json_schema` to renew config.schema.json. The schema knows
-every key, type and bound of one value. Conditions between fields, such as eq. (31), are checked by
-`./reproduce` alone.
+The schema knows every key, type and bound of one value. Conditions between fields, such as eq.
+(31), are checked by `./reproduce` alone.
 """
 
 import ast
@@ -15,14 +14,12 @@ from typing import Any, Literal
 
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
-from ..records.files import write_whole
-from ..records.sources import ROOT
+from ..declaration import RENEW, parts
 from .schema.fields import Block
 from .schema.kinds import KINDS
 from .validation.document import Document
 from .validation.mistakes import allowed_at
 
-FILE = "config.schema.json"
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 Schema = dict[str, Any]
 
@@ -50,7 +47,10 @@ def schema() -> Schema:
         for pattern, block in field.get("patternProperties", {}).items():
             field["patternProperties"] = {pattern: block or {"$ref": "#/$defs/AnyScene"}}
             field["additionalProperties"] = False
-    return {"$schema": _DIALECT, "title": "config.yaml", **document, "$defs": blocks}
+    # Sorted by keys, the comment stands in the first two lines, where a run looks for it.
+    comment = f"Parts: {', '.join(sorted(parts()))}. Written by {RENEW}."
+    head = {"$comment": comment, "$schema": _DIALECT, "title": "config.yaml"}
+    return {**head, **document, "$defs": blocks}
 
 
 class Described(GenerateJsonSchema):
@@ -100,7 +100,3 @@ def _meanings(model: type[Block]) -> dict[str, str]:
 def text() -> str:
     """Return the text of config.schema.json."""
     return json.dumps(schema(), indent=1, sort_keys=True, ensure_ascii=False) + "\n"
-
-
-if __name__ == "__main__":
-    write_whole(ROOT / FILE, text())

@@ -1,44 +1,82 @@
-"""Generator of docs/config.md, from the classes in schema/ and the template reference.md.
+"""Documentation of config.yaml from the declarations: docs/config.md, and sections for parts.
 
-Run `.venv/bin/python -m pipeline.config.reference` to renew the page.
+docs/config.md has the ball, variants and the scenes of the main set. The fields of another part's
+scenes stand on the page of the part.
 """
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from textwrap import dedent, fill
 from typing import Any, get_args, get_origin
 
 import jinja2
 
-from ..declaration import files
-from ..records.files import write_whole
+from ..declaration import files, imported, parts
 from ..records.sources import ROOT
 from .json_schema import Described
 from .schema import fields
 from .schema.fields import BallBlock, Block
 from .schema.kinds import KINDS
-from .schema.method import METHOD_BLOCKS
+from .schema.method import METHOD_BLOCKS, Scan
 from .schema.scene import Picture, Scene
 from .schema.sets import MAIN, SETS
-from .schema.stages import STAGES, upstream
+from .schema.stages import upstream
 from .schema.variant import Variant
-from .validation.document import BLOCKS, with_shipped
+from .validation.document import with_shipped
 
 EXAMPLES = tuple(files("examples.yaml").values())
+_MAIN_PART = next(name for name, part in parts().items() if MAIN in part.sets)
+_OTHERS = {name: part for name, part in parts().items() if name != _MAIN_PART}
 
 
 def page() -> str:
     """Return the text of docs/config.md."""
-    text = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
-    template = jinja2.Template(
-        text, trim_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
-    )
-    used: tuple[Any, ...] = (Scene, Variant, example, key_of, listed)
-    used += (mappings, nested, own_fields, upstream)
-    names = {each.__name__: each for each in used}
-    tables = {"KINDS": KINDS, "STAGES": STAGES, "METHOD_BLOCKS": METHOD_BLOCKS, "BLOCKS": BLOCKS}
-    sets = {each.key: each for name, each in SETS.items() if each.key and name != MAIN}
-    return str(template.render(names | tables, SETS=sets, fields=fields))
+    return _rendered("page", _MAIN_PART)
+
+
+def section(part: str) -> str:
+    """Return the fields of a part's scenes as a section of its page; empty if it adds none."""
+    if part not in _OTHERS or not (kinds_of(part) or blocks_of(part)):
+        return ""
+    return _rendered("section", part)
+
+
+def table_of_parts() -> str:
+    """Return a table of the commands of all parts but the main one, for README.md."""
+    lines = ["| part | command | what it does |", "|---|---|---|"]
+    for name, part in _OTHERS.items():
+        for command, each in part.commands.items():
+            lines.append(f"| {_link(name)} | `./reproduce {command}` | {each.line} |")
+    return "\n".join(["", *lines, "", ""])
+
+
+def _link(part: str, up: str = "") -> str:
+    """Return a part's name as a link to its page, if it has one."""
+    pages = {file.parent.name: file.relative_to(ROOT) for file in files("README.md").values()}
+    return f"[{part}]({up}{pages[part]})" if part in pages else part
+
+
+def others() -> Iterator[tuple[str, str, str, str]]:
+    """Yield each key of config.yaml of another part, its command, folder and the part's page."""
+    for name, part in _OTHERS.items():
+        for each in part.sets.values():
+            if each.key:
+                yield each.key, each.command, each.folder, _link(name, "../")
+        for key in part.settings:
+            yield key, "", "", _link(name, "../")
+
+
+def kinds_of(part: str) -> dict[str, type[Picture]]:
+    """Return the kinds of picture that a part declares, by their names."""
+    return {n: kind for n, kind in KINDS.items() if kind.__module__.split(".")[-2] == part}
+
+
+def blocks_of(part: str) -> dict[str, type[Block]]:
+    """Return the classes of other blocks that a part declares, by the words of a heading."""
+    declared = parts()[part]
+    methods = {f"method: {key}": place for key, place in declared.methods.items()}
+    return {key: imported(place) for key, place in {**declared.settings, **methods}.items()}
 
 
 def example(name: str) -> str:
@@ -50,14 +88,8 @@ def example(name: str) -> str:
     raise LookupError(f"{name}: no example")
 
 
-def mappings(kind: type[Picture]) -> dict[str, type[Block]]:
-    """Map names to the Block classes that a kind's module declares for values of its fields."""
-    declared = [each for each in Block.__subclasses__() if each.__module__ == kind.__module__]
-    return {each.__name__.lower(): each for each in declared if not issubclass(each, Picture)}
-
-
-def nested(kinds: Iterable[type[Picture]]) -> dict[str, type[Block]]:
-    """Map places to the Block classes that groups of fields declare for values of their fields."""
+def nested(part: str) -> dict[str, type[Block]]:
+    """Map places in a part's scenes to the Block classes there that the main part does not use."""
     found: dict[type[Block], str] = {}
 
     def look(place: str, annotation: Any) -> None:
@@ -72,10 +104,11 @@ def nested(kinds: Iterable[type[Picture]]) -> dict[str, type[Block]]:
         for name, field in model.model_fields.items():
             look(f"{before}{name}", field.annotation)
 
-    for kind in kinds:
+    for kind in kinds_of(part).values():
         look_in(kind)
-    own = {BallBlock, *METHOD_BLOCKS.values()} | {m for k in kinds for m in mappings(k).values()}
-    return {place: model for model, place in found.items() if model not in own}
+    known = {BallBlock, *METHOD_BLOCKS.values()}
+    known |= {*nested(_MAIN_PART).values()} if part != _MAIN_PART else set()
+    return {place: model for model, place in found.items() if model not in known}
 
 
 def own_fields(kind: type[Picture]) -> list[str]:
@@ -117,5 +150,16 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
     return "\n".join(items)
 
 
-if __name__ == "__main__":
-    write_whole(ROOT / "docs" / "config.md", page())
+def _rendered(template: str, part: str) -> str:
+    """Return what a template of reference_templates/ makes of a part."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).with_name("reference_templates")),
+        trim_blocks=True,
+        keep_trailing_newline=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    used: tuple[Any, ...] = (Scene, Variant, Scan, example, key_of, listed, nested, own_fields)
+    used += (upstream, others, kinds_of, blocks_of, parts)
+    environment.globals |= {each.__name__: each for each in used} | {"fields": fields}
+    text = environment.get_template(f"{template}.md").render(part=part)
+    return re.sub(r"\n{3,}", "\n\n", text)

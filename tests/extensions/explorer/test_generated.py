@@ -38,7 +38,7 @@ def scenes_of(text):
 
 
 def test_the_committed_copy_is_current(text):
-    """Renew it by .venv/bin/python -m extensions.explorer.page."""
+    """Renew it by .venv/bin/python -m pipeline.renew."""
     assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
 
 
@@ -72,13 +72,16 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
         shutil.copy(ROOT / file, tree)
     shutil.copy(SHIPPED, tree / "config.yaml")
     settings = {"PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
-    subprocess.run(
-        [sys.executable, "-m", "extensions.explorer.page"],
+    program = "import sys, extensions.explorer.page as page\n"
+    program += "sys.stdout.buffer.write(page.committed()[page.COPY].encode())"
+    made = subprocess.run(
+        [sys.executable, "-c", program],
         env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
         cwd=tmp_path,
         check=True,
+        stdout=subprocess.PIPE,
     )
-    assert (tree / page.COPY).read_bytes() == text.encode()
+    assert made.stdout == text.encode()
 
 
 def test_the_page_follows_config_and_manifest(text, tmp_path):
@@ -112,11 +115,9 @@ def test_scenes_of_two_sets_with_one_name_open_apart():
 
 
 def test_every_kind_of_picture_with_a_section_has_a_preset():
-    """A new kind needs an entry in web/presets.js, and a published scene one in presets.json."""
-    table = page.script("presets.js").partition("const PRESETS = {")[2].partition("\n};")[0]
-    assert set(re.findall(r"^  (\w+)[:(]", table, re.MULTILINE)) == {
-        name for name, kind in KINDS.items() if kind.on_section
-    }
+    """A new kind needs a function in presets.js of its part."""
+    functions = re.findall(r"^  (\w+)[:(]", page.script(page.PRESETS), re.MULTILINE)
+    assert set(functions) == {name for name, kind in KINDS.items() if kind.on_section}
     scenes = data.collect(config.load(SHIPPED))
     own = {name for name in scenes["scenes"] if "/" not in name}
     assert {preset["name"] for preset in scenes["presets"]} == own

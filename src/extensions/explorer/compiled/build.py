@@ -44,9 +44,15 @@ def record() -> dict[str, Any]:
     }
 
 
+def is_current() -> bool:
+    """Return whether the module was made from the kernel as it is."""
+    made = json.loads(RECORD.read_text(encoding="utf-8"))
+    return bool(made["sources"] == record()["sources"])
+
+
 def current_module() -> bytes:
     """Return the module; raises ValueError if the kernel was edited since it was made."""
-    if json.loads(RECORD.read_text(encoding="utf-8"))["sources"] != record()["sources"]:
+    if not is_current():
         command = f".venv/bin/python -m {__package__}.build"
         raise ValueError(f"the kernel was edited since the explorer's was compiled: run {command}")
     return MODULE.read_bytes()

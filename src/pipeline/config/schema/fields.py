@@ -1,7 +1,7 @@
 """The types of the fields of config.yaml.
 
 Each field has three parts: pydantic's constraints; the words for what is allowed, which error
-messages and docs/config.md quote; and, as its docstring, what it means, for docs/config.md.
+messages and docs/config.md quote; and, as its docstring, what it means, for the documents.
 
 A checked config has these models. `Block.as_mapping` makes what is recorded of one.
 """

@@ -8,7 +8,7 @@ from .scene import Picture
 
 
 def _declared() -> dict[str, type[Picture]]:
-    """Return the classes that are declared, by the kinds' names."""
+    """Return the classes that are declared, by the kinds' names, in the order of declaration."""
     kinds = {}
     for package in files("kinds.py"):
         module = importlib.import_module(f"{package}.kinds")
@@ -21,7 +21,7 @@ def _declared() -> dict[str, type[Picture]]:
                 figures = value.drawn_by.rsplit(".", 2)[0]
                 value.reported_by = f"{figures}.reports.{kind}"
                 kinds[kind] = value
-    return dict(sorted(kinds.items()))
+    return kinds
 
 
 KINDS = _declared()

@@ -1,0 +1,35 @@
+"use strict";
+/* How the explorer shows scenes of these kinds of picture: src/extensions/explorer/README.md. */
+Object.assign(PRESETS, {
+  portrait: surface,
+  motion: inTime,
+  tangle: (scene) => ({ ...surface(scene), periods: [scene.period], branches: branchesOf(scene) }),
+  closeup: closeUp,
+  exponents: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
+});
+
+/** The window of a close-up in (x, xdot), in the disk; the whole disk where a scene has no limits. */
+function closeUp(scene) {
+  const { axes, ball } = scene;
+  const lines = saddle({ ...scene, branches: { outer: scene, inner: scene } });
+  if (!axes) return { view: disk(), ...lines };
+  const [x, xdot] = [axes.x, axes.xdot].map(({ limits }) => 0.5 * (limits[0] + limits[1]));
+  const { radius } = geometry.section(ball.k, ball.g, scene.energy);
+  const half = (0.55 * (axes.x.limits[1] - axes.x.limits[0])) / radius;
+  return { view: disk(...placeOf({ x, xdot }, scene), half), ...lines };
+}
+
+function surface(scene) {
+  const { azimuth, elevation } = scene.view ?? HOME_VIEW;
+  return { view: { ...HOME_VIEW, azimuth, elevation }, orbits: orbitsOf(scene), chosen: 0 };
+}
+
+/** A periodic orbit in time, among the regular orbits of a portrait of the same ball and energy. */
+function inTime(scene, scenes) {
+  const { period, type, duration, ball, energy } = scene;
+  const portrait = Object.values(scenes).find(
+    (other) => other.picture === "portrait" && other.ball.k === ball.k && other.ball.g === ball.g && other.energy === energy,
+  );
+  const orbits = portrait ? orbitsOf(portrait).filter((orbit) => !orbit.sea) : [];
+  return { orbits, motion: { period, type, nth: 0 }, periods: [period], span: duration };
+}
