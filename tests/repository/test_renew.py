@@ -87,6 +87,8 @@ def test_a_deleted_part_leaves_no_trace(tmp_path):
     for page in (page for pattern in patterns for page in tree.path.glob(pattern)):
         for link in links(page.read_text()):
             assert (page.parent / link).exists(), (page, link)
+    explorer = (tree.path / "src/extensions/explorer/explorer.html").read_text()
+    assert '"atlas":null' in explorer and "rotation:()=>" not in explorer.replace(" ", "")
     status, said = check_jsonschema("--schemafile", tree.path / SCHEMA, tree.config)
     assert status == 0, said
     assert tree.python("-m", "pipeline.renew").stdout == "every generated file is current\n"

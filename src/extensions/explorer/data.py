@@ -25,8 +25,8 @@ from pipeline.records.sources import ROOT
 
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
+ATLAS = "explorer_map.json"  # a file of the part that has the sweeps
 # The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING stands for no value.
-ATLAS = Path(__file__).with_name("atlas.json")
 STEPS, MISSING = 250, 255
 
 
@@ -46,7 +46,7 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
         },
         "presets": presets(checked),
         "check": published_orbits(root),
-        "atlas": json.loads(read_text(ATLAS)) | {"steps": STEPS, "missing": MISSING},
+        "atlas": stored_atlas(),
     }
 
 
@@ -143,6 +143,12 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     return orbits
 
 
+def stored_atlas() -> dict[str, Any] | None:
+    """Return the map of the atlas that its part ships, or None without this part."""
+    stored = [json.loads(read_text(file)) for file in of_parts(ATLAS)]
+    return stored[0] | {"steps": STEPS, "missing": MISSING} if stored else None
+
+
 def rounded_atlas(root: Path = ROOT) -> dict[str, Any]:
     """Return the atlas of the sweep that the tree at `root` has.
 
@@ -164,4 +170,4 @@ def rounded_atlas(root: Path = ROOT) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    write_whole(ATLAS, json.dumps(rounded_atlas(), separators=(",", ":")) + "\n")
+    write_whole(of_parts(ATLAS)[0], json.dumps(rounded_atlas(), separators=(",", ":")) + "\n")

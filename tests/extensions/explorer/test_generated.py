@@ -132,7 +132,7 @@ def test_data_cannot_end_their_script(text):
 
 def test_the_atlas_has_the_values_of_a_sweep():
     """Each share is rounded to a step; one that is missing stays so."""
-    stored = json.loads(data.ATLAS.read_text())
+    stored = data.stored_atlas()
     k, energy = (np.array(stored[name]) for name in ("k", "energy"))
     steps = np.frombuffer(base64.b64decode(stored["regular"]), np.uint8)
     assert steps.size == k.size * energy.size
@@ -142,7 +142,7 @@ def test_the_atlas_has_the_values_of_a_sweep():
     committed = json.loads((ROOT / "more_figures/atlas/MANIFEST.json").read_text())["results"]
     output = committed[str(sweep.relative_to(ROOT))]["output"]
     if sweep.is_file() and output == output | describe_data(load(sweep)):
-        assert data.rounded_atlas() == stored
+        assert data.rounded_atlas().items() <= stored.items()
 
 
 @pytest.mark.parametrize(
@@ -172,12 +172,12 @@ def test_an_edit_of_the_kernel_asks_for_another_module(tree):
     assert text.count("h4 = h2 * h2") == 1
     file.write_text(text.replace("h4 = h2 * h2", "h4 = h2 * h2 + 0.0"))
     result = tree.run("explore", "--no-open")
-    line = r"reproduce: the kernel was edited since .*: run \.venv/bin/python -m \S+build\n"
+    line = r"reproduce: the kernel was edited since .*: run \.venv/bin/python -m pipeline\.renew\n"
     assert result.returncode == 1 and re.fullmatch(line, result.stdout)
 
 
 def test_the_module_is_the_recorded_one():
-    """Renew both by .venv/bin/python -m extensions.explorer.compiled.build."""
+    """Renew both by .venv/bin/python -m pipeline.renew."""
     recorded = json.loads(build.RECORD.read_text())
     assert recorded["sources"] == build.record()["sources"]
     assert recorded["sha256"] == hashlib.sha256(build.MODULE.read_bytes()).hexdigest()

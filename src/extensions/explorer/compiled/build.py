@@ -18,6 +18,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from pipeline.declaration import RENEW
 from pipeline.records.files import write_whole
 from pipeline.records.sources import ROOT, source_files, syntax_hash
 
@@ -53,8 +54,7 @@ def is_current() -> bool:
 def current_module() -> bytes:
     """Return the module; raises ValueError if the kernel was edited since it was made."""
     if not is_current():
-        command = f".venv/bin/python -m {__package__}.build"
-        raise ValueError(f"the kernel was edited since the explorer's was compiled: run {command}")
+        raise ValueError(f"the kernel was edited since the explorer's was compiled: run {RENEW}")
     return MODULE.read_bytes()
 
 

@@ -9,6 +9,8 @@ class AtlasView {
     this.page = page; // its state has the present place
     this.aim = null; // [k, log10 of E/g^2]: the keyboard's pointer
     const { atlas } = page.data;
+    element("atlas-panel").hidden = !atlas; // there is none without the sweeps
+    if (!atlas) return;
     this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
     this.canvas = element("atlas");
     this.listen(([k, logarithm]) => {
