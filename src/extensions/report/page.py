@@ -19,7 +19,7 @@ from pipeline.checks.captions import caption_of
 from pipeline.checks.freshness import CURRENT, Freshness
 from pipeline.checks.published_sets import IDENTICAL, committed_sets, committed_state
 from pipeline.checks.quantities import facts, measured
-from pipeline.checks.section import Links, Section
+from pipeline.checks.section import Section
 from pipeline.checks.verify import Findings, inspect
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.results import drawn
@@ -29,6 +29,8 @@ from pipeline.declaration import parts
 from pipeline.records.files import read_bytes
 from pipeline.records.pictures import pixels
 from pipeline.records.record import read_record, record_path
+
+from .links import Links
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),

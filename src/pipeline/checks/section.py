@@ -1,46 +1,18 @@
-"""What a part adds to the report, and links to the pictures and files that its texts name."""
+"""What a part adds to the report."""
 
-import re
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from markupsafe import Markup, escape
-
-from ..config import MAIN
-
-_PATH = re.compile(r"(?<![\w./])\w[\w.-]*(?:/[\w.-]*\w)+")
+from markupsafe import Markup
 
 
-class Links:
-    """Links of a report in results/report/, or in another folder of results."""
+class Links(Protocol):
+    """The links of a report."""
 
-    def __init__(self, root: Path, in_site: bool) -> None:
-        self.root, self.in_site = root, in_site
-        self.pictures: dict[str, str] = {}  # published file -> its place on the page
+    in_site: bool  # in the folder of a site, or else in results/report/
 
     def of(self, text: str) -> Markup:
-        """Return a text in which paths are links that may be broken after a slash or underscore."""
-        parts, end = [], 0
-        for found in _PATH.finditer(text):
-            parts += [escape(text[end : found.start()]), self._linked(found[0])]
-            end = found.end()
-        return Markup().join([*parts, escape(text[end:])])
-
-    def _linked(self, path: str) -> Markup:
-        words = Markup(re.sub(r"([/_])", r"\1<wbr>", str(escape(path))))
-        target = self._target(path)
-        return Markup('<a href="{}">{}</a>').format(target, words) if target else words
-
-    def _target(self, path: str) -> str | None:
-        if path in self.pictures:
-            return f"#{self.pictures[path]}"
-        if not (self.root / path).is_file():
-            return None
-        if not self.in_site:
-            return f"../../{path}"
-        data = path.startswith(f"results/{MAIN}/") and path.endswith(".nc")
-        return path.removeprefix("results/") if data else None
+        """Return a text in which paths are links."""
 
 
 class Section(NamedTuple):
