@@ -27,21 +27,24 @@ def compile_the_rest():
     from pseudorigid.dynamics.ball import Ball
     from pseudorigid.dynamics.ensemble import ImpactMap
     from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-    from study import figure_errors, states
-    from study.methods import counted_methods
 
     if "atlas" in parts():
         from extensions.atlas import cell
 
         for count in (12, 100):
             cell.cell(0.2, 6.25, count, 200)
-    state = states.BALL.start(np.linspace(-0.9, 0.9, 30), 0.01)
+    state = Ball(0.2, 0.04).start(np.linspace(-0.9, 0.9, 30), 0.01)
     for how in (None, (0.1, 1e-12)):
         ball = Ball(0.2, 0.04, ImpactMap(how))
         lyapunov_spectrum(ball, state, 20, 1)
         for one in (state, [float(a[0]) for a in state]):
             for name in ("impact", "inverse_impact", "jacobian", "time_to_impact"):
                 getattr(ball, name)(*one)
+    if "study" not in parts():
+        return
+    from study import figure_errors, states
+    from study.methods import counted_methods
+
     start = states.chaotic()
     for method in (
         counted_methods.OURS,

@@ -12,6 +12,7 @@ from project import run
 
 from pipeline.cli import arguments
 from pipeline.commands import all_commands, module_of
+from pipeline.config.schema.sets import SETS
 from pipeline.declaration import parts
 
 
@@ -50,10 +51,10 @@ MISTAKES = {
     "compare paper douled fig2": ": no variant douled: did you mean doubled?",
     "verify --strikt": " verify: no argument --strikt: did you mean --strict?",
     "fig3 --strict": ": no argument --strict: verify has it",
-    "study --coers 1": " study: no argument --coers: did you mean --cores?",
+    "variant --coers 1": " variant: no argument --coers: did you mean --cores?",
     "-c0": ": argument -c/--cores: '0' is not allowed: expected 1 or more, or all",
     "fig3 --dag": ": no argument --dag: options of snakemake follow --",
-    "study --version": " study: no argument --version: options of snakemake follow --",
+    "variant --version": " variant: no argument --version: options of snakemake follow --",
 }
 
 
@@ -77,7 +78,7 @@ def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
     args = arguments.read(["variant", "low", "-c2", "fig3", "--", "-j", "5", "x"])
     assert (args.variant, args.figure, args.cores) == ("low", ["fig3"], "2")
     assert (args.options, args.makes_nothing) == (["-j", "5", "x"], False)
-    args = arguments.read(["study", "--cores", "2", "-n"])
+    args = arguments.read(["variant", "--cores", "2", "-n"])
     assert (args.cores, args.options, args.makes_nothing) == ("2", [], True)
     assert arguments.read(["fig3", "--", "--dag"]).makes_nothing
     args = arguments.read(["test", "-k", "verify", "--help"])
@@ -97,6 +98,6 @@ def test_help_without_a_venv_installs_nothing(tree, tmp_path):
 
 def test_no_scene_has_the_name_of_a_command():
     block = {"picture": "motion", "energy": 0.01, "period": 1, "type": "elliptic", "duration": 3}
-    for key in ("scenes", "study"):
+    for key in filter(None, (each.key for each in SETS.values())):
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
         assert complaint(given).startswith(f"{key}: 'verify' is not allowed")

@@ -71,7 +71,7 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
     ("name", "block", "parts"),
     [
         ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
-        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper, study"]),
+        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper"]),
         ("v", {}, ["variants.v: {}"]),
         ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
         ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),

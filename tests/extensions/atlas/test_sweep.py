@@ -13,7 +13,6 @@ from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
-from pipeline.config import results as paths
 from pipeline.records.artifacts import load
 from pipeline.records.build_spec import BuildSpec
 
@@ -43,7 +42,7 @@ def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweep
 
 def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
     monkeypatch.setattr(parts, "PAUSE", 0.0)
-    first, second, third = (paths.part_path("results/atlas/sweep_plane.nc", i) for i in range(3))
+    first, second, third = (f"results/atlas/sweep_plane.{i:04d}.nc" for i in range(3))
     other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
     specs = checked(plane=SMALL).build_specs(["atlas"])
     progress = parts.Parts(specs | {other.result: other}, {second, third, other.result})
