@@ -14,9 +14,11 @@ from PIL import Image
 from verdicts import commit, verified
 
 from pipeline import config
+from pipeline.checks import manifest
 from pipeline.checks.published_sets import edited_lists
 from pipeline.cli import arguments
 from pipeline.records import pictures
+from pipeline.records.record import public_record
 from pipeline.records.sources import syntax_hash
 from pseudorigid.figures.canvas.render import png
 
@@ -60,6 +62,12 @@ def test_manifest_and_records_have_no_folder_and_no_date(accepted):
         assert str(accepted.path) not in content
         assert time.strftime("%Y-") not in content
     assert "commit" not in text
+    committed = manifest.read(accepted.path, "paper_figures")
+    assert len(committed["results"]) == 10 + 14
+    for path in committed["results"]:
+        record = public_record(accepted.path, path)
+        whole = manifest.record_of(committed, path)
+        assert whole == record | {"output": whole["output"] | record["output"]}
     assert all({"commit", "dirty"} <= json.loads(record).keys() for record in records)
 
 

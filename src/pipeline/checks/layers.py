@@ -56,6 +56,9 @@ class Comparison:
             layers["drawing"] = f"{output['file']}: {words}"
         return layers
 
+    def _published(self, name: str) -> str:
+        return f"{self.published_set.folder}/{name}"
+
     def _present(self, path: str, result: str) -> dict[str, Any]:
         """Describe a file; without the file, or if it has the committed bytes, as committed."""
         committed, digest = self.results[result]["output"], self.freshness.digest(path)
@@ -65,10 +68,7 @@ class Comparison:
 
     def _output(self, name: str, drawing: str) -> dict[str, Any]:
         """Describe a published file or its drawing, whichever is less like the committed one."""
-        published, committed = (
-            f"{self.published_set.folder}/{name}",
-            self.results[drawing]["output"],
-        )
+        published, committed = self._published(name), self.results[drawing]["output"]
         if self.freshness.digest(published) is None:
             why = why_not_a_file(self.root / published)
             missing = f"{published} is missing: {self.published_set.command} makes it"
@@ -78,7 +78,7 @@ class Comparison:
 
     def _how_drawn(self, path: str, name: str, digest: str) -> str:
         """Describe how a picture differs from the committed one, if there is a copy of this one."""
-        published = f"{self.published_set.folder}/{name}"
+        published = self._published(name)
         image = f"{self.published_set.results}/differences/{name}"
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder) / name

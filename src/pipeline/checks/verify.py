@@ -35,9 +35,14 @@ class Findings:
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
     edited: list[str] = field(default_factory=list)  # manifest or sums that are not committed
     problems: list[str] = field(default_factory=list)  # of manifest, sums, text files, surplus
-    left_out: list[str] = field(default_factory=list)  # lines about scenes that cannot be made
     # A line about drawings of the paper that were not computed here, if they have to be.
     uncomputed: list[str] = field(default_factory=list)
+
+    @property
+    def left_out(self) -> list[str]:
+        """Lines about scenes that cannot be made."""
+        reasons = self.published_set.impossible.items()
+        return [f"{name} is left out, because it cannot exist: {why}" for name, why in reasons]
 
     @property
     def differences(self) -> dict[str, dict[str, str]]:
@@ -156,9 +161,6 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
     }
     published_set = published_set.without(refused)
     folder, findings = published_set.folder, Findings(published_set)
-    findings.left_out = [
-        f"{name} is left out, because it cannot exist: {why}" for name, why in refused.items()
-    ]
     findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
     try:
         findings.committed = committed = manifest.read(root, folder)

@@ -45,38 +45,37 @@ def differing_layers(
     """
     form = f"{{}}: {{}} {was}, {{}} {now}" if was else "{} {} -> {}"
     blocks = differing_keys(before["config"], after["config"])
+    packages = before["environment"], after["environment"]
     layers = {
         "config": "; ".join(form.format(key, brief(old), brief(new)) for key, old, new in blocks),
         "source": _differing_files(before["sources"], after["sources"]),
-        "environment": _differing_packages(
-            before["environment"], after["environment"], was or "then"
-        ),
+        "environment": _differing_packages(*packages, was or "then"),
         "data": next(_differing_inputs(before["inputs"], after["inputs"]), ""),
         **_differing_output(before["output"], after["output"]),
     }
     return {layer: words for layer, words in layers.items() if words}
 
 
+def _differing_names(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[str]:
+    """Return the sorted keys whose values differ; None stands for no value."""
+    return [key for key in sorted({*before, *after}) if before.get(key) != after.get(key)]
+
+
 def _differing_files(before: Mapping[str, str | None], after: Mapping[str, str | None]) -> str:
     """Name the first file whose hash differs, or return "". A hash of None says: gone."""
-    different = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
-    if not different:
-        return ""
-    path = different[0]
+    path, *others = _differing_names(before, after) or [""]
     verb = "is new" if path not in before else "is gone" if after.get(path) is None else "differs"
-    others = f" (and {len(different) - 1} more)" if len(different) > 1 else ""
-    return f"{path} {verb}{others}"
+    more = f" (and {len(others)} more)" if others else ""
+    return path and f"{path} {verb}{more}"
 
 
-def _differing_packages(
-    before: Mapping[str, str | None], after: Mapping[str, str | None], was: str
-) -> str:
+def _differing_packages(before: Mapping[str, Any], after: Mapping[str, Any], was: str) -> str:
     """Describe every package whose version differs."""
-    words = []
-    for name in (name for name in sorted({*before, *after}) if before.get(name) != after.get(name)):
-        here = f"{after[name]} here" if after.get(name) else "not installed here"
-        words.append(f"{name} {before.get(name)} {was}, {here}")
-    return "; ".join(words)
+    here = {name: f"{version} here" for name, version in after.items() if version}
+    return "; ".join(
+        f"{name} {before.get(name)} {was}, {here.get(name, 'not installed here')}"
+        for name in _differing_names(before, after)
+    )
 
 
 def _differing_inputs(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[str]:
@@ -99,8 +98,7 @@ def differing_data(before: Mapping[str, Any], after: Mapping[str, Any]) -> str |
     for name in sorted({*old, *new}):
         if words := _differing_variable(old.get(name), new.get(name)):
             return f"variable {name}{words}"
-    keys = differing_keys(before.get("attributes", {}), after["attributes"])
-    names = [name for name, *_ in keys]
+    names = _differing_names(before.get("attributes", {}), after["attributes"])
     verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
     return verb.format(", ".join(names)) if names else None
 

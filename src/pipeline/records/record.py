@@ -103,7 +103,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     }
     require_unchanged(source_hashes)
     start = time.monotonic()
-    output: dict[str, Any] = {}
+    output: dict[str, Any] = {"file": spec.result}
     try:
         yield output
     except ValueError as error:
