@@ -59,13 +59,13 @@ class Flight(NamedTuple):
         z, speed, _, p, q = gap(_START * s, x, b, c, s, g, quadrant(_START * s))
         return [z, speed, -p, q]
 
-    def with_care(self, rtol: float, end: float) -> tuple[Any, list[float], dict[str, Any]]:
+    def with_care(self, rtol: float, end: float) -> tuple[Any, np.ndarray, dict[str, Any]]:
         """Return span, start and options of an integration up to `end`."""
         begin = _START * self.s
         first = min(0.5 * self.bound(), 0.5 * (end - begin))
         atol = _ATOL * rtol * min(self.s, 1.0)
         options = {"rtol": rtol, "atol": atol, "first_step": first, "events": _EVENTS}
-        return (begin, end), self.exactly(), options
+        return (begin, end), np.array(self.exactly()), options
 
     def bound(self) -> float:
         """Return a time at or before the first root."""
@@ -183,7 +183,7 @@ def careful_cyrk_method(solver: str, rtol: float) -> ExternalSolver:
         calls = np.zeros(1, np.int64)
         span, start, options = a.with_care(rtol, end)
         options |= {"method": solver, "args": (a.g, calls), "pass_dy_as_arg": True}
-        solved = pysolve_ivp(_fall, span, np.array(start), dense_output=dense, **options)
+        solved = pysolve_ivp(_fall, span, start, dense_output=dense, **options)
         if dense:
             return (lambda t: solved(t)[:, 0]), int(calls[0])
         tops = solved.y_events[1]
@@ -315,11 +315,11 @@ def _gap_integrator(g: float, tolerance: float, callback: Callable[..., bool] | 
     )
 
 
-def _just_after(a: Flight) -> tuple[float, float, float, float]:
+def _just_after(a: Flight) -> np.ndarray:
     """Return (x, u, xdot, udot) of the flight at the time AFTER, eq. (26)."""
     sine, cosine = math.sin(AFTER), math.cos(AFTER)
     height, strain = a.x + AFTER * (a.b + 0.5 * a.g * AFTER), a.c * sine - a.x * cosine
-    return height, strain, a.b + a.g * AFTER, a.c * cosine + a.x * sine
+    return np.array([height, strain, a.b + a.g * AFTER, a.c * cosine + a.x * sine])
 
 
 SOLVERS = {
