@@ -27,8 +27,8 @@ from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from .measured import Call, machine
-from .methods import libraries
-from .methods.counted_methods import scan_method
+from .methods import Method, libraries
+from .methods.counted_methods import careful_method, scan_method
 from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
@@ -71,9 +71,10 @@ def calls() -> dict[str, Call]:
     """Return the calls of the table by name."""
     sea, many_orbits = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     states_20, states_500 = (certified_orbit(BALL, sea, count)[0] for count in (20, 500))
-    scan = partial(scan_method(0.1, 1e-12).solve, BALL, *states_500)
-    heyoka = partial(libraries.taylor_method(1e-15, "positive").solve, BALL, *states_500)
-    dop853 = partial(libraries.ivp_method("DOP853", 1e-9).solve, BALL, *states_20)
+    scan, careful = scan_method(0.1, 1e-12), careful_method(0.5)
+    heyoka, whole = libraries.careful_taylor_method(1e-15), libraries.taylor_orbit
+    cyrk = libraries.careful_cyrk_method("DOP853", 1e-9)
+    dop853 = libraries.careful_ivp_method("DOP853", 1e-9)
     spectrum = partial(lyapunov_spectrum, BALL, records=1)
     pynamicalsys = partial(libraries.lyapunov_exponents, BALL, sea, IMPACTS)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
@@ -88,9 +89,14 @@ def calls() -> dict[str, Call]:
         THREE: Call(partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
         ONE: Call(partial(_three_sincos, 1.0, IMPACTS), 3 * IMPACTS),
         ORBIT: Call(partial(BALL.after, sea, IMPACTS), IMPACTS, THREE, "at most 2.3"),
-        "scan 0.1 and bisection to 1e-12": Call(scan, 500, ORBIT, "at least 5"),
-        "heyoka, default tolerance": Call(heyoka, 500, ORBIT, "at least 25"),
-        "solve_ivp DOP853, rtol 1e-9": Call(dop853, 20, ORBIT, "at least 2000"),
+        "scan 0.1, bisection to 1e-12, as usual": _flights(scan, states_500, "at least 5"),
+        "scan with care, steps of 0.5": _flights(careful, states_500, "at least 1.3"),
+        "heyoka, an orbit in one call": Call(
+            partial(whole, BALL, sea, 5000), 5000, ORBIT, "at least 10"
+        ),
+        "heyoka with care, a call a flight": _flights(heyoka, states_500, "at least 25"),
+        "CyRK DOP853 with care, rtol 1e-9": _flights(cyrk, states_500, "at least 100"),
+        "solve_ivp DOP853 with care (interpreted)": _flights(dop853, states_20, "at least 2000"),
         SPECTRUM: Call(partial(spectrum, sea, IMPACTS), IMPACTS),
         "spectrum by pynamicalsys, an impact": Call(pynamicalsys, IMPACTS, SPECTRUM, "at least 3"),
         "ensemble, the end only, an impact": Call(ensemble, 200 * LANES, ONE, "at most 1.2"),
@@ -106,6 +112,11 @@ def calls() -> dict[str, Call]:
             partial(search, MANY, 12), 1, NONE, "at most 50"
         ),
     }
+
+
+def _flights(method: Method, columns: np.ndarray, aim: str) -> Call:
+    """Return the call that solves flights from states (3, n), against those of one orbit."""
+    return Call(partial(method.solve, BALL, *columns), columns.shape[1], ORBIT, aim)
 
 
 def _interleaved(timed: dict[str, Call], repetitions: int) -> dict[str, Triple]:

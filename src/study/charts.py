@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -17,38 +18,49 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 # Colour and mark of each family of methods, or of a method in charts that draw one family's
-# methods apart; similar methods have similar colours.
-STYLES = {
+# methods apart; similar methods have similar colours. A third entry means a hollow mark, for
+# methods as they are usually written.
+_GREY, _USUAL = "#6b6b6b", True
+STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
-    "scan 0.5 + bisection": (style.SKY, "o"),
-    "scan 0.2 + bisection": ("#3d94d4", "o"),
-    "scan 0.1 + bisection": (style.BLUE, "o"),
-    "scan 0.05 + bisection": ("#1d5a9b", "o"),
-    "scan 0.02 + bisection": ("#123f78", "o"),
-    "scan 0.01 + bisection": ("#0b2a55", "o"),
-    "time stepping": (style.ORANGE, "o"),
-    "scan 0.1 + brentq": (style.BLUE, "s"),
-    "RK45": ("#6b6b6b", "v"),
-    "DOP853": (style.BLACK, "^"),
-    "DOP853, steps <= 0.1": (style.BLACK, "D"),
-    "LSODA": ("#6b6b6b", "s"),
-    "Radau": ("#a0a0a0", "D"),
-    "heyoka, any direction": (style.PURPLE, "^"),
-    "heyoka, positive direction": (style.GREEN, "^"),
-    "scan 0.1, 1e-03": ("#ecc3da", "o"),
-    "scan 0.1, 1e-06": (style.PURPLE, "o"),
-    "scan 0.1, 1e-09": ("#8f4772", "o"),
-    "engine 1e-03": ("#a86f00", "o"),
+    "careful scan": (style.BLUE, "o"),
+    "careful scan (simple)": (style.ORANGE, "D"),
+    "heyoka with care": (style.GREEN, "s"),
+    "CyRK DOP853 with care": ("#8c510a", "^"),
+    "DOP853 with care": (style.BLACK, "^"),
+    "LSODA with care": (_GREY, "D"),
+    "RK45 with care": (style.PURPLE, "v"),
+    "scan 0.5 + bisection": (style.SKY, "o", _USUAL),
+    "scan 0.2 + bisection": ("#3d94d4", "o", _USUAL),
+    "scan 0.1 + bisection": (style.BLUE, "o", _USUAL),
+    "scan 0.05 + bisection": ("#1d5a9b", "o", _USUAL),
+    "scan 0.02 + bisection": ("#123f78", "o", _USUAL),
+    "scan 0.01 + bisection": ("#0b2a55", "o", _USUAL),
+    "time stepping": (style.ORANGE, "o", _USUAL),
+    "heyoka": (style.GREEN, "s", _USUAL),
+    "DOP853": (style.BLACK, "^", _USUAL),
+    "LSODA": (_GREY, "D", _USUAL),
+    "RK45": (style.PURPLE, "v", _USUAL),
+    "careful scan 1": ("#56a0d3", "s"),
+    "careful scan 0.25": ("#123f78", "^"),
+    "careful scan 1 (simple)": (style.ORANGE, "s"),
+    "careful scan 0.5 (simple)": (style.ORANGE, "o"),
+    "careful scan 0.25 (simple)": (style.ORANGE, "^"),
+    "scan 0.1, 1e-03": ("#ecc3da", "o", _USUAL),
+    "scan 0.1, 1e-06": (style.PURPLE, "o", _USUAL),
+    "scan 0.1, 1e-09": ("#8f4772", "o", _USUAL),
+    "engine 1e-03": ("#a86f00", "o", _USUAL),
 }
 LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
-_MAX_WRONG_SHARE = 0.01  # of roots; above it the worst right root is as wrong as right roots may be
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _MOST_FLAT_SHARE = 0.02  # share below which a panel has room for the key
+_MOST_IN_PANEL = 8  # methods of that key
 _NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
+_SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "s", -0.14)  # colour, mark and rise in a row
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
-Entry = tuple[str, str, str]  # of a key: text, colour and mark
+Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
 method_key = partial(key, columns=_KEY_COLUMNS, size=7.0)
 
@@ -79,41 +91,40 @@ class PanelWithZeros(Panel):
 
 @style.pinned()
 def work(scene: Scene, data: xr.Dataset) -> Figure:
-    """Draw a work-precision diagram for one set of states: error and failures against cost.
+    """Draw a work-precision diagram for one set of states: median and worst error against cost.
 
-    Filled marks and full lines are the median error. Hollow marks and dashed lines are the worst of
-    the right roots, if at most one root in a hundred is wrong. Below is the share of wrong roots.
-    Marks that others would hide are larger.
+    The worst error is at the top if a root is wrong. Marks that others would hide are larger.
+    CyRK evaluates as often as DOP853, so that it is drawn against seconds alone.
     """
     which, cost = ("uniform", "grazing").index(scene["states"]), scene["cost"]
-    data, families = data.isel(set=which), list(dict.fromkeys(data["family"].values))
-    entries, wrong = _entries(families, families), data["wrong"].values
-    sheet, top = chart_sheet(1030, entries)
+    drawn = [not (f.startswith("CyRK") and cost == "evaluations") for f in data["family"].values]
+    data = data.isel(set=which, method=drawn)
+    present = set(data["family"].values)
+    families = [family for family in STYLES if family in present]
+    entries = _entries(families, families)
+    sheet, top = chart_sheet(1280, entries)
     across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
-    error = _error_axis(_ZERO_DECADE, 0, "Relative error of the flight time")
-    upper = PanelWithZeros(sheet, (LEFT, top - 560, RIGHT, top), across.blank(), error)
-    shares = (0, 0.2, 0.4, 0.6) if wrong.max() > 0.1 else (0, 0.05, 0.1)
-    share = Axis((0.0, shares[-1]), shares, "Share of wrong roots")
-    lower = Panel(sheet, (LEFT, top - 830, RIGHT, top - 630), across, share)
-    letters(sheet, upper.frame, lower.frame)
-    if (wrong <= _MAX_WRONG_SHARE).any():
-        corner(sheet, upper.frame, "hollow: worst right root")
-    x, wrong, median, worst = (data[n].values for n in (cost, "wrong", "median", "worst"))
-    worst = np.where(wrong <= _MAX_WRONG_SHARE, worst, np.nan)
-    of = np.array([families.index(family) for family in data["family"].values])
-    marks = (upper, worst, True), (upper, median, False), (lower, wrong, False)
-    of = np.array([families.index(family) for family in data["family"].values])
-    sizes = [_sizes(panel, of, x, y) for panel, y, _ in marks]
-    for i, (_, color, marker) in enumerate(entries):
-        own, good = of == i, (of == i) & np.isfinite(worst)
-        upper.line(x[own], median[own], color=color, lw=0.9)
-        upper.line(x[good], worst[good], color=color, lw=0.5, ls="--")
-        lower.line(x[own], wrong[own], color=color, lw=0.9)
-        for (panel, y, hollow), size in zip(marks, sizes, strict=True):
+    median = _error_axis(_ZERO_DECADE, 0, "Median relative error of the flight time")
+    worst = replace(median, name="Worst relative error")
+    panels = (
+        PanelWithZeros(sheet, (LEFT, top - 480, RIGHT, top), across.blank(), median),
+        PanelWithZeros(sheet, (LEFT, top - 1045, RIGHT, top - 565), across, worst),
+    )
+    letters(sheet, *(panel.frame for panel in panels))
+    if data["wrong"].values.any():
+        corner(sheet, panels[1].frame, "at the top: some roots are wrong")
+    x, of = data[cost].values, np.array([families.index(f) for f in data["family"].values])
+    worst_error = np.where(data["wrong"].values > 0.0, 1.0, data["worst"].values)
+    for panel, y in zip(panels, (data["median"].values, worst_error), strict=True):
+        size = _sizes(panel, len(families) - of, x, y)
+        for i, (_, color, marker, hollow) in reversed([*enumerate(entries)]):
+            own = np.flatnonzero(of == i)
+            own = own[np.argsort(x[own])]
+            panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
             for points in np.unique(size[own]):
-                at = own & (size == points) & np.isfinite(y)
+                at = own[(size[own] == points) & np.isfinite(y[own])]
                 panel.dots(x[at], y[at], color, points, hollow=hollow, marker=marker)
-    method_key(sheet, entries, top - 965)
+    method_key(sheet, entries, top - 1180)
     return sheet.figure
 
 
@@ -124,11 +135,15 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
     A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
     in which no method fails, if there is one. Methods whose marks coincide take turns in front.
     """
+    order = np.argsort([[*STYLES].index(f) for f in data["family"].values], kind="stable")
+    data = data.isel(method=order)
     methods = _entries(data["name"].values, data["family"].values)
     flat = [
         (v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _MOST_FLAT_SHARE
     ][:1]
-    sheet, top = chart_sheet(1075 if flat else 1100 + _KEY_LINE * len(methods))
+    flat = flat if len(methods) <= _MOST_IN_PANEL else []
+    below = 0 if flat else _KEY_LINE * math.ceil(len(methods) / 2)
+    sheet, top = chart_sheet(1085 + below)
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
     height = "Height of the gap's maximum, + or −"
@@ -149,17 +164,17 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
                 sheet.text(*middle, name, ha="center", va="top", size=8.0)
             title(sheet, frames[-1], text if side else f"Share failing, {text}", size=8.0)
             shares = data[variable].values[:, side]
-            for (_, color, _), share in zip(methods, shares, strict=True):
-                panel.line(x, share, color=color, lw=0.9)
+            for (_, color, _, hollow), share in zip(methods, shares, strict=True):
+                panel.line(x, share, color=color, lw=0.5 if hollow else 0.9)
             for column, at in enumerate(x):  # methods that coincide take turns in front
                 for i in np.roll(np.arange(len(methods)), column).tolist():
-                    _, color, marker = methods[i]
-                    panel.dots(at, shares[i, column], color, size=2.6, marker=marker)
+                    _, color, marker, hollow = methods[i]
+                    panel.dots(at, shares[i, column], color, 2.6, hollow=hollow, marker=marker)
             if (variable, side) in flat:
                 method_key(sheet, methods, high - 30, columns=1, left=left + 30)
     letters(sheet, *frames)
     if not flat:
-        method_key(sheet, methods, top - 1040, columns=1)
+        method_key(sheet, methods, top - 1040, columns=2)
     return sheet.figure
 
 
@@ -182,11 +197,11 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
-    for i, (_, color, marker) in enumerate(entries):
+    for i, (_, color, marker, hollow) in enumerate(entries):
         drift = data["drift"].values[i]
         upper.line(data["record"].values, drift, color=color, lw=0.9)
         end = drift[-1], float(data["missed"].values[i])
-        lower.dots(*end, color, marker=marker)
+        lower.dots(*end, color, hollow=hollow, marker=marker)
         if entries.count(entries[i]) > 1:
             lower.note(*end, _scan_step(data["name"].values[i]), shift=(3, 3.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
@@ -202,7 +217,7 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     up = _error_axis(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     entries = _methods_with_merged_scans(data)
-    for (_, color, _), distance in zip(entries, data["apart"].values, strict=True):
+    for (_, color, *_), distance in zip(entries, data["apart"].values, strict=True):
         panel.line(data["impact"].values, distance, color=color, lw=0.9)
     method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
     return sheet.figure
@@ -241,8 +256,51 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, text, size=7.0)
-    entries = dict.fromkeys(_entries(families, families))
+    entries = dict.fromkeys(entry[:3] for entry in _entries(families, families))
     method_key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 135)
+    return sheet.figure
+
+
+@style.pinned()
+def misses(scene: Scene, data: xr.Dataset) -> Figure:
+    """Draw impacts missed against flights, and the share of hard states at which methods fail.
+
+    Marks above the same number of flights stand side by side.
+    """
+    names, searched = data["name"].values.tolist(), data["searched_name"].values.tolist()
+    styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
+    rows = len(searched)
+    sheet, top = chart_sheet(820 + 56 * rows, [*styles.values()])
+    powers = ["0", *(rf"$10^{e}$" for e in range(5))]
+    up = AxisWithZero((-1, 4.3), range(-1, 5), "Impacts missed", True, powers)
+    labels = [rf"$10^{exponent}$" for exponent in range(3, 9)]
+    across = Axis((2.5, 8.5), range(3, 9), "Flights of the chaotic sea", labels=labels)
+    upper = PanelWithZeros(sheet, (LEFT, top - 470, RIGHT, top), across, up)
+    for i, (name, (_, color, marker, hollow)) in enumerate(styles.items()):
+        aside = 0.09 * (i - 0.5 * (len(styles) - 1))
+        for part in ("", "long_"):
+            for at in np.flatnonzero(data[f"{part}name"].values == name):
+                flights = [len(str(n)) - 1 + aside for n in data[f"{part}flights"].values]
+                count = data[f"{part}missed"].values[at]
+                upper.line(flights, count, color=color, lw=0.6)
+                upper.dots(flights, count, color, hollow=hollow, marker=marker)
+    method_key(sheet, [*styles.values()], top - 610)
+    high = top - 660 - _KEY_LINE * math.ceil(len(styles) / _KEY_COLUMNS)
+    frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
+    powers = ["0", *(rf"$10^{{{e}}}$" for e in range(-6, 1, 2))]
+    share = AxisWithZero(
+        (-7, 0), (-7, *range(-6, 1, 2)), "Share of hard states at which it fails", True, powers
+    )
+    middles = [rows - 0.5 - i for i in range(rows)]
+    labels = [_printed(name, re.sub(" with care, 1e.*", "", name)) for name in searched]
+    lower = PanelWithZeros(sheet, frame, share, Axis((0, rows), middles, labels=labels))
+    shares = data["failed"].values / data["tried"].values
+    families = []
+    for j, (color, marker, rise) in enumerate(_SEARCHES):
+        lower.dots(shares[:, j], np.array(middles) + rise, color, marker=marker)
+        families.append((data["families"].values[j].replace("_", " "), color, marker))
+    method_key(sheet, families, frame[1] - 130)
+    letters(sheet, upper.frame, lower.frame)
     return sheet.figure
 
 
@@ -271,9 +329,10 @@ def _error_axis(low: int, high: int, name: str) -> AxisWithZero:
 
 
 def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
-    """Return an entry of the key, (text, colour, mark), for each method or family."""
+    """Return an entry of the key for each method or family."""
     pairs = zip(names, families, strict=True)
-    return [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
+    styles = [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
+    return [(*entry, False)[:4] for entry in styles]
 
 
 def _methods_with_merged_scans(data: xr.Dataset) -> list[Entry]:
@@ -287,7 +346,7 @@ def _methods_with_merged_scans(data: xr.Dataset) -> list[Entry]:
         if len(same) > 1:
             first, last = (_scan_step(data["name"].values[i]) for i in (same[0], same[-1]))
             for i in same:
-                entries[i] = (_printed(tolerance, f"scan {first} to {last}"), style.BLUE, "o")
+                entries[i] = (_printed(tolerance, f"scan {first} to {last}"), style.BLUE, "o", True)
     return entries
 
 
@@ -298,7 +357,6 @@ def _scan_step(name: str) -> str:
 
 def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
-    family = family.removesuffix(" + bisection").removesuffix(" direction")
+    text = name if name.startswith("careful") else family.removesuffix(" + bisection")
     setting = re.search(r"1e-0?(\d+)$", name)
-    text = family.replace("<=", "\N{LESS-THAN OR EQUAL TO}")
     return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text

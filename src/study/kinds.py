@@ -2,7 +2,6 @@
 
 from typing import Literal
 
-from pipeline.config.schema.fields import NoFormats
 from pipeline.config.schema.scene import Picture
 
 DRAWN_BY = "study.charts.{}"  # the function of each kind that names no other one
@@ -20,7 +19,7 @@ class Work(Picture):
 
 
 class MeasuredWork(Work):
-    """error and failures of each method, with external solvers, against its cost"""
+    """error and failures of each method against its cost, measured on this machine"""
 
     stages = ("work_all",)
     drawn_by = "study.charts.work"
@@ -30,13 +29,6 @@ class Edges(Picture):
     """the share of failures near grazing and near a touch of the floor"""
 
     stages = ("edges",)
-
-
-class MeasuredEdges(Picture):
-    """the share of failures near grazing and near a touch of the floor, with external solvers"""
-
-    stages = ("edges_all",)
-    drawn_by = "study.charts.edges"
 
 
 class Energy(Picture):
@@ -57,9 +49,7 @@ class FigureErrors(Picture):
     stages = ("needs",)
 
 
-class MissedImpacts(Picture):
-    """data of the impacts that each method misses, without a picture"""
+class Misses(Picture):
+    """the impacts missed in long runs, and at the hardest states that a search found"""
 
-    stages = ("missed_all",)
-
-    formats: NoFormats = []
+    stages = ("misses",)

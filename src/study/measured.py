@@ -16,24 +16,13 @@ import xarray as xr
 
 from pseudorigid.dynamics.variables import described
 
-from . import stages, states
+from . import stages
 from .methods import Method, libraries
-from .methods.counted_methods import METHODS, OURS, scan_method
+from .methods.counted_methods import METHODS
 from .states import BALL
 
-PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys")
+PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys", "cyrk")
 MIN_SECONDS = 0.02  # of one timing, so that the clock's resolution does not show
-# Names of the external solvers that are compared near grazing.
-_GRAZING_SOLVERS = (
-    "brentq 0.1, 1e-12",
-    "RK45, 1e-06",
-    "DOP853, 1e-09",
-    "DOP853, steps <= 0.1, 1e-12",
-    "LSODA, 1e-09",
-    "heyoka any, 1e-15",
-    "heyoka positive, 1e-15",
-)
-_GRAZING_METHODS = [OURS, *(m for m in libraries.METHODS if m.name in _GRAZING_SOLVERS)]
 
 
 def work_all() -> xr.Dataset:
@@ -41,23 +30,13 @@ def work_all() -> xr.Dataset:
     return timed_work([*METHODS, *libraries.METHODS]).assign_attrs(machine())
 
 
-def edges_all() -> xr.Dataset:
-    """Compare external solvers near grazing and near a touch of the floor."""
-    return stages.edges(_GRAZING_METHODS, 40, "edges_all").assign_attrs(machine())
-
-
-def missed_all() -> xr.Dataset:
-    """Count the impacts that external solvers miss."""
-    return missed(_GRAZING_METHODS).assign_attrs(machine())
-
-
 def timed_work(methods: Sequence[Method], count: int = 200, repetitions: int = 5) -> xr.Dataset:
     """Compute (method, set): errors and evaluations of any methods, and seconds a flight.
 
     `count` is the number of states of a set. The seconds are quartiles of interleaved repetitions.
-    `stages.work` solves for the errors first, so that a method that compiles does so untimed.
+    `stages.accuracy` solves for the errors first, so that a method that compiles does so untimed.
     """
-    data = stages.work(methods, count, "work_all")
+    data = stages.accuracy(methods, count, "work_all")
     sets = [states_of(count) for states_of in stages.SETS.values()]
     seconds = [
         [[_seconds(method, columns) for columns in sets] for method in methods]
@@ -71,19 +50,6 @@ def timed_work(methods: Sequence[Method], count: int = 200, repetitions: int = 5
         "seconds_high": (dims, high, "upper quartile of seconds a flight", "s"),
     }
     return data.assign(described(variables))
-
-
-def missed(methods: Sequence[Method], impacts: int = stages.MILLION) -> xr.Dataset:
-    """Count the impacts of the certified chaotic orbit that the coarsest scan and each method miss.
-
-    The methods solve only the flights for which a scan with step 0.5 gives a wrong root. The result
-    missed (method) is therefore a lower bound of the impacts that a method misses on the orbit.
-    """
-    columns, certified = stages.certified_orbit(BALL, states.chaotic(), impacts)
-    hard = stages.is_wrong(scan_method(0.5, 1e-12).solve(BALL, *columns)[0], certified)
-    count = stages.wrong_roots(methods, columns[:, hard]).sum(axis=1)
-    variables = {"missed": ("method", count, "impacts missed, of those that scan 0.5 misses")}
-    return stages.dataset("missed_all", methods, variables, impacts=impacts, hard=int(hard.sum()))
 
 
 def _seconds(method: Method, columns: np.ndarray) -> float:

@@ -1,10 +1,16 @@
-"""Comparisons of the compiled methods. Their data are equal on every machine.
+"""Comparisons of the methods. Their data are equal on every machine.
 
-`work` compares accuracy and cost, `edges` failures near grazing and at near misses, and `drift`
-orbits of a million impacts. A flight time fails if it is missing or another root's (`is_wrong`).
+`work` compares accuracy and cost, `edges` failures near grazing and at near misses, `drift` orbits
+of a million impacts, and `misses` counts the impacts missed in long runs. A flight time fails if it
+is missing or another root's (`is_wrong`).
+
+What libraries give differs between machines in the last digits, and takes long. It was computed
+once by `study.record`, with what else takes long, and is read from recorded.json.
 """
 
+import json
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +22,14 @@ from pseudorigid.verified import reference_solver
 
 from . import states
 from .methods import Method
-from .methods.counted_methods import METHODS, OURS, engine_method, scan_method
+from .methods.counted_methods import (
+    CAREFUL_SCANS,
+    METHODS,
+    OURS,
+    CountedMethod,
+    engine_method,
+    scan_method,
+)
 from .states import BALL
 
 SETS = {"uniform": states.uniform, "near-grazing": states.grazing}
@@ -29,35 +42,79 @@ AGREE_IMPACTS = 170  # of each start; by then a rounding error has grown to orde
 AGREE_STARTS = 15  # in the sea; odd, so that the median is the value of one of them
 SEPARATION = 1e-3  # of x, which is visible
 
-EDGE_METHODS = OURS, *(scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01)), engine_method(1e-3)
+SEA_FLIGHTS = 100_000  # on which all methods count their misses
+RECORDED = Path(__file__).with_name("recorded.json")
+
+_FINE_SCANS = tuple(scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01))
+EDGE_METHODS = (OURS, *CAREFUL_SCANS[:2], CAREFUL_SCANS[4], *_FINE_SCANS, engine_method(1e-3))
 ORBIT_METHODS = (
     OURS,
+    CAREFUL_SCANS[1],
     *(scan_method(step, 1e-12) for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)),
     *(scan_method(0.1, tolerance) for tolerance in (1e-3, 1e-6, 1e-9)),
     *map(engine_method, (1e-2, 1e-3)),
 )
 
+MISS_METHODS = *(scan_method(step, 1e-12) for step in (0.5, 0.1)), *CAREFUL_SCANS[:5]
 
-def work(methods: Sequence[Method] = METHODS, count: int = 2000, title: str = "work") -> xr.Dataset:
+
+def work() -> xr.Dataset:
+    """Compare accuracy, evaluations and misses of all methods, with the recorded ones."""
+    return with_recorded(
+        accuracy(METHODS).assign(missed(METHODS, [SEA_FLIGHTS] * len(METHODS))), "work"
+    )
+
+
+def accuracy(
+    methods: Sequence[Method], count: int = 2000, title: str = "accuracy and work"
+) -> xr.Dataset:
     """Compute (method, set): errors and evaluations on sets of states."""
     sets = [states_of(count) for states_of in SETS.values()]
     pairs = [(columns, proved_times(BALL, columns)) for columns in sets]
     values = np.array([[_accuracy(method, *pair) for pair in pairs] for method in methods])
-    median, worst, wrong, evaluations = np.moveaxis(values, -1, 0)
+    median, worst, wrong, six, twelve, evaluations = np.moveaxis(values, -1, 0)
     dims = ("method", "set")
     variables = {
         "state_set": ("set", list(SETS), "set of states"),
+        "states": ("method", [count] * len(methods), "states of each set"),
         "median": (dims, median, "median relative error of tau"),
         "worst": (dims, worst, "worst relative error of tau among the right roots"),
         "wrong": (dims, wrong, "share of wrong roots"),
+        "above_1e6": (dims, six, "share of relative errors above 1e-6, with wrong roots"),
+        "above_1e12": (dims, twelve, "share of relative errors above 1e-12, with wrong roots"),
         "evaluations": (dims, evaluations, "mean number of evaluations a flight"),
     }
-    return dataset(title, methods, variables, states=sets[0].shape[1])
+    return dataset(title, methods, variables)
 
 
-def edges(
-    methods: Sequence[Method] = EDGE_METHODS, count: int = 200, title: str = "edges"
-) -> xr.Dataset:
+def missed(methods: Sequence[Method], flights: Sequence[int]) -> dict[str, Any]:
+    """Count the impacts that methods miss on the certified chaotic orbit, as variables.
+
+    `missed_hard` is of the flights, among a million, for which a scan with step 0.5 has a wrong
+    root. `missed_sea` is of the first `flights` ones, a number for each method.
+    """
+    columns, truth = certified_orbit(BALL, states.chaotic(), MILLION)
+    hard = is_wrong(_FINE_SCANS[0].solve(BALL, *columns)[0], truth)
+
+    def misses(method: Method, chosen: Any) -> int:
+        return int(is_wrong(method.solve(BALL, *columns[:, chosen])[0], truth[chosen]).sum())
+
+    sea = [misses(m, slice(n)) if n else 0 for m, n in zip(methods, flights, strict=True)]
+    of_hard = f"wrong roots of the {hard.sum()} that scan 0.5 misses"
+    table = {
+        "missed_hard": ("method", [misses(m, hard) for m in methods], of_hard),
+        "missed_sea": ("method", sea, "wrong roots of `sea` flights"),
+        "sea": ("method", [*flights], "flights of the chaotic orbit, from its start"),
+    }
+    return described(table)
+
+
+def edges() -> xr.Dataset:
+    """Compare failures of all methods near grazing and near misses, with the recorded ones."""
+    return with_recorded(failures(EDGE_METHODS), "edges")
+
+
+def failures(methods: Sequence[Method], count: int = 200) -> xr.Dataset:
     """Compute the share of wrong or missing roots near grazing and near misses.
 
     near (method, side, distance) is the share for states at a distance s = xdot + udot from
@@ -80,7 +137,7 @@ def edges(
         "distance": ("distance", DISTANCES, "minus the decimal exponent of xdot + udot"),
         "depth": ("depth", DEPTHS, "minus the decimal exponent of the maximum's height"),
     }
-    return dataset(title, methods, variables, states=count)
+    return dataset("failures", methods, variables, states=count)
 
 
 def drift(impacts: int = MILLION) -> xr.Dataset:
@@ -115,6 +172,58 @@ def drift(impacts: int = MILLION) -> xr.Dataset:
         "agree": (("one", "other"), agree, "impacts until two orbits are apart, the judge's last"),
     }
     return dataset("orbits", ORBIT_METHODS, variables, impacts=impacts, apart=SEPARATION)
+
+
+def misses() -> xr.Dataset:
+    """Count misses among ten million flights, with the recorded counts and searches."""
+    return xr.merge([missed_flights(), recorded("flights"), recorded("search")], compat="override")
+
+
+def missed_flights(
+    methods: Sequence[CountedMethod] = MISS_METHODS, most: int = 10 * MILLION
+) -> xr.Dataset:
+    """Count the impacts that methods miss among the flights of one certified orbit in the sea.
+
+    missed (method, flights) is the count among the first 1e3, 1e4, ... `most` flights, and `first`
+    the place of a method's first miss, -1 if there is none, with its state. Where a method and the
+    march differ, the reference solver decides which of them is wrong.
+    """
+    flights = [10**e for e in range(3, len(str(most)))]
+    places: list[list[int]] = [[] for _ in range(len(methods) + 1)]  # of misses; the march's first
+    firsts = np.full((len(methods) + 1, 3), np.nan)
+    state, done = states.chaotic(), 0
+    while done < most:
+        columns, truth = certified_orbit(BALL, state, min(MILLION, most - done))
+        for i, method in enumerate(methods, 1):
+            tau, _ = method.solve(BALL, *columns)
+            for j in np.flatnonzero(is_wrong(tau, truth)).tolist():
+                proved = proved_times(BALL, columns[:, j : j + 1])
+                wrong = 0 if is_wrong(truth[j : j + 1], proved)[0] else i
+                firsts[wrong] = firsts[wrong] if places[wrong] else columns[:, j]
+                places[wrong].append(done + j)
+        done += columns.shape[1]
+        state = BALL.impact(*columns[:, -1])[:3]
+    count = [[sum(place < n for place in row) for n in flights] for row in places]
+    first = [min(row, default=-1) for row in places]
+    variables = {
+        "missed": (("method", "flights"), count, "impacts missed among the first flights"),
+        "flights": ("flights", flights, "number of flights"),
+        "first": ("method", first, "place of the first miss, -1 if there is none"),
+        "state": (("method", "variable"), firsts, "x, xdot and udot before the first miss"),
+    }
+    return dataset("impacts missed", (OURS, *methods), variables)
+
+
+def recorded(name: str) -> xr.Dataset:
+    """Return a dataset of recorded.json."""
+    return xr.Dataset.from_dict(json.loads(RECORDED.read_text(encoding="utf-8"))[name])
+
+
+def with_recorded(data: xr.Dataset, name: str) -> xr.Dataset:
+    """Return the methods of a dataset and then the recorded ones."""
+    return xr.concat(
+        [data, recorded(name)], "method", data_vars="minimal", combine_attrs="override"
+    )
 
 
 def dataset(
@@ -175,11 +284,16 @@ def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
 
 
 def _accuracy(method: Method, columns: np.ndarray, truth: np.ndarray) -> tuple[float, ...]:
-    """Return median and worst error, share of wrong roots and evaluations; NaN errs infinitely."""
+    """Return median and worst error, shares of wrong roots and errors, and evaluations.
+
+    A missing root has an infinite error.
+    """
     tau, count = method.solve(BALL, *columns)
     error, wrong = np.abs(tau - truth) / truth, is_wrong(tau, truth)
-    median = np.median(np.where(np.isnan(error), np.inf, error))
-    return median, error[~wrong].max(initial=0.0), wrong.mean(), count.mean()
+    error = np.where(np.isnan(error), np.inf, error)
+    above = ((wrong | (error > limit)).mean() for limit in (1e-6, 1e-12))
+    worst = error[~wrong].max(initial=0.0)
+    return np.median(error), worst, wrong.mean(), *above, count.mean()
 
 
 def _positions() -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from independent_solver import judge
 
-from study import measured, stages, states
+from study import stages, states
 from study.methods.counted_methods import OURS, engine_method, scan_method
 
 BALL = states.BALL
@@ -23,7 +23,7 @@ def edges():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(stages, "DISTANCES", (0, 4))
         patch.setattr(stages, "DEPTHS", (3, 9))
-        return stages.edges((OURS, SCAN), count=25)
+        return stages.failures((OURS, SCAN), count=25)
 
 
 @pytest.mark.parametrize("side", stages.SIDES)
@@ -48,9 +48,14 @@ def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatc
     tau, _ = SCAN.solve(BALL, *columns)
     suspects = np.abs(tau - truth) > 1e-6
     late = flown_past(SCAN, columns[:, suspects])
-    data = measured.missed((SCAN, OURS), impacts)
-    assert data["missed"].values.tolist() == [sum(late), 0]
-    assert 5 < sum(late) == data.attrs["hard"]
+    monkeypatch.setattr(stages, "MILLION", impacts)
+    data = stages.missed((SCAN, OURS), [impacts, 0])
+    assert data["missed_hard"][1].tolist() == [sum(late), 0] and sum(late) > 5
+    assert data["missed_sea"][1].tolist() == [sum(late), 0]
+    counted = stages.missed_flights([SCAN], 10_000)
+    first = int(counted["first"].values[1])
+    assert counted["missed"].values[1, -1] == suspects[:10_000].sum() and suspects[first]
+    assert np.array_equal(counted["state"].values[1], columns[:, first])
     monkeypatch.setattr(stages, "ORBIT_METHODS", (OURS, SCAN))
     monkeypatch.setattr(stages, "AGREE_STARTS", 1)
     whole = stages.drift(impacts)

@@ -6,9 +6,16 @@ from project import shipped
 
 from pipeline.config import check
 from pipeline.records.sources import source_files
-from study import states
+from study import stages, states
 from study.methods import libraries
-from study.methods.counted_methods import OURS, TOLERANCES, engine_method, scan_method
+from study.methods.counted_methods import (
+    OURS,
+    PARABOLA,
+    TOLERANCES,
+    careful_method,
+    engine_method,
+    scan_method,
+)
 
 BALL = states.BALL
 
@@ -28,9 +35,10 @@ def test_the_certified_march_is_the_map(uniform):
 METHODS = [
     *((scan_method(0.1, tolerance), tolerance) for tolerance in TOLERANCES),
     *((engine_method(step), 2 * step) for step in (1e-2, 1e-4)),
-    (libraries.brentq_method(0.1, 1e-9), 1e-8),
+    *((careful_method(step), 2e-14) for step in (1.0, 0.5, 0.25)),
+    (careful_method(0.5, PARABOLA), 2e-14),
     (libraries.ivp_method("DOP853", 1e-9), 1e-6),
-    (libraries.ivp_method("Radau", 1e-6), 1e-3),
+    *((libraries.careful_ivp_method(solver, 1e-9), 1e-7) for solver in libraries.SOLVERS),
 ]
 
 
@@ -45,10 +53,61 @@ def test_a_method_is_as_accurate_as_its_settings(uniform, method, error):
     assert_accurate(method, error, *uniform)
 
 
-def test_heyoka_is_as_accurate_as_its_settings(uniform):
+def test_libraries_of_the_study_are_as_accurate_as_their_settings(uniform):
     pytest.importorskip("heyoka")
-    for direction in ("any", "positive"):
-        assert_accurate(libraries.taylor_method(1e-15, direction), 1e-13, *uniform)
+    pytest.importorskip("CyRK")
+    assert_accurate(libraries.taylor_method(1e-15), 1e-13, *uniform)
+    assert_accurate(libraries.careful_taylor_method(1e-15), 1e-14, *uniform)
+    assert_accurate(libraries.careful_cyrk_method("DOP853", 1e-9), 1e-7, *uniform)
+
+
+def test_an_orbit_in_one_call_of_heyoka_is_that_of_the_map():
+    pytest.importorskip("heyoka")
+    start = states.chaotic()
+    track = libraries.taylor_orbit(BALL, start, 40)
+    assert np.abs(track - BALL.history(start, 40)[0].T).max() < 1e-9  # errors grow
+
+
+CAREFUL = [careful_method(0.5), *(libraries.careful_ivp_method(s, 1e-9) for s in libraries.SOLVERS)]
+
+
+@pytest.mark.parametrize("method", CAREFUL, ids=lambda method: method.name)
+def test_with_care_no_grazing_state_and_no_touch_is_wrong(method):
+    for side in (1, -1):
+        for exponent in (2, 8, 12):
+            columns = states.grazing_at(exponent, side, 8)
+            assert not stages.wrong_roots([method], columns).any(), (side, exponent)
+    assert not stages.wrong_roots([method], states.near_miss(1e-6, 8)).any()
+
+
+def test_the_simple_bound_passes_first_roots_near_grazing_that_the_other_does_not():
+    columns = states.grazing(800)
+    wrong = stages.wrong_roots([careful_method(0.5), careful_method(0.5, PARABOLA)], columns)
+    assert wrong.sum(axis=1).tolist() == [0, 8]
+
+
+def test_recorded_numbers_are_those_of_the_methods():
+    """A part of what was recorded is computed again, for DOP853."""
+    name, count = "DOP853 with care, 1e-06", 500
+    (method,) = (m for m in libraries.CAREFUL if m.name == name)
+    row = stages.recorded("work")
+    row = row.isel(method=row["name"].values.tolist().index(name), set=0)
+    assert int(row["states"]) == count
+    columns = states.uniform(count)[:, :40]
+    tau, evaluations = method.solve(BALL, *columns)
+    error = np.abs(tau / stages.proved_times(BALL, columns) - 1)
+    assert error.max() <= float(row["worst"]) * 1.001
+    assert evaluations.mean() == pytest.approx(float(row["evaluations"]), rel=0.2)
+
+
+def test_recorded_states_make_methods_fail_and_not_the_march():
+    data = stages.recorded("search")
+    names = data["searched_name"].values.tolist()
+    assert data["failed"].values[names.index(OURS.name)].tolist() == [0, 0]
+    for step in (1.0, 0.5, 0.25):
+        method = careful_method(step)
+        found = data["found"].values[names.index(method.name)].reshape(-1, 3).T
+        assert stages.wrong_roots([method, OURS], found).mean(axis=1).tolist() == [1.0, 0.0]
 
 
 @pytest.mark.parametrize("height", [1e-3, -1e-3, 1e-9, -1e-9])

@@ -10,7 +10,7 @@ from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
 # families of different colours; black is that of letters, too
-DISTINCT = [*{c: name for name, (c, _) in study.STYLES.items() if c != "#000000"}.values()]
+DISTINCT = [*{c: name for name, (c, *_) in study.STYLES.items() if c != "#000000"}.values()]
 
 
 def scene(states, cost):
@@ -60,20 +60,17 @@ def test_work_is_drawn_where_its_numbers_are(cost, base):
     decade = moved(before, drawn(cost=10 * base))
     assert set(decade[:, 1]) == {0.0}
     right = decade[:, 0].max()
-    assert sorted(decade[:, 0]) == [0.0] * (len(before) - 3) + [right] * 3
+    assert sorted(decade[:, 0]) == [0.0] * (len(before) - 2) + [right] * 2
     assert right > 50
     assert np.abs(moved(before, drawn(cost=1000 * base))[:, 0].max() - 3 * right) < 0.2
-    height = 560 / 18  # 18 decades in 560 pixels
+    height = 480 / 18  # 18 decades in 480 pixels
     for change, wanted in (
         ({"median": 1e-14}, -4 * height),
         ({"worst": 1e-4}, 2 * height),
-        ({"wrong": 0.009}, 0.009 / 0.6 * 200),
+        ({"wrong": 0.009}, 6 * height),  # to the top
     ):
         up = moved(before, drawn(**change))
         assert up[up != 0] == pytest.approx([wanted], abs=0.2)
-    # With many wrong roots the worst right one is as wrong as a right root can be; it is not drawn.
-    many = drawn(wrong=0.4)
-    assert np.isfinite(many).all() and len(many) == len(before) - 1
     assert not np.array_equal(drawn(states=0), before)
 
 
@@ -104,13 +101,47 @@ def test_zeros_are_drawn_at_an_end_named_zero():
     assert texts(zeros).count("0") >= 2
 
 
-@pytest.mark.parametrize(("wrong", "drawn"), [(0.0, True), (0.3, False)])
-def test_the_worst_right_root_is_hollow_and_named_if_it_is_drawn(wrong, drawn):
-    figure = study.work(scene(1, "evaluations"), work_data(100.0, wrong=wrong))
-    assert ("hollow: worst right root" in texts(figure)) == drawn
-    dots = [a for a in figure.artists if a.get_marker() == "o" and len(a.get_xdata())]
-    hollow = [a for a in dots if a.get_markerfacecolor() == "white" and a.get_markeredgewidth()]
-    assert bool(hollow) == drawn
+@pytest.mark.parametrize("wrong", [0.0, 0.3])
+def test_wrong_roots_are_named_if_there_are_any(wrong):
+    data = work_data(100.0, wrong=wrong)
+    data["wrong"] = ("method", "set"), np.full((2, 2), wrong)
+    figure = study.work(scene(1, "evaluations"), data)
+    assert ("at the top: some roots are wrong" in texts(figure)) == (wrong > 0)
+
+
+def test_methods_as_usually_written_have_hollow_marks_and_those_with_care_full_ones():
+    figure = study.work(scene(1, "evaluations"), work_data(100.0))
+    for family, fill in zip(FAMILIES, (study.STYLES[FAMILIES[0]][0], "white"), strict=True):
+        color = study.STYLES[family][0]
+        dots = [a for a in figure.artists if a.get_marker() == "o" and len(a.get_xdata())]
+        own = [a for a in dots if color in (a.get_markeredgecolor(), a.get_markerfacecolor())]
+        assert own and {a.get_markerfacecolor() for a in own} == {fill}
+
+
+def test_missed_impacts_are_drawn_at_their_numbers():
+    def drawn(missed, failed):
+        names = np.array(["certified march", "scan 0.1, 1e-12"], dtype=object)
+        of = np.array(FAMILIES, dtype=object)
+        count = np.array([[0, 0], [1, missed]])
+        data = xr.Dataset({
+            "name": ("method", names), "family": ("method", of), "flights": ("flights", [1000, 10_000]),
+            "missed": (("method", "flights"), count), "long_name": ("long", names),
+            "long_flights": ("long_flights", [100_000_000]),
+            "long_missed": (("long", "long_flights"), [[0], [100]]),
+            "searched_name": ("searched", names), "families": ("drawn", ["near_the_rim", "touches"]),
+            "tried": (("searched", "drawn"), np.full((2, 2), 1000)),
+            "failed": (("searched", "drawn"), [[0, 0], [failed, 10]]),
+        })  # fmt: skip
+        figure = study.misses({}, data)
+        assert_text_is_whole_and_apart(figure, slack=4)
+        own = [a for a in figure.artists if a.get_linestyle() == "None"]
+        return np.concatenate([np.column_stack(a.get_data()) for a in own]) * figure.dpi
+
+    before = drawn(10, 10)
+    up = moved(before, drawn(100, 10))
+    assert up[up != 0] == pytest.approx([470 / 5.3], abs=0.2)
+    right = moved(before, drawn(10, 100))
+    assert right[right != 0] == pytest.approx([(1010 - 365) / 7], abs=0.2)
 
 
 @pytest.mark.parametrize("least", [0.5, 0.0])

@@ -23,7 +23,7 @@ def truths():
 
 @pytest.fixture(scope="module")
 def table():
-    return stages.work(METHODS, COUNT)
+    return stages.accuracy(METHODS, COUNT)
 
 
 @pytest.mark.parametrize("which", range(2))
@@ -40,6 +40,9 @@ def test_each_number_is_that_of_an_independent_solver(table, truths, which):
         assert float(row["median"]) == pytest.approx(np.median(error), **close)
         assert float(row["worst"]) == pytest.approx(max(error[~wrong], default=0), **close)
         assert float(row["wrong"]) == wrong.mean()
+        for limit in (6, 12):
+            above = wrong | (error > float(f"1e-{limit}"))
+            assert float(row[f"above_1e{limit}"]) == pytest.approx(above.mean(), abs=1.5 / COUNT)
         assert float(row["evaluations"]) == count.mean()
 
 

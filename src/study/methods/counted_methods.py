@@ -2,11 +2,12 @@
 
 Their results have the same bytes on every machine.
 
-There are three kinds of method:
+There are four kinds of method:
 
     MARCH   the certified march of pseudorigid.kernel.flight
     SCAN    the paper's method: steps of constant length until the gap changes sign, then bisection
             until the bracket is no longer than the tolerance
+    CAREFUL a scan with care (`careful_scan`)
     ENGINE  a physics engine: semi-implicit Euler steps until the ball overlaps the floor; the
             impact happens at the end of that time step
 """
@@ -24,9 +25,10 @@ from pseudorigid.kernel.impact import MOST_SCAN_STEPS, rebound, scan
 from pseudorigid.kernel.impact import step as certified_step
 
 from . import Flights, Method
+from .careful_scan import CUBIC, PARABOLA, careful_scan
 
-MARCH, SCAN, ENGINE = 0, 1, 2
-Settings = tuple[int, float, float]  # kind, step and tolerance in time units
+MARCH, SCAN, ENGINE, CAREFUL = 0, 1, 2, 3
+Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or bound of a scan
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
 ScalarState = tuple[float, float, float]  # x, xdot and udot just before an impact
 NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations of the gap
@@ -57,10 +59,13 @@ def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: fl
     if kind == MARCH:
         x, v, w, tau, count, _ = certified_step(x, v, w, k, g, coefficients, None)
         return tau, x, v, w, count
-    b, c, _ = rebound(v, w, k, coefficients)
+    b, c, s = rebound(v, w, k, coefficients)
     if kind == ENGINE:
         return _engine(x, b, c, g, step)
-    tau, count = scan(x, b, c, g, step, tolerance)
+    if kind == CAREFUL:
+        tau, count = careful_scan(x, b, c, s, g, step, tolerance)
+    else:
+        tau, count = scan(x, b, c, g, step, tolerance)
     sine, cosine = sincos(tau)
     return tau, x * cosine - c * sine, b + g * tau, x * sine + c * cosine, count
 
@@ -124,6 +129,13 @@ def scan_method(step: float, tolerance: float) -> CountedMethod:
     return CountedMethod(name, family, (SCAN, step, tolerance))
 
 
+def careful_method(step: float, bound: float = CUBIC) -> CountedMethod:
+    """Return a scan with care, with a step and a bound of the first root for the first step."""
+    simple = "" if bound == CUBIC else " (simple)"
+    name = f"careful scan {step:g}{simple}"
+    return CountedMethod(name, f"careful scan{simple}", (CAREFUL, step, bound))
+
+
 def engine_method(step: float) -> CountedMethod:
     """Return a physics engine with a time step."""
     return CountedMethod(f"engine {step:.0e}", "time stepping", (ENGINE, step, 0.0))
@@ -132,4 +144,7 @@ def engine_method(step: float) -> CountedMethod:
 TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)
 SCANS = tuple(scan_method(step, tol) for step in (0.5, 0.1, 0.01) for tol in TOLERANCES)
 ENGINES = tuple(engine_method(step) for step in (1e-1, 1e-2, 1e-3, 1e-4))
-METHODS = (OURS, *SCANS, *ENGINES)
+CAREFUL_SCANS = tuple(
+    careful_method(step, bound) for bound in (CUBIC, PARABOLA) for step in (1.0, 0.5, 0.25)
+)
+METHODS = (OURS, *CAREFUL_SCANS, *SCANS, *ENGINES)
