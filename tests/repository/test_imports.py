@@ -139,12 +139,14 @@ def undeclared(graph):
         for other in parts().keys() - {name, *declared.needs}:
             commands = [each for each in declared.commands.values() if each.module]
             allowed = {each.module for each in commands if other in each.needs}
+            if "benchmark" in parts()[other].commands:  # which alone loads rows of others
+                allowed |= {declared.benchmark} - {""}
             for module in set(allowed):
                 allowed |= graph.find_upstream_modules(module)
             # Modules by which it is entered where the other one is absent.
             entered = {each.module for each in commands if other not in each.needs}
             entered |= {module for _, _, module in declared.options.values()}
-            entered |= {declared.report, declared.benchmark}
+            entered |= {declared.report}
             entered |= {f"{own}.{module}" for module in ("part", "kinds")}
             for module in (inside - allowed) | (entered & inside):
                 reached = graph.find_upstream_modules(module)

@@ -8,7 +8,6 @@ _ARGUMENTS = (
 )
 _MODULE = "extensions.atlas.command"
 PART = Part(
-    needs=("study",),
     stages={
         "sweep": Stage(
             "extensions.atlas.sweep.dataset_of_a_sweep",

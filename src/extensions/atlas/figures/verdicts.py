@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.figures.axes.panel import Axis, Panel, corner, letters, log10, title
+from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, log10, title
 from pseudorigid.figures.canvas import style
-from study.charts import LEFT, RIGHT, chart_sheet, method_key
+from pseudorigid.figures.canvas.sheet import Sheet
 
 # Colour and mark of each way to tell regular orbits from chaotic ones.
 _METHODS = {
@@ -23,14 +23,14 @@ _METHODS = {
 @style.pinned()
 def draw(scene: dict[str, Any], data: xr.Dataset) -> Figure:
     """Draw the share of wrong verdicts, with a standard error, against impacts an orbit."""
-    sheet, top = chart_sheet(1275)
+    sheet, top = Sheet(style.COLUMN, 1275), 1205
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]
     across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
     up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
     orbits, frames = data.attrs["orbits"] * data.sizes["cell"], []
     for row, axis in enumerate((across.blank(), across)):
-        frame = (LEFT, top - 420 - row * 500, RIGHT, top - row * 500)
+        frame = (150, top - 420 - row * 500, 1010, top - row * 500)
         panel = Panel(sheet, frame, axis, up)
         frames.append(frame)
         panel.minor(across=False)
@@ -47,5 +47,5 @@ def draw(scene: dict[str, Any], data: xr.Dataset) -> Figure:
             panel.dots(cost, shown[0], color, marker=marker)
     letters(sheet, *frames)
     entries = [(name, *_METHODS[name]) for name in data["name"].values]
-    method_key(sheet, entries, top - 1065, columns=2)
+    key(sheet, entries, top - 1065, columns=2, size=7.0)
     return sheet.figure
