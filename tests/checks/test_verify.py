@@ -63,7 +63,7 @@ def test_manifest_and_records_have_no_folder_and_no_date(accepted):
         assert time.strftime("%Y-") not in content
     assert "commit" not in text
     committed = manifest.read(accepted.path, "paper_figures")
-    assert len(committed["results"]) == 10 + 14
+    assert len(committed["results"]) == 12 + 14
     for path in committed["results"]:
         record = public_record(accepted.path, path)
         whole = manifest.record_of(committed, path)

@@ -50,15 +50,11 @@ class Findings:
         return {n: layers for n, layers in self.layers.items() if layers and not self._harmless(n)}
 
     @property
-    def outdated(self) -> list[str]:
-        """Lines about results that are here and that this tree would make otherwise."""
-        words = f": run {self.published_set.command}"
-        return _grouped((path, why + words) for path, why in self.stale.items() if why != MISSING)
-
-    @property
     def failures(self) -> list[str]:
         """Lines about what fails besides the published files that differ."""
-        return [*self.problems, *self.outdated, *self.uncomputed]
+        words = f": run {self.published_set.command}"
+        stale = [(path, why + words) for path, why in self.stale.items() if why != MISSING]
+        return [*self.problems, *_grouped(stale), *self.uncomputed]
 
     @property
     def notes(self) -> list[str]:

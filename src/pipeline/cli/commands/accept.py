@@ -56,7 +56,7 @@ def _renew(root: Path, findings: Findings) -> None:
     if all(file_hash(file) == hashlib.sha256(text).hexdigest() for file, text in files.items()):
         print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
         return
-    changes = [*_changes(findings), *published_set.unlisted(root)]
+    changes = [*_changes(findings), *published_set.unlisted(root)] or findings.problems
     for file, text in files.items():
         write_whole(file, text)
     print(*(changes or ["other changes behind the same pictures"]), sep="\n")
