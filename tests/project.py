@@ -247,7 +247,9 @@ def small(document):
         if isinstance(block.get("impacts"), list):
             block["impacts"] = [30 for _ in block["impacts"]]
         elif "impacts" in block:
-            block |= {"impacts": 60, "records": 6}
+            block["impacts"] = 60
+        if "records" in block:
+            block["records"] = 6
         if "resolution" in block:
             distance = block["resolution"]["distance"] * (1 if "window" in block else 100)
             block["resolution"] = {"distance": distance, "bend": 60}
