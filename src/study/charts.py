@@ -270,7 +270,7 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     names, searched = data["name"].values.tolist(), data["searched_name"].values.tolist()
     styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
-    sheet, top = chart_sheet(820 + 56 * rows, [*styles.values()])
+    sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
     up = AxisWithZero((-1, 4.3), range(-1, 5), "Impacts missed", True, powers)
     labels = [rf"$10^{exponent}$" for exponent in range(3, 9)]
