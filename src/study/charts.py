@@ -20,10 +20,10 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 # Colour and mark of each family of methods, or of a method in charts that draw one family's
 # methods apart; similar methods have similar colours. A third entry means a hollow mark, for
 # methods as they are usually written.
-_GREY, _USUAL = "#6b6b6b", True
+_GREY, _WINE, _USUAL = "#6b6b6b", "#882255", True
 STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
-    "careful scan": (style.BLUE, "o"),
+    "careful scan": (_WINE, "o"),
     "careful scan (simple)": (style.ORANGE, "D"),
     "heyoka with care": (style.GREEN, "s"),
     "CyRK DOP853 with care": ("#8c510a", "^"),
@@ -41,8 +41,8 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "DOP853": (style.BLACK, "^", _USUAL),
     "LSODA": (_GREY, "D", _USUAL),
     "RK45": (style.PURPLE, "v", _USUAL),
-    "careful scan 1": ("#56a0d3", "s"),
-    "careful scan 0.25": ("#123f78", "^"),
+    "careful scan 1": (_WINE, "s"),
+    "careful scan 0.25": (_WINE, "^"),
     "careful scan 1 (simple)": (style.ORANGE, "s"),
     "careful scan 0.5 (simple)": (style.ORANGE, "o"),
     "careful scan 0.25 (simple)": (style.ORANGE, "^"),
@@ -231,7 +231,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     two cheapest methods that suffice.
     """
     scenes, families = data.sizes["scene"], data["family"].values
-    sheet = Sheet(style.COLUMN, 75 * (4 + scenes))
+    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
