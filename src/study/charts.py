@@ -143,7 +143,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
     ][:1]
     flat = flat if len(methods) <= _MOST_IN_PANEL else []
     below = 0 if flat else _KEY_LINE * math.ceil(len(methods) / 2)
-    sheet, top = chart_sheet(1085 + below)
+    sheet, top = chart_sheet(1130 + below)
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
     height = "Height of the gap's maximum, + or −"
