@@ -119,7 +119,6 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
         size = _sizes(panel, len(families) - of, x, y)
         for i, (_, color, marker, hollow) in reversed([*enumerate(entries)]):
             own = np.flatnonzero(of == i)
-            own = own[np.argsort(x[own])]
             panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
             for points in np.unique(size[own]):
                 at = own[(size[own] == points) & np.isfinite(y[own])]
@@ -167,7 +166,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
             for (_, color, _, hollow), share in zip(methods, shares, strict=True):
                 panel.line(x, share, color=color, lw=0.5 if hollow else 0.9)
             for column, at in enumerate(x):  # methods that coincide take turns in front
-                for i in np.roll(np.arange(len(methods)), column).tolist():
+                for i in np.roll(np.arange(len(methods)), -1 - column).tolist():
                     _, color, marker, hollow = methods[i]
                     panel.dots(at, shares[i, column], color, 2.6, hollow=hollow, marker=marker)
             if (variable, side) in flat:
@@ -358,5 +357,6 @@ def _scan_step(name: str) -> str:
 def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
     text = name if name.startswith("careful") else family.removesuffix(" + bisection")
+    text = text.replace("CyRK DOP853 with", "CyRK with")
     setting = re.search(r"1e-0?(\d+)$", name)
     return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text
