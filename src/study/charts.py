@@ -20,10 +20,10 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 # Colour and mark of each family of methods, or of a method in charts that draw one family's
 # methods apart; similar methods have similar colours. A third entry means a hollow mark, for
 # methods as they are usually written.
-_GREY, _USUAL = "#6b6b6b", True
+_GREY, _WINE, _USUAL = "#6b6b6b", "#882255", True
 STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
-    "careful scan": (style.BLUE, "o"),
+    "careful scan": (_WINE, "o"),
     "careful scan (simple)": (style.ORANGE, "D"),
     "heyoka with care": (style.GREEN, "s"),
     "CyRK DOP853 with care": ("#8c510a", "^"),
@@ -41,8 +41,8 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "DOP853": (style.BLACK, "^", _USUAL),
     "LSODA": (_GREY, "D", _USUAL),
     "RK45": (style.PURPLE, "v", _USUAL),
-    "careful scan 1": ("#56a0d3", "s"),
-    "careful scan 0.25": ("#123f78", "^"),
+    "careful scan 1": (_WINE, "s"),
+    "careful scan 0.25": (_WINE, "^"),
     "careful scan 1 (simple)": (style.ORANGE, "s"),
     "careful scan 0.5 (simple)": (style.ORANGE, "o"),
     "careful scan 0.25 (simple)": (style.ORANGE, "^"),
@@ -119,7 +119,6 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
         size = _sizes(panel, len(families) - of, x, y)
         for i, (_, color, marker, hollow) in reversed([*enumerate(entries)]):
             own = np.flatnonzero(of == i)
-            own = own[np.argsort(x[own])]
             panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
             for points in np.unique(size[own]):
                 at = own[(size[own] == points) & np.isfinite(y[own])]
@@ -143,7 +142,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
     ][:1]
     flat = flat if len(methods) <= _MOST_IN_PANEL else []
     below = 0 if flat else _KEY_LINE * math.ceil(len(methods) / 2)
-    sheet, top = chart_sheet(1085 + below)
+    sheet, top = chart_sheet(1130 + below)
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
     height = "Height of the gap's maximum, + or −"
@@ -167,7 +166,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
             for (_, color, _, hollow), share in zip(methods, shares, strict=True):
                 panel.line(x, share, color=color, lw=0.5 if hollow else 0.9)
             for column, at in enumerate(x):  # methods that coincide take turns in front
-                for i in np.roll(np.arange(len(methods)), column).tolist():
+                for i in np.roll(np.arange(len(methods)), -1 - column).tolist():
                     _, color, marker, hollow = methods[i]
                     panel.dots(at, shares[i, column], color, 2.6, hollow=hollow, marker=marker)
             if (variable, side) in flat:
@@ -231,7 +230,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     two cheapest methods that suffice.
     """
     scenes, families = data.sizes["scene"], data["family"].values
-    sheet = Sheet(style.COLUMN, 75 * (4 + scenes))
+    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
     top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
@@ -270,7 +269,7 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     names, searched = data["name"].values.tolist(), data["searched_name"].values.tolist()
     styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
-    sheet, top = chart_sheet(820 + 56 * rows, [*styles.values()])
+    sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
     powers = ["0", *(rf"$10^{e}$" for e in range(5))]
     up = AxisWithZero((-1, 4.3), range(-1, 5), "Impacts missed", True, powers)
     labels = [rf"$10^{exponent}$" for exponent in range(3, 9)]
@@ -358,5 +357,6 @@ def _scan_step(name: str) -> str:
 def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
     text = name if name.startswith("careful") else family.removesuffix(" + bisection")
+    text = text.replace("CyRK DOP853 with", "CyRK with")
     setting = re.search(r"1e-0?(\d+)$", name)
     return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text

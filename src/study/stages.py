@@ -174,9 +174,11 @@ def drift(impacts: int = MILLION) -> xr.Dataset:
     return dataset("orbits", ORBIT_METHODS, variables, impacts=impacts, apart=SEPARATION)
 
 
-def misses() -> xr.Dataset:
-    """Count misses among ten million flights, with the recorded counts and searches."""
-    return xr.merge([missed_flights(), recorded("flights"), recorded("search")], compat="override")
+def misses(most: int = 10 * MILLION) -> xr.Dataset:
+    """Count misses among ten million flights or `most`, with the recorded counts and searches."""
+    return xr.merge(
+        [missed_flights(most=most), recorded("flights"), recorded("search")], compat="override"
+    )
 
 
 def missed_flights(

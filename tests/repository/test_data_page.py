@@ -42,13 +42,14 @@ def needs():
 
 
 STUDY = {
-    "work": lambda: stages.work(METHODS, 2),
-    "edges": lambda: stages.edges(stages.EDGE_METHODS[:1], 2),
+    "work": lambda: stages.with_recorded(
+        stages.accuracy(METHODS[:1], 2).assign(stages.missed(METHODS[:1], [0])), "work"
+    ),
+    "edges": lambda: stages.with_recorded(stages.failures(stages.EDGE_METHODS[:1], 2), "edges"),
+    "misses": lambda: stages.misses(1000),
     "drift": lambda: stages.drift(1000),
     "needs": needs,
     "work_all": lambda: measured.timed_work(METHODS[:1], 2, 1),
-    "edges_all": lambda: stages.edges(stages.EDGE_METHODS[:1], 2, "edges_all"),
-    "missed_all": lambda: measured.missed(stages.EDGE_METHODS[:1], 10_000),
 }
 
 

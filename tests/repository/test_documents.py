@@ -65,6 +65,10 @@ def test_links_lead_to_files(document):
         assert (ROOT / document).parent.joinpath(link).exists(), link
 
 
+# The one chart of a part that README.md shows; who deletes the part deletes the picture there.
+HEADLINE = "README.md", "more_figures/study/work_uniform.png"
+
+
 @pytest.mark.parametrize("document", DOCUMENTS + PAGES)
 def test_no_link_by_hand_leads_to_files_of_another_part(document):
     """Such a part may be deleted. Links that pipeline.renew writes are then left out."""
@@ -73,6 +77,7 @@ def test_no_link_by_hand_leads_to_files_of_another_part(document):
     for link in links(text):
         file = folder.joinpath(link).resolve()
         own = [each for each in OF_PARTS if file.is_relative_to(each)]
+        own = [] if (document, link) == HEADLINE else own
         assert not own or OF_PARTS.get(folder, "") in map(OF_PARTS.get, own), link
 
 
