@@ -48,7 +48,6 @@ MISTAKES = {
     "variant paper": ": no variant paper:",
     "variant lower-energi": ": no variant lower-energi: did you mean lower-energy?",
     "variant lower-energy fig99": f": no figure fig99: did you mean {FIGURES}?",
-    "compare paper douled fig2": ": no variant douled: did you mean doubled?",
     "verify --strikt": " verify: no argument --strikt: did you mean --strict?",
     "fig3 --strict": ": no argument --strict: verify has it",
     "variant --coers 1": " variant: no argument --coers: did you mean --cores?",
@@ -69,11 +68,6 @@ def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line):
     assert mistake(capsys, line) == MISTAKES[line]
 
 
-def test_a_set_is_not_compared_with_itself(capsys):
-    message = mistake(capsys, "compare paper paper")
-    assert message.startswith(": compare needs two names of paper, ")  # and the variants
-
-
 def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
     args = arguments.read(["variant", "low", "-c2", "fig3", "--", "-j", "5", "x"])
     assert (args.variant, args.figure, args.cores) == ("low", ["fig3"], "2")
@@ -88,7 +82,7 @@ def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
 def test_help_without_a_venv_installs_nothing(tree, tmp_path):
     before = sorted(tree.path.rglob("*"))
     (tmp_path / "python3").symlink_to(sys.executable)
-    for words in ("help compare", "--help", "-h", "help"):
+    for words in ("help verify", "--help", "-h", "help"):
         environment = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
         result = run(tree.path / "reproduce", *words.split(), env=environment, cwd="/")
         assert (result.returncode, result.stderr) == (0, ""), result

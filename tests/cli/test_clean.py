@@ -30,8 +30,8 @@ FILES = {
     "results/near/logs/fig4.png.json": True,
     "results/near/why/fig4.png.txt": True,
     "results/gone/figures/fig9.png": True,  # its variant is not in config.yaml
-    "results/report/report.html": True,
-    "results/compare/paper..near/fig3.png": True,
+    "results/page/page.html": True,
+    "results/pairs/paper..near/fig3.png": True,
     "results/paper/differences/fig3.png": True,
     "results/paper/fig3.png": False,  # a user's copy, beside the folder of the recorded one
     "results/paper/notes.txt": False,
@@ -40,6 +40,7 @@ FILES = {
     ".snakemake/log/x.log": True,
     "paper_figures/fig3.png": False,
 }
+OF_COMMANDS = ("page.html", "page/page.html", "pairs/*..*/*.png")  # as parts declare them
 KEPT = {name for name, goes in FILES.items() if not goes}
 
 
@@ -76,6 +77,7 @@ def root(tmp_path, monkeypatch):
     monkeypatch.setattr(clean, "ROOT", root)
     monkeypatch.setattr(clean, "RESULTS", root / "results")
     monkeypatch.setattr(clean, "locked", nullcontext)
+    monkeypatch.setattr(clean, "_OF_COMMANDS", OF_COMMANDS)
     return root
 
 
@@ -134,13 +136,12 @@ def test_records_that_do_not_name_a_result_delete_nothing(root):
     assert left(root) == KEPT
 
 
-def test_results_may_be_a_link(root, tmp_path, monkeypatch, capsys):
+def test_results_may_be_a_link(root, tmp_path, capsys):
     """As on a cluster; git may track files of the folder elsewhere."""
     outside = tmp_path / "scratch" / "of mine"
     outside.parent.mkdir()
     (root / "results").rename(outside)
     (root / "results").symlink_to(outside)
-    monkeypatch.setattr(clean, "_OF_COMMANDS", (*clean._OF_COMMANDS, "page.html"))
     write(outside / "page.html")
     (outside / "mine" / "link").symlink_to("orbits.nc")
     commit(outside.parent, "of mine/paper/motion_fig3.nc")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from commands import mistake
 from samples import module
 from sections import BALL
 
@@ -15,6 +16,13 @@ from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas.render import pixels as figure_pixels
 
 NAMES = ("one", "two")
+
+
+def test_two_known_names_are_compared(capsys):
+    message = mistake(capsys, "compare paper douled fig2")
+    assert message == ": no variant douled: did you mean doubled?"
+    message = mistake(capsys, "compare paper paper")
+    assert message.startswith(": compare needs two names of paper, ")  # and the variants
 
 
 def dataset(values):
