@@ -28,5 +28,6 @@ class Heartbeat(threading.Thread):
 
     def print(self, line: str) -> None:
         """Print a line, after which the next one is due in GAP seconds."""
-        print(line, file=sys.stderr, flush=True)
+        sys.stderr.write(f"{line}\n")  # at once: another thread may print a line
+        sys.stderr.flush()
         self.due = time.monotonic() + GAP

@@ -221,26 +221,28 @@ def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
     One call follows the whole orbit; the callback of a terminal event applies the impact law.
     """
     k, g = ball.k, ball.g
-    coefficients, track = impact_coefficients(k), np.empty((4, impacts))
-    count, last = 0, 0.0
+    of_xdot, of_udot = 2.0 / (1.0 + k), (1.0 - k) / (1.0 + k)
+    track: list[tuple[float, ...]] = []
+    last = 0.0
 
     def bounce(integrator: Any, _: int) -> bool:
-        nonlocal count, last
-        _, speed, u, w = integrator.state.tolist()
-        track[:, count] = -u, speed - w, w, integrator.time - last
-        _, c, s = rebound(speed - w, w, k, coefficients)
-        integrator.state[:] = 0.0, -s, u, c
-        last = integrator.time
-        count += 1
-        return count < impacts
+        """Apply the impact law, eq. (25). Plain numbers: each call costs as much as a flight."""
+        nonlocal last
+        _, speed, u, udot = values.tolist()
+        xdot, now = speed - udot, integrator.time
+        track.append((-u, xdot, udot, now - last))
+        last = now
+        values[0], values[1], values[3] = 0.0, -speed, -of_xdot * xdot - of_udot * udot
+        return len(track) < impacts
 
     integrator = _gap_integrator(g, 1e-15, bounce)
+    values = integrator.state  # of the integrator itself, no copy
     x, xdot, udot = map(float, state)
-    _, c, s = rebound(xdot, udot, k, coefficients)
-    integrator.state[:] = Flight(x, -s - c, c, s, g, math.inf).exactly()
+    _, c, s = rebound(xdot, udot, k, impact_coefficients(k))
+    values[:] = Flight(x, -s - c, c, s, g, math.inf).exactly()
     integrator.time = _START * s
     integrator.propagate_until(1e3 * impacts)
-    return track
+    return np.array(track).T
 
 
 def _with_touches(
@@ -261,9 +263,7 @@ def _with_touches(
                     dense, more = integrate(a, top, True)
                     return _root(dense, low, top), calls + more
                 low = top
-        except (
-            ValueError
-        ):  # their event search can end in "f(a) and f(b) must have different signs"
+        except ValueError:  # of their event search: "f(a) and f(b) must have different signs"
             return math.nan, 0
         return float(end), calls
 
