@@ -92,7 +92,7 @@ def calls() -> dict[str, Call]:
         "scan 0.1, bisection to 1e-12, as usual": _flights(scan, states_500, "at least 5"),
         "scan with care, steps of 0.5": _flights(careful, states_500, "at least 1.3"),
         "heyoka, an orbit in one call": Call(
-            partial(whole, BALL, sea, 5000), 5000, ORBIT, "at least 10"
+            partial(whole, BALL, sea, IMPACTS), IMPACTS, ORBIT, "at least 10"
         ),
         "heyoka with care, a call a flight": _flights(heyoka, states_500, "at least 25"),
         "CyRK DOP853 with care, rtol 1e-9": _flights(cyrk, states_500, "at least 100"),
