@@ -1,7 +1,7 @@
 """Periodic orbits and branches by the methods that most people use, plainly and with care.
 
 The work is the number of impacts computed, which all of these methods spend in the same map. This
-prints the tables of docs/study.md:
+prints the tables of src/study/README.md:
 
     PYTHONPATH=src .venv/bin/python tests/study/consumers.py
 """
