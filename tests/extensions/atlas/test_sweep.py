@@ -8,7 +8,7 @@ import signal
 import pytest
 from project import fresh_tree, of_scenes, wait_for
 
-import snakemake_logger_plugin_reproduce as parts
+import snakemake_logger_plugin_reproduce as blocks
 from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
@@ -41,18 +41,18 @@ def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweep
 
 
 def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
-    monkeypatch.setattr(parts, "PAUSE", 0.0)
+    monkeypatch.setattr(blocks, "PAUSE", 0.0)
     first, second, third = (f"results/atlas/sweep_plane.{i:04d}.nc" for i in range(3))
     other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
     specs = checked(plane=SMALL).build_specs(["atlas"])
-    progress = parts.Parts(specs | {other.result: other}, {second, third, other.result})
+    progress = blocks.Blocks(specs | {other.result: other}, {second, third, other.result})
     assert progress.done(second) == "plane: 2 of 3 blocks"
     assert progress.done(third) == "plane: 3 of 3 blocks"
-    monkeypatch.setattr(parts, "PAUSE", 1000.0)
-    progress = parts.Parts(specs, {first, second, third})
+    monkeypatch.setattr(blocks, "PAUSE", 1000.0)
+    progress = blocks.Blocks(specs, {first, second, third})
     lines = [progress.done(path) for path in (first, second, third)]
     assert lines == ["plane: 1 of 3 blocks", None, "plane: 3 of 3 blocks"]
-    assert parts._duration(9971) == "2 h 46 min" and parts._duration(183) == "3 min 3 s"
+    assert blocks._duration(9971) == "2 h 46 min" and blocks._duration(183) == "3 min 3 s"
 
 
 @pytest.fixture

@@ -170,7 +170,8 @@ def _scaled(scene: Picture, scale: float) -> Picture:
     for name in energies:
         if (value := getattr(scene, name, None)) is not None:
             scaled[name] = _times(value, scale, scale)
-    if starts := getattr(scene, "starts", None):  # fractions of the section stay
+    starts = getattr(scene, "starts", None)  # or their number
+    if isinstance(starts, list):  # fractions of the section stay
         scaled["starts"] = [_times(s, scale) if isinstance(s, Point) else s for s in starts]
     return scene.model_copy(update=scaled)
 
