@@ -62,6 +62,7 @@ def test_many_jobs_at_once_end_as_they_should(tree):
     assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "6.nc"}
 
 
+@pytest.mark.slow
 def test_the_executor_makes_all_and_leaves_current_results(tmp_path):
     """The rule `all` has no output: it goes to snakemake's own executor."""
     portrait = {"picture": "portrait", "energy": 0.01, "starts": [0.1], "impacts": 50}
