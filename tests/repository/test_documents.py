@@ -42,7 +42,10 @@ def links(text):
 
 
 def is_absent(name):
-    """Whether a file is one of a part that is not there."""
+    """Whether a file is one of a part that is not there, or of its tests."""
+    tests = re.match(r"tests/\w+/", name)
+    if tests and not (ROOT / tests[0]).is_dir():
+        return True
     found = re.search(r"\b(?:extensions/|src/)(?!extensions/)(\w+)/", name)
     return bool(found) and not [*ROOT.glob(f"src/{found[1]}"), *ROOT.glob(f"src/*/{found[1]}")]
 
