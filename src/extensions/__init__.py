@@ -1,1 +1,1 @@
-"""Extensions of the pipeline, one folder each; `pipeline.extensions` loads what it finds."""
+"""Parts of the pipeline, one folder each; `pipeline.declaration` loads what it finds."""

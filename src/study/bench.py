@@ -48,7 +48,7 @@ Triple = tuple[float, float, float]
 def run(repetitions: int = REPETITIONS, more: tuple[ModuleType, ...] = ()) -> list[str]:
     """Return the table's lines: label, seconds, ratio and aim; then machine and versions.
 
-    Each module of `more`, which an extension declares, adds calls(), and lines(seconds) on them.
+    Each module of `more`, which a part declares, adds calls(), and lines(seconds) on them.
     """
     timed = calls()
     for module in more:

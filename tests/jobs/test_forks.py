@@ -3,6 +3,8 @@
 import pytest
 from project import fresh_tree
 
+from pipeline.jobs import forks
+
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
     "bad": "raise ValueError('bad input')",
@@ -62,6 +64,14 @@ def test_many_jobs_at_once_end_as_they_should(tree):
     assert {file.name for file in folder.glob("*.nc")} == {"0.nc", "6.nc"}
 
 
+def test_jobs_are_new_pythons_where_no_process_can_fork_them(monkeypatch):
+    def refuse():
+        raise OSError("AF_UNIX path too long")
+
+    monkeypatch.setattr(forks.forkserver, "ensure_running", refuse)
+    assert forks.forking(data=False).get_start_method() == "spawn"
+
+
 @pytest.mark.slow
 def test_the_executor_makes_all_and_leaves_current_results(tmp_path):
     """The rule `all` has no output: it goes to snakemake's own executor."""
@@ -72,7 +82,8 @@ def test_the_executor_makes_all_and_leaves_current_results(tmp_path):
     assert result.returncode == 0, result.stderr
     drawing = tree.path / "results/paper/figures/a.png"
     before = drawing.stat().st_ino
-    tree.append("pipeline/jobs/draw.py")
+    assert tree.python(*command, "--forceall", "all").returncode == 0  # its result is current
+    assert drawing.stat().st_ino == before
     (tree.path / "src/pipeline/jobs/draw.py").write_text("raise ValueError\n")
     assert tree.python(*command, "--forceall", "all").returncode == 1  # not made, and not lost
     assert drawing.stat().st_ino == before

@@ -133,7 +133,7 @@ class Verdicts(Picture):
 def blocks(sweep: dict[str, Any]) -> list[dict[str, Any]]:
     """Return what decides the data of each block of a sweep: cells [k, E/g^2] and orbits.
 
-    Cells are counted along the energies of one k, then along those of the next k. A part has as
+    Cells are counted along the energies of one k, then along those of the next k. A block has as
     many of them as the sweep's field `block` says.
     """
     cells, size = list(map(list, product(sweep["k"], sweep["energy"]))), sweep["block"]

@@ -46,6 +46,5 @@ def facts(block: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:
     kind's reports returns, if there is one.
     """
     module, _, kind = KINDS[block["picture"]].reported_by.rpartition(".")
-    there = find_spec(module.rpartition(".")[0]) and find_spec(module)
-    of_kind = getattr(import_module(module), f"{kind}_facts", None) if there else None
+    of_kind = getattr(import_module(module), f"{kind}_facts", None) if find_spec(module) else None
     return {"hidden": hidden(block, data)} | (of_kind(block, **data) if of_kind else {})

@@ -46,8 +46,12 @@ def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
     return made
 
 
-def forking(data: bool) -> ForkServerContext:
-    """Start the process that forks jobs; it imports what drawings need, or also what `data` do."""
+def forking(data: bool) -> ForkServerContext | SpawnContext:
+    """Start the process that forks jobs; it imports what drawings need, or also what `data` do.
+
+    If it cannot start, because the temporary folder is full or has a name too long for a socket,
+    each job is a new Python.
+    """
     jobs = multiprocessing.get_context("forkserver")
     wanted = "data" if data else ""
     before = dict(os.environ)
@@ -57,6 +61,8 @@ def forking(data: bool) -> ForkServerContext:
     try:
         jobs.set_forkserver_preload([f"{__package__}.preload"])
         forkserver.ensure_running()
+    except OSError:
+        return multiprocessing.get_context("spawn")
     finally:
         signal.signal(signal.SIGINT, handler)
         os.environ.clear()
