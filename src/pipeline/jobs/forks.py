@@ -9,8 +9,10 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from contextlib import suppress
 from multiprocessing import forkserver
+from multiprocessing.connection import wait
 from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
 
@@ -23,19 +25,25 @@ from . import job
 _LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")
 THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THREADS"]
 
+# To start a process, multiprocessing asks for the status of all others. A status can be read once:
+# if two threads ask for it, it is lost.
+_lock = threading.Lock()
+
 
 def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
     """Make a result in a process of its own, and return whether it is current afterwards."""
-    # The exit status is no answer: multiprocessing may lose it if other threads start jobs.
     receiver, answer = context.Pipe(duplex=False)
     process = context.Process(target=job.make, args=(spec, answer))
     made, reason = False, "it could not start"
     with receiver, suppress(OSError, EOFError):
-        process.start()
+        with _lock:
+            process.start()
         answer.close()
         made = receiver.recv()
     if process.pid:
-        process.join()
+        wait([process.sentinel])
+        with _lock:
+            process.join()
         status = process.exitcode or 0
         reason = signal.Signals(-status).name if status < 0 else "it ended without a message"
     log = Path(log_path(spec.result))
