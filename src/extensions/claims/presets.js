@@ -12,5 +12,5 @@ Object.assign(PRESETS, {
   last_curve({ between: [from, to] }) {
     return { view: disk(0.5 * (from + to), 0, 0.16), orbits: fan(from, to, 16, 8000), chosen: 0 };
   },
-  exclusion: (scene) => ({ view: disk(), orbits: orbitsOf(scene), chosen: 0 }),
+  exclusion: (scene) => ({ view: disk(), orbits: orbitsOf(scene), colour: "verdict", chosen: 0 }),
 });

@@ -301,6 +301,7 @@ def test_every_preset_draws_and_has_one_sentence(person):
     for name in names:
         person.set("preset", name)
         wait_for(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))
+        person.settle()
         assert person.text("see").endswith(".")
         seen.append(person.pixels().tobytes())
         assert person.state()["preset"] == name
