@@ -119,7 +119,7 @@ def test_a_killed_run_leaves_whole_files_and_no_lock(done):
     assert contents(done) == before
 
 
-@pytest.mark.parametrize("file", ["src/pipeline/config/__init__.py", "src/snakemake/__main__.py"])
+@pytest.mark.parametrize("file", ["src/pipeline/config/__init__.py", "src/snakemake/cli.py"])
 def test_interrupting_the_start_is_no_traceback(tree, file):
     reached = tree.path / "reached"
     path = tree.path / file

@@ -51,7 +51,8 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
     if words := disk_is_full(ROOT) or memory_is_short():
         raise UsageError(words)
     _require_folders(outdated)
-    command = [sys.executable, "-P", "-m", "snakemake", *OPTIONS, "--cores", args.cores]
+    python, options = [sys.executable, "-P", "-m"], [*OPTIONS, "--cores", args.cores]
+    command = [*python, "snakemake", *options]
     command += ["--dry-run"] if args.dry_run else []
     if args.makes_nothing:  # its reader may close the pipe, as `head` does
         result = subprocess.run([*command, *args.options, "--", *paths], stdout=-1, check=False)
@@ -59,7 +60,8 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         return result.returncode
     if args.options:  # jobs may run on other machines
         return _run([*command, *_LOGGER, *args.options, "--", *paths], remote=True)
-    return _run([*command, *_LOGGER, "--executor", "reproduce", "--", *outdated], remote=False)
+    options += [*_LOGGER, "--executor", "reproduce", "--", *outdated]
+    return _run([*python, "pipeline.jobs.forked", *options], remote=False)
 
 
 def _require_folders(results: Iterable[str]) -> None:
