@@ -12,9 +12,16 @@ VARIANTS = {"low": {"energy": 0.0017}, "doubled": {"scale": 2}}
 
 
 def rows(output):
-    """File -> recomputed or current, from the table at the end of a run."""
-    row = r"^\S+ +(\S+) +[\d,]+ kB +(recomputed|current)\b"
-    return dict(re.findall(row, output, re.MULTILINE))
+    """File -> recomputed or current, from the tables at the end of a run."""
+    states, folder = {}, ""
+    row = r"(\S+) +((?:\w{3} +[\d,]+ kB +)+)(recomputed|current)\b"
+    for line in output.splitlines():
+        folder = line if re.fullmatch(r"\S+/", line) else folder
+        if match := re.match(row, line):
+            name, files, state = match.groups()
+            formats = re.findall(r"(\w{3}) +[\d,]+ kB", files)
+            states |= {f"{folder}{name}.{suffix}": state for suffix in formats}
+    return states
 
 
 def contents(tree):

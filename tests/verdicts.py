@@ -6,7 +6,7 @@ from io import StringIO
 from typing import NamedTuple
 
 from pipeline import config
-from pipeline.checks.verify import verify
+from pipeline.checks.verify import summary, verify
 from pipeline.cli.commands.accept import accept
 
 
@@ -28,7 +28,8 @@ def verified(tree, strict=False):
         for name, layers in findings.differences.items()
     }
     status = any(each.fails(strict) for each in (findings, *others))
-    return Found(int(status), wrong, findings.failures, findings.notes, findings.report())
+    lines = [*findings.report(), summary([findings])]
+    return Found(int(status), wrong, findings.failures, findings.notes, lines)
 
 
 def commit(folder, *files):

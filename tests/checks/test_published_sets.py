@@ -83,7 +83,7 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved, edited):
     assert found.notes == ["again.png: new: ./reproduce accept adds it to the manifest"]
     assert (found.status, found.findings) == (0, [])
     assert found.wrong == {}
-    assert found.lines[-1] == "14 of 15 figures identical; 1 note"
+    assert found.lines[-1] == "14 of 15 files identical; 1 note"
     status, lines = accepting(moved)
     assert status == 0
     assert [line for line in lines if not line.startswith("more_figures/")] == [
@@ -111,14 +111,14 @@ def test_a_file_is_the_committed_one_by_its_bytes_and_a_list_as_git_says(tmp_pat
 
     assert state("new") == "not committed"
     assert state("gone") == "missing"
-    assert state("fig2") == "identical to the committed one"
+    assert state("fig2") == "identical"
     figure.write_text("edited")
-    assert state("fig2") == "differs from the committed one"
+    assert state("fig2") == "differs"
     sums.write_text(f"{hashlib.sha256(b'edited').hexdigest()}  fig2.png\n")
-    words = "SHA256SUMS, which is not as committed" if with_git else "the committed one"
-    assert state("fig2") == f"identical to {words}"
+    words = "unknown: {} by SHA256SUMS, which is not as committed" if with_git else "{}"
+    assert state("fig2") == words.format("identical")
     figure.write_text("true")
-    assert state("fig2") == f"differs from {words}"
+    assert state("fig2") == words.format("differs")
 
 
 # ---- accept ----

@@ -44,14 +44,14 @@ def command(moved, monkeypatch, capsys):
 
 def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     status, lines = command("verify", "--strict")
-    assert (status, lines[0], lines[-1]) == (0, "paper_figures/", "14 of 14 figures identical")
+    assert (status, lines[0], lines[-1]) == (0, "paper_figures/", "14 of 14 files identical")
     shutil.rmtree(moved.path / "results")
     status, lines = command("verify")
     assert status == 1
     assert "not computed here: run ./reproduce, or verify --committed" in "\n".join(lines)
     status, lines = command("verify", "--committed")
     assert status == 0
-    assert lines[-2].startswith("no results here: only the committed files were checked")
+    assert lines[-3].startswith("no results here: only the committed files were checked")
 
 
 def test_manifest_and_records_have_no_folder_and_no_date(accepted):
@@ -143,8 +143,10 @@ def test_without_results_the_list_asks_the_manifest_for_the_config(moved, comman
     moved.edit("fig7", impacts=61)
     shutil.rmtree(moved.path / "results")
     _, lines = command("list")
-    assert "  fig7  paper_figures/fig7.png  stale: impacts 60 -> 61" in lines
-    assert f"  fig3  {FIGURE}  identical to the committed one" in lines
+    assert "fig7  png svg  stale" in lines
+    reason = "stale: impacts 60 -> 61"
+    assert f"paper_figures/fig7.png, paper_figures/fig7.svg: {reason}" in lines
+    assert "fig3  png svg  identical" in lines
 
 
 def test_another_source_is_a_note_once_its_results_are_recomputed(moved):

@@ -40,6 +40,8 @@ FIGURES = "fig2, fig3, fig4, fig5, fig6, fig7 or fig8"
 MISTAKES = {
     "verfy": ": no command or figure verfy: did you mean verify?",
     "fig33": ": no command or figure fig33: did you mean fig3?",
+    "fig33 --help": ": no command or figure fig33",
+    "verfy -h": ": no command or figure verfy: did you mean verify?",
     "fig3 fgi5": ": no command or figure fgi5: did you mean fig5?",
     "fig2 fig3 list": ": list is a command, no figure: run ./reproduce list",
     "help verfy": ": no command verfy: did you mean verify?",

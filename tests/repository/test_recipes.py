@@ -142,7 +142,7 @@ def test_an_extension_is_one_folder(tree):
     tree.succeed("accept")
     result = tree.run("verify")
     assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
-    assert "twice.png  identical\n" in result.stdout
+    assert "twice  png  identical\n" in result.stdout
     (tree.path / PUBLISHED).write_bytes(b"damaged")
     assert tree.run("verify").returncode == 1
     tree.succeed("report")

@@ -7,6 +7,7 @@ from functools import partial
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments, hint
 from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
+from pipeline.cli.table import print_lines, wrapped
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import replacing
 from pipeline.records.sources import ROOT
@@ -62,7 +63,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
         return status
     for path in results:
         about = load(ROOT / path).attrs
-        print(about["line"])
+        print_lines(wrapped(about["line"]))
         status |= about["verdict"] != "proved"
     return status
 

@@ -19,7 +19,7 @@ from ..records.record import git
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"
-IDENTICAL = "identical to the committed one"
+IDENTICAL = "identical"  # to the committed one
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 
@@ -111,7 +111,7 @@ def read_sums(root: Path, folder: str) -> dict[str, str]:
 def committed_state(root: Path, path: str) -> str:
     """Say how a published file compares with the checksum list of its folder.
 
-    If git says that the list was edited, the words name the list, not "the committed one".
+    If git says that the list was edited, the words name the list after ": ".
     """
     folder, _, name = path.rpartition("/")
     digest, sums = file_hash(root / path), read_sums(root, folder)
@@ -119,10 +119,9 @@ def committed_state(root: Path, path: str) -> str:
         return "missing"
     if name not in sums:
         return "not committed"
-    state = IDENTICAL if digest == sums[name] else "differs from the committed one"
+    state = IDENTICAL if digest == sums[name] else "differs"
     edited = f"{folder}/{SUMS}" in edited_lists(root)
-    words = f"{SUMS}, which is not as committed"
-    return state.replace("the committed one", words) if edited else state
+    return f"unknown: {state} by {SUMS}, which is not as committed" if edited else state
 
 
 @cache

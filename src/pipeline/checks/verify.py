@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..config import Config
+from ..records.differences import columns
 from ..records.files import file_hash, why_not_a_file
 from ..records.record import failure
 from . import manifest, published_sets
@@ -98,28 +99,21 @@ class Findings:
 
     def report(self) -> list[str]:
         """Return the lines for the user: those of each published file, then all other findings."""
-        failures, notes = self.failures, self.notes
-        counts = {"other finding": len(failures), "note": len(notes)}
-        others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
-        total, new = len(self.layers), list(self.layers.values()).count(None)
-        identical = total - len(self.differences) - new
-        return [
-            *self._lines_of_files(),
-            "",
-            *failures,
-            *(f"note: {line}" for line in notes),
-            *self._unchecked(),
-            f"{identical} of {total} figures identical{''.join(others)}",
-        ]
+        notes = [f"note: {line}" for line in self.notes]
+        return [*self._lines_of_files(), *self.failures, *notes, *self._unchecked()]
 
-    def _lines_of_files(self) -> Iterator[str]:
-        """Yield a line for each published file, and one for each further layer that differs."""
-        width, differences = max(map(len, self.published_set.drawn), default=0), self.differences
+    def _lines_of_files(self) -> list[str]:
+        """Return a line for files of a figure that say the same, and one for each further layer."""
+        differences, figures = self.differences, dict[tuple[str, ...], list[str]]()
         for name, layers in self.layers.items():
             words = [f"{layer}: {text}" for layer, text in differences.get(name, {}).items()]
-            first, *others = words or ["new" if layers is None else "identical"]
-            yield f"{name:{width}}  {first}"
-            yield from (f"{'':{width}}  {line}" for line in others)
+            words = words or ["new" if layers is None else "identical"]
+            path = Path(name)
+            figures.setdefault((path.stem, *words), []).append(path.suffix[1:])
+        rows = list[tuple[str, str, str]]()
+        for (figure, *words), formats in figures.items():
+            rows += [(figure, " ".join(formats), words[0]), *(("", "", w) for w in words[1:])]
+        return columns(rows)
 
     def _unchecked(self) -> Iterator[str]:
         """Yield a line about results that are not here, unless they are findings."""
@@ -130,6 +124,18 @@ class Findings:
                 yield f"no results here: only the committed files were checked ({rest})"
             else:
                 yield f"not checked, since not there: {_listed(missing)}"
+
+
+def summary(findings: Iterable[Findings]) -> str:
+    """Return the closing line about all published sets."""
+    total = identical = failures = notes = 0
+    for each in findings:
+        total += len(each.layers)
+        identical += len(each.layers) - len(each.differences) - [*each.layers.values()].count(None)
+        failures, notes = failures + len(each.failures), notes + len(each.notes)
+    counts = {"other finding": failures, "note": notes}
+    others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
+    return f"{identical} of {total} files identical{''.join(others)}"
 
 
 def verify(root: Path, config: Config, committed: bool = False) -> list[Findings]:

@@ -76,6 +76,10 @@ def read(arguments: list[str]) -> Arguments:
     word = first if first in commands else None
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
+    if not word and first[:1] not in ("", "-") and not {"-h", "--help"}.isdisjoint(rest):
+        scenes = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+        if not re.search(f"^ +{re.escape(first)}:", scenes, re.MULTILINE):  # help has no packages
+            _refuse(f"no command or figure {first}{hint(first, commands)}")
     own, options = rest if word else arguments, list[str]()
     if "--" in own and commands.get(word or "", DEFAULT_COMMAND).runs_snakemake:
         end = own.index("--")

@@ -1,10 +1,7 @@
 """Make the figures of a variant or set of scenes, publish them, and print the state of each."""
 
 import filecmp
-import shutil
-import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from pathlib import PurePath
 
 from ..checks.freshness import MISSING, REFUSED, Freshness
@@ -14,13 +11,13 @@ from ..config.results import drawn, stages, with_dependencies
 from ..config.schema.sets import PUBLISHED
 from ..config.schema.stages import METHODS
 from ..records.build_spec import BuildSpec
-from ..records.differences import columns
 from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
 from ..records.record import failure, read_record, record_path
 from ..records.sources import ROOT
 from . import running
 from .arguments import Arguments
 from .session import CommandLineError, print_error
+from .table import FileRow, print_files
 
 Drawings = dict[str, str]  # path where users find a figure -> path of its drawing in results
 
@@ -88,8 +85,8 @@ def make(
         if path in unpublished:
             state = f"not published: {unpublished[path]}"
         if not (brief and state == "current"):
-            rows.append((specs[drawing].scene, path, state))
-    rows += [(PurePath(path).stem, path, reason) for path, reason in left_out.items()]
+            rows.append(_row(PUBLISHED.get(group), path, state))
+    rows += [_row(None, path, reason) for path, reason in left_out.items()]
     if rows:
         notes = [*_hidden(made.values())]
         notes += [f"{path}: {outdated[path]}" for path in sorted(refused - {*drawings.values()})]
@@ -97,7 +94,9 @@ def make(
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
-        _print_table(PUBLISHED.get(group), rows, notes)
+        compared = any(cells[1] for _, _, cells in rows)
+        header = ("figure", "files", "state", "as committed" if compared else "")
+        print_files("", rows, header, notes)
     return status or int(bool(unpublished))
 
 
@@ -157,28 +156,13 @@ def _publish(drawings: Drawings) -> dict[str, str]:
     return problems
 
 
-def _print_table(
-    folder: str | None, states: Iterable[tuple[str, str, str]], notes: Iterable[str]
-) -> None:
-    """Print a table of (scene, path, state), then the reasons of states, and notes.
-
-    Files in `folder`, that of a published set, are compared with the committed ones.
-    """
-    rows, reasons = [], dict[str, list[str]]()
-    for scene, path, state in states:
-        size = compared = ""
-        if state in ("current", "recomputed"):
-            size = f"{(ROOT / path).stat().st_size / 1000:7,.0f} kB"
-            compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
-        if ": " in state:
-            reasons.setdefault(state, []).append(path)
-        rows.append((scene, path, size, state.partition(": ")[0], compared))
-    header = ("figure", "file", "size", "state", "as committed" if any(r[-1] for r in rows) else "")
-    width = shutil.get_terminal_size((10**6, 24)).columns  # without a terminal, lines stay whole
-    wrap = partial(textwrap.wrap, width=width, subsequent_indent="  ", break_long_words=False)
-    explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    lines = [line for note in (*explained, *notes) for line in wrap(note)]
-    print("", *columns([header, *rows]), *lines, sep="\n")
+def _row(folder: str | None, path: str, state: str) -> FileRow:
+    """Return a file's row of the table; files in a published `folder` are compared."""
+    size = compared = ""
+    if state in ("current", "recomputed"):
+        size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
+        compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
+    return path, size, (state, compared)
 
 
 def _missed_impacts(config: Config, variant: str, scenes: set[str]) -> Iterator[str]:

@@ -11,19 +11,22 @@ FIRST, GAP = 2.5, 4.5  # seconds to the first line, and without another one to t
 class Heartbeat(threading.Thread):
     """Print what `describe` returns, unless it is empty, when no line was printed for GAP seconds.
 
-    It does so until the process ends. `waited` is the number of seconds since the user's command.
+    It does so until the process ends, and adds the time since the user's command, which was given
+    `waited` seconds ago.
     """
 
     def __init__(self, describe: Callable[[], str], waited: float = 0.0) -> None:
         super().__init__(daemon=True)
-        self.describe, self.due = describe, time.monotonic() + FIRST - waited
+        self.describe, self.began = describe, time.monotonic() - waited
+        self.due = self.began + FIRST
         self.start()
 
     def run(self) -> None:
         """Look a few times a second whether a line is due."""
         while True:
-            if time.monotonic() >= self.due and (words := self.describe()):
-                self.print(words)
+            now = time.monotonic()
+            if now >= self.due and (words := self.describe()):
+                self.print(f"{words}; {now - self.began:.0f} s so far")
             time.sleep(0.2)
 
     def print(self, line: str) -> None:

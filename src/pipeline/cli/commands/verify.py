@@ -1,15 +1,15 @@
 """./reproduce verify: whether everything here is as committed."""
 
-from ...checks.verify import verify
+from ...checks.verify import summary, verify
 from ...records.sources import ROOT
 from ..arguments import Arguments
+from ..table import print_lines
 
 
 def run(args: Arguments) -> int:
     """Compare the tree with its committed state; 0 if all is well."""
-    status = 0
-    for i, findings in enumerate(verify(ROOT, args.config, args.committed)):
-        heading = "\n" * (i > 0) + f"{findings.published_set.folder}/"
-        print(heading, *findings.report(), sep="\n")
-        status |= findings.fails(args.strict)
-    return int(status)
+    findings = verify(ROOT, args.config, args.committed)
+    for each in findings:
+        print_lines([f"{each.published_set.folder}/", *each.report(), ""])
+    print_lines([summary(findings)])
+    return int(any(each.fails(args.strict) for each in findings))

@@ -1,0 +1,57 @@
+"""What commands print about files: tables with one row for each figure, and verdicts in colour."""
+
+import os
+import re
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterable
+from pathlib import PurePath
+
+from ..records.differences import columns
+
+FileRow = tuple[str, str, tuple[str, ...]]  # path, size or nothing, what is said about the file
+_VERDICTS = {32: r"\b(identical|proved)\b", 31: r"\b(differs|missing|stale|refused|not \w+)\b"}
+
+
+def print_files(
+    title: str, rows: Iterable[FileRow], header: tuple[str, ...] = (), notes: Iterable[str] = ()
+) -> None:
+    """Print one row for all files of a figure that say the same, below their folder, and notes.
+
+    The words that follow ": " in a cell stand below the table, once for all their files.
+    """
+    folders = dict[str, dict[tuple[str, ...], list[str]]]()
+    reasons = dict[str, list[str]]()
+    for path, size, cells in rows:
+        folder, name = os.path.split(path)
+        figure, suffix = PurePath(name).stem, PurePath(name).suffix[1:]
+        for cell in cells:
+            if ": " in cell:
+                reasons.setdefault(cell, []).append(path)
+        row = figure, *(cell.partition(": ")[0] for cell in cells)
+        file = f"{suffix} {size}".rstrip()
+        folders.setdefault(folder, {}).setdefault(row, []).append(file)
+    for folder, figures in folders.items():
+        between = "  " if header else " "
+        table = [(row[0], between.join(files), *row[1:]) for row, files in figures.items()]
+        print(f"\n{title}{folder}/")
+        print_lines(columns([header, *table] if header else table))
+    explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
+    print_lines(line for note in (*explained, *notes) for line in wrapped(note))
+
+
+def wrapped(text: str) -> list[str]:
+    """Return lines of the terminal's width; without a terminal the text stays one line."""
+    width = shutil.get_terminal_size((10**6, 24)).columns
+    return textwrap.wrap(text, width, subsequent_indent="  ", break_long_words=False)
+
+
+def print_lines(lines: Iterable[str]) -> None:
+    """Print lines, with verdicts in green and red for a person at a terminal."""
+    text = "".join(f"{line}\n" for line in lines)
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    if sys.stdout.isatty() and not plain:
+        for colour, words in _VERDICTS.items():
+            text = re.sub(words, rf"\033[{colour}m\1\033[m", text)
+    print(text, end="", flush=True)
