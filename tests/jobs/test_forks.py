@@ -44,6 +44,7 @@ def tree(tmp_path):
     return tree
 
 
+@pytest.mark.slow
 def test_many_jobs_at_once_end_as_they_should(tree):
     programs = ("good", "bad", "bug", "killed", "modules", "short")
     result = tree.python("main.py", "2", *programs)

@@ -7,6 +7,7 @@ import sys
 
 import numba
 import numpy as np
+import pytest
 from matrix_probe import FUSED, traces
 from project import run
 from sections import sea
@@ -41,6 +42,7 @@ def test_machine_code_is_strict():
             assert not LOOSE.search(text), kernel
 
 
+@pytest.mark.slow
 def test_loops_over_lanes_are_vectorised_and_strict():
     """The compiler vectorises a loop only if it can exclude negative indices."""
     row, n, h = np.ones(lanes.SIZE), lanes.LANES, (0.1, 0.1)

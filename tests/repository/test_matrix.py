@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import matrix_probe
+import pytest
 from fontTools.ttLib import TTFont
 from matplotlib import get_data_path
 from project import ROOT, run
@@ -63,6 +64,7 @@ def probe(folder, mode, environment, python=(sys.executable,)):
     return json.loads(result.stdout)
 
 
+@pytest.mark.slow
 def test_the_same_bytes_under_other_settings(tmp_path):
     expected = dict(matrix_probe.everything())
     found = probe(tmp_path / "other", "everything", OTHERS)

@@ -64,6 +64,7 @@ def names_of(part):
     return found | {each.key for each in declared.sets.values()} | declared.commands.keys()
 
 
+@pytest.mark.slow
 def test_a_deleted_part_leaves_no_trace(tmp_path):
     if stale_pages() or not {*GONE, "explorer"} <= parts().keys():
         pytest.skip("it starts from all parts")

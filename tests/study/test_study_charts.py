@@ -171,6 +171,7 @@ def test_methods_with_equal_numbers_are_all_seen_in_each_panel(count, points):
         assert min(pixels_in_frames(figure, study.STYLES[family][0])) > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 5, 8])
 def test_methods_that_fail_alike_take_turns_in_front(count):
     families = DISTINCT[:count]

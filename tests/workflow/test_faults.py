@@ -216,6 +216,7 @@ int flock(int file, int how) { errno = ENOLCK; return -1; }
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("cc"), reason="needs a C compiler")
 def test_a_run_goes_on_without_locks(done, tmp_path):
     """Neither ./reproduce nor HDF5 needs them."""

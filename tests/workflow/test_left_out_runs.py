@@ -56,6 +56,7 @@ def test_accept_and_archive_go_on_without_a_figure_that_cannot_be_made(refused, 
     assert capsys.readouterr().out.startswith(left_out)
 
 
+@pytest.mark.slow
 def test_a_published_picture_whose_scene_cannot_exist_is_named_with_the_reason(finished, tmp_path):
     tree, file = finished.copy(tmp_path / "left"), "paper_figures/fig3.png"
     assert accepting(tree)[0] == 0

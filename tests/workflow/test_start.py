@@ -293,6 +293,7 @@ def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     assert without_waits(output) == LINE
 
 
+@pytest.mark.slow
 def test_the_venv_works_in_a_folder_with_a_space_and_is_made_anew_where_it_is_moved(with_either):
     set_up = with_either
     for name in ("the first, é", "moved"):

@@ -127,6 +127,7 @@ def joined(size):
     return dataset_of_a_sweep(*parts, k=sweep["k"], energy=sweep["energy"])
 
 
+@pytest.mark.slow
 def test_the_size_of_blocks_does_not_change_the_bytes():
     assert len({content_hash(joined(size)) for size in (1, 4, 5, 100)}) == 1
 

@@ -62,6 +62,7 @@ def test_only_the_scripts_of_the_page_may_run(text):
     assert "<script" not in before and "<style" not in before
 
 
+@pytest.mark.slow
 def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     """Another folder, locale, time zone and order of sets."""
     tree = tmp_path / "another place"
@@ -166,6 +167,7 @@ def test_explore_writes_the_page_and_opens_it(
     assert capsys.readouterr().out == f"{EXPLORER}  0.2 MB: {done} in a browser\n"
 
 
+@pytest.mark.slow
 def test_an_edit_of_the_kernel_asks_for_another_module(tree):
     file = tree.path / "src/pseudorigid/kernel/flight.py"
     text = file.read_text()

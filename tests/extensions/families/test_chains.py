@@ -95,6 +95,7 @@ def test_every_chain_doubles_between_its_birth_and_the_loss_of_an_impact(curves)
             assert energies == sorted(energies), (order, k)
 
 
+@pytest.mark.slow
 def test_an_entry_that_does_not_vanish_is_not_followed():
     limits = chains.Limits((0.1, 0.3), (0.1, 40.0))
     start = chains.chain_events(0.2, 4)["doubling"]

@@ -92,6 +92,7 @@ def spread(low, high, count):
     return [low + (high - low) * ((0.137 + 0.6180339887498949 * i) % 1.0) for i in range(count)]
 
 
+@pytest.mark.slow
 def test_families_hold_what_brute_force_finds_and_nothing_else():
     for energy in spread(-0.0039, 0.0398, 3):
         assert unmatched(up_to_period_six(), PAPER, energy) == ([], [])

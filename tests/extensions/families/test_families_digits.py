@@ -71,6 +71,7 @@ def energy_and_place(found, event):
     return energy_of(found, p), (1.0 + p * 2.0 * q / (1.0 + q**2)) * unit
 
 
+@pytest.mark.slow
 def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits():
     six = up_to_period_six()
     with mp.workdps(60):

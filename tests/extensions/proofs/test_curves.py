@@ -178,6 +178,7 @@ def test_coefficients_below_the_error_in_the_strip_do_not_matter(change, accepte
     assert accepted or "error is not proved" in result.reason
 
 
+@pytest.mark.slow
 def test_the_strip_weighs_a_change_of_a_coefficient():
     """A change is accepted or refused by its size times exp(2 pi rho0 q) against the error."""
     strip, error = 0.06, 1e-35
@@ -407,6 +408,7 @@ def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, 
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.slow
 def test_the_nearest_numbers_are_those_of_smooth_curves():
     """Those on both sides of a resonance that breaks the curves between them."""
     bounds = THEOREMS["curve-fixed-point-low"].bounds

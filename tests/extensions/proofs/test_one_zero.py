@@ -40,6 +40,7 @@ def test_the_twist_is_that_of_birkhoffs_normal_form(theta):
         assert abs(form.twists[0] - twist / arb(theta)) < 1e-11
 
 
+@pytest.mark.slow
 def test_bands_enclose_the_values_inside_them_and_slopes_are_those_of_differences():
     with ctx.workprec(one_zero.BITS):
         for ends in (("0", "0.05"), ("1.97", "1.98"), ("2.3", "2.305")):
