@@ -1,10 +1,15 @@
-"""What publishing adds to the pipeline: archive, article and site."""
+"""What publishing adds to the pipeline: archive, article and site, and Figure 1."""
 
-from pipeline.declaration import Command, Part, SnakemakeCommand, switch
+from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, switch
 
 _COMMANDS, _TEXT = "extensions.publication.commands", ("claims", "explorer", "proofs")
 PART = Part(
     needs=("paper",),
+    sets={
+        "publication": SceneSet(
+            "more_figures/publication", "./reproduce fig1", "The model", key="publication"
+        )
+    },
     commands={
         "archive": Command(
             "write one tar with the figures, the data and what they were made from",

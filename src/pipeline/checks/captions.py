@@ -1,5 +1,6 @@
 """Captions of all pictures, from files captions.toml, for the report and docs/figures.md."""
 
+import re
 import tomllib
 from collections import defaultdict
 from typing import Any, NamedTuple
@@ -31,14 +32,14 @@ class Caption(NamedTuple):
 def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = None) -> Caption:
     """Return the caption of a complete scene, after whose set `name` is called: "families/energy".
 
-    Scenes of config.yaml and its variants have bare names. `facts` are those of
-    `quantities.facts`; without them, sentences that need one are left out.
+    Scenes of config.yaml and its variants have bare names. A scene fig9 of any set is Figure 9.
+    `facts` are those of `quantities.facts`; without them, sentences that need one are left out.
     """
     kind = block["picture"]
     templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""}
     templates |= CAPTIONS.get(kind, {})
-    number = name.removeprefix("fig")
-    shown_name = f"Figure {number}" if number.isdigit() and number != name else name
+    numbered = re.fullmatch(r"(?:.*/)?fig(\d+)", name)
+    shown_name = f"Figure {numbered[1]}" if numbered else name
     known = defaultdict(int) if facts is None else facts
     texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
     title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)

@@ -27,10 +27,10 @@ def typed_numbers(source):
     """Numbers in a source, as digits or in words, that are no names of results or exponents."""
     for allowed in (
         r"(?m)//.*$",
-        r'"(?:fig\d|[^"\d]*)"',  # names of figures and quantities, and formulas in words
+        r'"(?:(?:publication/)?fig\d|[^"\d]*)"',  # names and formulas in words
         r"#(?:findings|rows?)\([\d, ]+\)",  # statements by their numbers
         r"width: \d+%",
-        r"@fig\d\b",
+        r"@(?:publication-)?fig\d\b",
     ):
         source = re.sub(allowed, "", source)
     # Formulas have squares and halves.
