@@ -130,12 +130,37 @@ def key_of(name: str) -> str:
     return "scenes"
 
 
-def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
-    """Return a Markdown list of the fields `keys` of a model, by default of all its fields.
+def listed(model: type[Block]) -> str:
+    """Return a Markdown list of the fields of a model."""
+    return "\n".join(_items(model).values())
 
-    An item has the field's default, its meaning and what is allowed.
+
+def listed_of_kind(name: str, part: str) -> str:
+    """Return a Markdown list of a kind's own fields, where each field is described once.
+
+    A field that an earlier kind, of the main part or of this one, has too is only named.
     """
-    schema, items = model.model_json_schema(schema_generator=Described), []
+    earlier: dict[str, str] = {}  # item -> the first kind with it
+    for each, kind in (kinds_of(_MAIN_PART) | kinds_of(part)).items():
+        items = _items(kind, own_fields(kind))
+        if each == name:
+            break
+        earlier = {item: each for item in items.values()} | earlier
+    same: dict[str, list[str]] = {}
+    for key, item in items.items():
+        same.setdefault(earlier.get(item, ""), []).append(key)
+    lines = [items[key] for key in same.pop("", [])]
+    for other, keys in same.items():
+        elsewhere = part != _MAIN_PART and other in kinds_of(_MAIN_PART)
+        text = f"- {', '.join(f'`{key}`' for key in keys)}: as of `{other}`"
+        text += " (`docs/config.md`)." if elsewhere else "."
+        lines.append(fill(text, 100, subsequent_indent="  "))
+    return "\n".join(lines)
+
+
+def _items(model: type[Block], keys: Iterable[str] = ()) -> dict[str, str]:
+    """Return items of a Markdown list: each field's default, meaning and what is allowed."""
+    schema, items = model.model_json_schema(schema_generator=Described), {}
     for key in keys or schema["properties"]:
         field = schema["properties"][key]
         if "default" in field:
@@ -146,8 +171,8 @@ def listed(model: type[Block], keys: Iterable[str] = ()) -> str:
             raise ValueError(f"{model.__name__}.{key} has no docstring")
         meaning = field["description"].replace(" Allowed: ", " *Allowed:* ")
         text = f"- `{key}` ({default}): {meaning}"
-        items.append(fill(text, 100, subsequent_indent="  ", break_on_hyphens=False))
-    return "\n".join(items)
+        items[key] = fill(text, 100, subsequent_indent="  ", break_on_hyphens=False)
+    return items
 
 
 def _rendered(template: str, part: str) -> str:
@@ -158,8 +183,8 @@ def _rendered(template: str, part: str) -> str:
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
     )
-    used: tuple[Any, ...] = (Scene, Variant, Scan, example, key_of, listed, nested, own_fields)
-    used += (upstream, others, kinds_of, blocks_of, parts)
+    used: tuple[Any, ...] = (Scene, Variant, Scan, example, key_of, listed, nested, listed_of_kind)
+    used += (own_fields, upstream, others, kinds_of, blocks_of, parts)
     environment.globals |= {each.__name__: each for each in used} | {"fields": fields}
     text = environment.get_template(f"{template}.md").render(part=part)
     return re.sub(r"\n{3,}", "\n\n", text)
