@@ -5,7 +5,8 @@ scenes stand on the page of the part.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from textwrap import dedent, fill
 from typing import Any, get_args, get_origin
@@ -142,7 +143,7 @@ def listed_of_kind(name: str, part: str) -> str:
     """
     earlier: dict[str, str] = {}  # item -> the first kind with it
     for each, kind in (kinds_of(_MAIN_PART) | kinds_of(part)).items():
-        items = _items(kind, own_fields(kind))
+        items = {key: _items(kind)[key] for key in own_fields(kind)}
         if each == name:
             break
         earlier = {item: each for item in items.values()} | earlier
@@ -158,11 +159,11 @@ def listed_of_kind(name: str, part: str) -> str:
     return "\n".join(lines)
 
 
-def _items(model: type[Block], keys: Iterable[str] = ()) -> dict[str, str]:
+@cache
+def _items(model: type[Block]) -> dict[str, str]:
     """Return items of a Markdown list: each field's default, meaning and what is allowed."""
     schema, items = model.model_json_schema(schema_generator=Described), {}
-    for key in keys or schema["properties"]:
-        field = schema["properties"][key]
+    for key, field in schema["properties"].items():
         if "default" in field:
             default = f"default `{field['default']}`"
         else:
