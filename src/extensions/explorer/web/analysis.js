@@ -52,9 +52,18 @@ const analysis = (() => {
       return [x - this.centre, this.round * (v - this.k * w)];
     }
 
-    /** Follow the orbit over further impacts, and return their states and times of flight. */
+    /**
+     * Follow the orbit over further impacts, and return their states and times of flight. It stops
+     * for good before a flight that is not finite, and `refused` says why.
+     */
     advance(impacts) {
       const piece = this.orbit.advance(impacts);
+      const end = piece.tau.findIndex((tau, i) => !Number.isFinite(tau + piece.x[i] + piece.xdot[i] + piece.udot[i]));
+      if (end >= 0) {
+        for (const name in piece) piece[name] = piece[name].slice(0, end);
+        impacts = end;
+        this.refused = pseudorigid.TOO_LONG;
+      }
       const total = this.impacts + impacts;
       if (total > this.turns.length) {
         this.turns = grown(this.turns, total);
@@ -81,7 +90,8 @@ const analysis = (() => {
       const n = this.impacts;
       const growth = growthOf(this.sizes, n);
       let verdict = "";
-      if (n >= FIRST_VERDICT) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
+      if (n >= FIRST_VERDICT && !this.refused) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
+      if (verdict && Number.isNaN(growth)) verdict = "undefined"; // it grazes exactly, as in Python
       return {
         impacts: n,
         exponent: this.orbit.exponent(),
@@ -359,7 +369,7 @@ const analysis = (() => {
       const sigma = 1 + (this.multiplier - 1) * (u - image);
       const [x, y] = this.origin.map((value, i) => value + sigma * this.first[i]);
       const state = pseudorigid.stateXY(this.k, this.g, this.energy, x, y);
-      return this.mirror(iterate(this.k, this.g, state, image * this.period));
+      return this.after(state, image * this.period);
     }
 
     /**
@@ -393,7 +403,13 @@ const analysis = (() => {
         state = geometry.chartState(k, this.g, this.energy, x, y);
         if (!state) return this.at(u);
       }
-      return this.mirror(iterate(k, this.g, state, this.period));
+      return this.after(state, this.period);
+    }
+
+    after(state, impacts) {
+      const after = iterate(this.k, this.g, state, impacts);
+      if (!after.every(Number.isFinite)) throw new Error(pseudorigid.TOO_LONG);
+      return this.mirror(after);
     }
 
     mirror(state) {

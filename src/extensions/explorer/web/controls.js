@@ -126,8 +126,9 @@ class Controls {
 
   /** Tell what has been found, and what to do next. */
   completed() {
+    this.sceneKinds();
     const mine = this.watched;
-    if (!mine?.facts?.verdict) return;
+    if (!["regular", "chaotic"].includes(mine?.facts?.verdict)) return;
     this.watched = null;
     this.seen[mine.facts.verdict] = true;
     const first =
@@ -171,7 +172,8 @@ class Controls {
     const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
-      const verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      let verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      if (orbit.refused) verdict = `stops: ${orbit.refused}`;
       name.textContent = `${index + 1}. ${verdict}${orbit.back ? ", backwards" : ""}`;
       const count = `${COUNT.format(orbit.count)} impacts`;
       const exponent = orbit.facts ? shortNumber(orbit.facts.exponent, 4) : "–";
@@ -848,7 +850,8 @@ class Controls {
   noteJump() {
     const { jumpLength, state } = this.page;
     let text = "";
-    if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
+    if (Number.isNaN(jumpLength)) text = pseudorigid.TOO_LONG;
+    else if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
     else if (state.jump && jumpLength) {
       text = `The map jumps across a curve of length ${shortNumber(jumpLength, 6)} in (x, y); its inverse across the mirror image.`;
     } else if (state.jump) text = "Computing the curve …";

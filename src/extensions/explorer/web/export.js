@@ -9,7 +9,7 @@ function yamlNumber(value) {
 
 /** The kinds of scene that show what is on the page: the first one shows most of it. */
 function sceneKinds(state, orbits) {
-  const forward = orbits.some((orbit) => !orbit.back);
+  const forward = orbits.some((orbit) => !orbit.back && !orbit.refused);
   const saddle = state.branches.find((branch) => branch.nth === 0);
   const kinds = [];
   if (saddle && state.view.kind === "disk" && state.view.half < 0.2) kinds.push("closeup");
@@ -27,7 +27,7 @@ function sceneBlock(kind, state, orbits, periodic) {
   const number = yamlNumber;
   const lines = [`ball: {k: ${number(k)}, g: ${number(g)}}`, `energy: ${number(energy)}`];
   const notes = [];
-  const shown = orbits.filter((orbit) => !orbit.back);
+  const shown = orbits.filter((orbit) => !orbit.back && !orbit.refused);
   if (kind !== "motion" && kind !== "closeup") {
     const starts = shown.map((orbit) => {
       if (orbit.q === 0 && !orbit.xy) return number(orbit.p);
@@ -39,7 +39,7 @@ function sceneBlock(kind, state, orbits, periodic) {
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
     const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
     if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
-    if (shown.length < orbits.length) notes.push("A scene has no backward orbits: they are left out.");
+    if (shown.length < orbits.length) notes.push("A scene has no backward orbits and none that stop early: they are left out.");
   }
   if (kind === "portrait" || kind === "tangle") {
     const { elevation, azimuth } = view;

@@ -57,6 +57,9 @@ globalThis.pseudorigid = (() => {
     return finite ? [x, xdot, udot] : [NaN, NaN, NaN];
   }
 
+  // What Python's `orbit` says of a flight that ends in NaN.
+  const TOO_LONG = "a flight lasts 2^20/omega or longer: take a larger g or a lower energy";
+
   // Copy rows of the kernel to arrays, from their entry `first` on.
   function copyRows(arrays, first, count) {
     arrays.forEach((array, i) => array.set(at(ROWS + 8 * i * count, count), first));
@@ -311,6 +314,6 @@ globalThis.pseudorigid = (() => {
 
   return {
     history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, follow,
-    sha256, bytesOf, checkFigure,
+    sha256, bytesOf, checkFigure, TOO_LONG,
   };
 })();

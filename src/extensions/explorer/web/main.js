@@ -222,7 +222,8 @@ class Explorer {
       const before = String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
       plots.push([orbit, orbit.count]);
       orbit.append(piece, this.state.k);
-      recoloured ||= before !== String([orbit.isSea(), orbit.settled, orbit.facts.verdict]);
+      if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
+      recoloured ||= before !== String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
     }
     if (recoloured) assignHues(this.orbits, this.section.section, HUES);
     return { plots, recoloured };

@@ -31,13 +31,14 @@ class Orbit {
     this.count = 0;
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
+    this.refused = ""; // why it stops before its end
     this.hue = null; // one of the style sheet's, if it is regular
     this.history = []; // [impacts, exponent so far]
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
 
   get done() {
-    return !this.start || this.count >= this.impacts;
+    return !this.start || this.refused !== "" || this.count >= this.impacts;
   }
 
   /** Add impacts that the worker has computed; those of a backward orbit are mirrored. */
@@ -60,7 +61,8 @@ class Orbit {
     }
     this.count += size;
     this.facts = piece.facts;
-    this.history.push([this.count, piece.facts.exponent]);
+    this.refused = piece.refused ?? "";
+    if (piece.facts) this.history.push([this.count, piece.facts.exponent]);
   }
 
   /** The state before impact i; 0 is the start. */
@@ -73,7 +75,7 @@ class Orbit {
   }
 
   colour(colours) {
-    if (this.mode() === "verdict") return colours[this.facts?.verdict || "young"];
+    if (this.mode() === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }

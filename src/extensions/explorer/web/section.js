@@ -506,7 +506,6 @@ function readColours() {
   const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
   [colours.regular, colours.chaotic] = colours.hues;
-  colours.young = colours.sea;
   colours.font = getComputedStyle(document.body).fontFamily;
   return colours;
 }
