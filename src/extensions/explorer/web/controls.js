@@ -76,11 +76,11 @@ class Controls {
   /** Set all fields from the state. */
   refresh() {
     const { state } = this;
-    for (const [name, value] of [["k", state.k], ["g", state.g], ["E", state.energy]]) {
+    for (const [name, value] of Object.entries(this.ball)) {
       element(name).value = String(value);
+      this.validate(name);
     }
     this.slides();
-    this.validate();
     this.words();
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
       element("span").append(this.option(state.span, `${state.span} / ω`));
@@ -204,66 +204,90 @@ class Controls {
 
   // ---------------------------------------------------------------- k, g and E
 
-  slides() {
+  get ball() {
     const { k, g, energy } = this.state;
-    const [low, high] = geometry.energyBounds(k, g);
-    element("k-slide").value = Math.sqrt(k);
-    element("g-slide").value = Math.sqrt(g / k);
-    element("E-slide").value = Math.sqrt((energy - low) / (high - low));
-    for (const [name, value] of [["k", k], ["g", g], ["E", energy]]) {
-      element(`${name}-slide`).setAttribute("aria-valuetext", String(value));
+    return { k, g, E: energy };
+  }
+
+  /** Set the sliders, whose ends are those of the range at the other two values. */
+  slides() {
+    const { ball } = this;
+    const { k, g, E } = ball;
+    const [low, high] = rangeOf("E", ball);
+    for (const name of ["k", "g", "E"]) {
+      const slide = element(`${name}-slide`);
+      const shares = [...rangeOf(name, ball), ball[name]].map((value) => this.share(name, value));
+      [slide.min, slide.max, slide.value] = shares;
+      slide.setAttribute("aria-valuetext", String(ball[name]));
     }
     const first = geometry.firstJump(k, g);
-    const share = Math.sqrt((first - low) / (high - low));
+    const share = this.share("E", first);
     element("mark").hidden = !(share < 1);
     element("mark").style.left = `calc(8px + ${share} * (100% - 16px) - 1px)`;
     const show = (value) => shortNumber(value, 4);
     element("bounds").textContent =
-      `E lies between ${show(low)} and ${show(high)}, eq. (31). Mark: E_g = g²(1 + k/2) = ${show(first)}, above which the map jumps. E/g² = ${show(energy / (g * g))}.`;
+      `E lies between ${show(low)} and ${show(high)}, eq. (31). Mark: E_g = g²(1 + k/2) = ${show(first)}, above which the map jumps. E/g² = ${show(E / (g * g))}.`;
   }
 
-  /** A slider's value with as many digits as it can mean. */
+  /** Where a value is on its slider, which resolves small ones more finely. */
+  share(name, value) {
+    const { k } = this.state;
+    const [low, high] = name === "E" ? rangeOf("E", this.ball) : [0, name === "g" ? k : 1];
+    return Math.sqrt((value - low) / (high - low));
+  }
+
+  /** A slider's value with as many digits as it can mean, inside the range. */
   slid(name) {
+    const { k } = this.state;
+    const [low, high] = rangeOf(name, this.ball);
     const share = Number(element(`${name}-slide`).value) ** 2;
-    if (name === "k") return Math.max(0.001, Number(share.toPrecision(3)));
-    const { k, g } = this.typed();
-    if (name === "g") return Number((k * Math.min(0.999, Math.max(1e-4, share))).toPrecision(3));
-    const [low, high] = geometry.energyBounds(k, g);
-    const step = 10 ** Math.floor(Math.log10((high - low) / 500));
-    const value = Math.round((low + share * (high - low)) / step) * step;
-    return Number(Math.min(high - step / 10, Math.max(low + step / 10, value)).toPrecision(6));
+    const value = name === "E" ? low + share * (high - low) : name === "g" ? share * k : share;
+    const room = (high - low) / 500;
+    const step = 10 ** Math.floor(Math.log10(room));
+    const inside = Math.min(high - room, Math.max(low + room, value));
+    return Number((Math.round(inside / step) * step).toPrecision(12));
   }
 
-  typed() {
-    return { k: readNumber(element("k").value), g: readNumber(element("g").value), E: readNumber(element("E").value) };
+  /** Say what is wrong with a field of the ball, and return whether nothing is. */
+  validate(name) {
+    const error = parameterError(name, element(name).value, this.ball);
+    complain(name, error, name);
+    return !error;
   }
 
-  /** Show what is wrong with the fields, and return whether nothing is. */
-  validate() {
-    const { k, g } = this.typed();
-    const errors = ["k", "g", "E"].map((name) => parameterError(name, element(name).value, { k, g }));
-    // Where k or g is wrong, bounds that depend on them cannot be told.
-    if (errors[0]) errors[1] = errors[2] = "";
-    if (errors[1]) errors[2] = "";
-    ["k", "g", "E"].forEach((name, i) => complain(name, errors[i], name));
-    return errors.every((error) => !error);
-  }
-
-  /** Take over k, g and E soon if they are allowed. */
-  applyBall(delay = 30) {
+  /** Take over a field's value soon if it is allowed. */
+  applyBall(name, delay = 30) {
     clearTimeout(this.ballWaits);
-    if (this.validate()) this.ballWaits = setTimeout(() => this.takeBall(), delay);
+    if (this.validate(name)) this.ballWaits = setTimeout(() => this.takeField(name), delay);
+  }
+
+  takeField(name) {
+    this.takeBall({ ...this.ball, [name]: readNumber(element(name).value) });
+  }
+
+  /** A field is left: take over its value, or return to the present one and say why. */
+  leave(name) {
+    if (this.validate(name)) this.takeField(name);
+    else this.keep(name, this.ball[name]);
+    this.editing = false;
+  }
+
+  /** Let a field show the value that stays, after a refusal. */
+  keep(name, value) {
+    element(name).value = String(value);
+    element(name).setAttribute("aria-invalid", "false");
+    setText(`${name}-error`, `${element(`${name}-error`).textContent}. It stays ${value}.`);
   }
 
   /** Take over k, g and E; the starts keep their places. What one drag does is undone at once. */
-  takeBall() {
+  takeBall({ k, g, E }) {
     clearTimeout(this.ballWaits);
     const { page, state } = this;
-    const { k, g, E } = this.typed();
-    if (!this.validate() || (k === state.k && g === state.g && E === state.energy)) return;
+    if (k === state.k && g === state.g && E === state.energy) return;
     if (!this.editing) page.mark();
     this.editing = true;
     Object.assign(state, { k, g, energy: E });
+    for (const name of ["k", "g", "E"]) complain(name, "", name);
     for (const orbit of page.orbits) orbit.xy = null;
     this.slides();
     this.atlas.draw();
@@ -306,17 +330,12 @@ class Controls {
       on(id, "click", () => this.nudge(across, up));
     }
     for (const name of ["k", "g", "E"]) {
-      on(name, "input", () => this.applyBall(250)); // more digits may follow
+      on(name, "input", () => this.applyBall(name, 250)); // more digits may follow
       on(`${name}-slide`, "input", () => {
         element(name).value = String(this.slid(name));
-        this.applyBall();
+        this.applyBall(name);
       });
-      for (const id of [name, `${name}-slide`]) {
-        on(id, "change", () => {
-          this.takeBall();
-          this.editing = false;
-        });
-      }
+      for (const id of [name, `${name}-slide`]) on(id, "change", () => this.leave(name));
     }
     on("undo", "click", () => page.undo());
     document.addEventListener("keydown", (event) => {
@@ -339,15 +358,19 @@ class Controls {
       page.clear();
       this.hint("Start an orbit anywhere on the section.");
     });
-    on("impacts", "input", () => {
-      const value = readNumber(element("impacts").value);
-      const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
-      const most = COUNT.format(MOST_IMPACTS);
-      const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
-      complain("impacts", allowed ? "" : error, "impacts");
-      if (allowed) this.state.impacts = value;
-      page.saveSoon();
-    });
+    for (const type of ["input", "change"]) {
+      on("impacts", type, () => {
+        const value = readCount(element("impacts").value);
+        const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
+        const most = COUNT.format(MOST_IMPACTS);
+        const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
+        complain("impacts", allowed ? "" : error, "impacts");
+        if (type === "input") return;
+        if (allowed) this.state.impacts = value;
+        else this.keep("impacts", this.state.impacts);
+        page.saveSoon();
+      });
+    }
     on("back", "change", () => {
       this.state.back = element("back").checked;
       page.saveSoon();
@@ -432,7 +455,8 @@ class Controls {
   }
 
   fanTyped() {
-    const [from, to, count] = ["fan-from", "fan-to", "fan-count"].map((id) => readNumber(element(id).value));
+    const [from, to] = ["fan-from", "fan-to"].map((id) => readNumber(element(id).value));
+    const count = readCount(element("fan-count").value);
     let error = "";
     if (!(Math.abs(from) < 1 && Math.abs(to) < 1)) error = "the ends of a fan lie between −1 and 1";
     else if (!(Number.isInteger(count) && count >= 2 && count <= MOST_ORBITS)) {
@@ -546,6 +570,7 @@ class Controls {
     box.addEventListener("pointerdown", (event) => {
       if (event.button > 1) return;
       const point = at(event);
+      if (document.activeElement !== box) document.activeElement.blur(); // fields take or refuse first
       down.set(event.pointerId, point);
       box.setPointerCapture(event.pointerId);
       if (down.size === 2) {
@@ -964,12 +989,9 @@ class Controls {
     const largest = (Math.sqrt(1 + 2 * ratio * k) - 1) / (2 * ratio);
     const { g: present } = this.state;
     const g = present < largest ? present : Number((0.9 * largest).toPrecision(2));
-    element("k").value = String(k);
-    element("g").value = String(g);
-    element("E").value = String(Number((ratio * g * g).toPrecision(6)));
     this.editing = false;
-    this.takeBall();
-    this.editing = false;
+    this.takeBall({ k, g, E: Number((ratio * g * g).toPrecision(6)) });
+    this.refresh();
     const note = g === present ? "" : ` g became ${g}, which changes the scale only.`;
     this.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
   }

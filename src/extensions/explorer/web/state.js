@@ -32,31 +32,44 @@ function freshState() {
   };
 }
 
-/** What is wrong with a value of k, g or E, in a line; empty if it is allowed. */
-function parameterError(name, text, { k, g }) {
-  const value = readNumber(text);
-  const show = (number) => shortNumber(number, 4);
-  if (Number.isNaN(value)) return `${name} = ${text.trim() || "nothing"} is not allowed: a number`;
-  if (name === "k" && !(value > 0 && value <= 1)) {
-    return `k = ${text.trim()} is not allowed: above 0, at most 1 (a sphere has at most 1/3)`;
-  }
-  if (name === "g" && !(value > 0 && value < k)) {
-    return `g = ${text.trim()} is not allowed: between 0 and k = ${show(k)}`;
-  }
-  if (name === "E") {
-    const [low, high] = geometry.energyBounds(k, g);
-    if (!(value > low && value < high)) {
-      const range = `between −g²/2k = ${show(low)} and k/2 − g = ${show(high)}, eq. (31)`;
-      return `E = ${text.trim()} is not allowed: ${range}`;
-    }
-  }
-  return "";
+/** The open range of k, g or E at the other two values; k may also be 1. */
+function rangeOf(name, { k, g, E }) {
+  if (name === "k") return [Math.max(g, 2 * (E + g)), E < 0 ? Math.min(1, (g * g) / (-2 * E)) : 1];
+  if (name === "g") return [Math.sqrt(Math.max(0, -2 * k * E)), Math.min(k, 0.5 * k - E)];
+  return geometry.energyBounds(k, g);
 }
 
-/** A number that was typed, with a comma or a real minus sign too; NaN if it is none. */
+/** What is wrong with a value of k, g or E beside the other two, in a line; empty if it is allowed. */
+function parameterError(name, text, ball) {
+  const value = readNumber(text);
+  const refused = `${name} = ${String(text).trim() || "nothing"} is not allowed`;
+  if (Number.isNaN(value)) return `${refused}: a number`;
+  if (name === "k" && !(value > 0 && value <= 1)) return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
+  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: between 0 and k = ${shortNumber(ball.k, 4)}`;
+  const [low, high] = rangeOf(name, ball).map((end) => shortNumber(end, 4));
+  if (ballAllowed({ ...ball, [name]: value })) return "";
+  if (name === "E") return `${refused}: between −g²/2k = ${low} and k/2 − g = ${high}, eq. (31)`;
+  const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
+  return `${refused}: between ${low} and ${high} at ${others.join(" and ")}, eq. (31)`;
+}
+
+function ballAllowed({ k, g, E }) {
+  const [low, high] = geometry.energyBounds(k, g);
+  return k > 0 && k <= 1 && g > 0 && g < k && E > low && E < high;
+}
+
+/** A number or a fraction that was typed, with a comma or a real minus sign too; NaN if it is none. */
 function readNumber(text) {
-  const plain = String(text).trim().replace("−", "-").replace(",", ".");
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  const plain = String(text).trim().replace("−", "-").replaceAll(",", ".");
+  const match = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(?:\s*\/\s*(\d+\.?\d*|\.\d+))?$/i.exec(plain);
+  const value = match ? Number(match[1]) / Number(match[2] ?? 1) : NaN;
+  return Number.isFinite(value) ? value : NaN;
+}
+
+/** A count that was typed, also with commas between thousands; NaN if it is none. */
+function readCount(text) {
+  const plain = String(text).trim().replace(/^\d{1,3}(,\d{3})+$/, (count) => count.replaceAll(",", ""));
+  return /[.,]/.test(plain) ? NaN : readNumber(plain);
 }
 
 /** A number with so many significant digits, with a proper minus sign. */
@@ -189,10 +202,10 @@ function readAddress(text) {
     else if (at > 0) fail(name, part.slice(at + 1), "no such field");
     else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
   }
-  for (const [name, value] of Object.entries({ k: state.k, g: state.g, E: state.energy })) {
-    const error = parameterError(name, String(value), state);
-    if (error) throw new Error(`the address has ${error}`);
-  }
+  const { k, g, energy: E } = state;
+  const wrong = !(k > 0 && k <= 1) ? "k" : !(g > 0 && g < k) ? "g" : "E";
+  const error = parameterError(wrong, String({ k, g, E }[wrong]), { k, g, E });
+  if (error) throw new Error(`the address has ${error}`);
   state.orbits = state.orbits.map(({ part, at, typed, ...rest }) => {
     const [p, q] = typed ? geometry.placeAt(state.k, state.g, state.energy, ...at) : at;
     if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");
