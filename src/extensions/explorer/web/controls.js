@@ -483,11 +483,12 @@ class Controls {
 
   shape(kind) {
     const { view } = this.state;
-    if (view.kind === kind) return;
     const { section } = this.page;
+    if (view.kind === kind && (kind === "disk" || !section.framed)) return;
     const place = section.place(...section.middle);
-    const magnified = view.half < 0.9;
+    const magnified = view.half < HOME[view.kind][2] - 0.1;
     view.kind = kind;
+    if (section.framed) Object.assign(view, { azimuth: HOME_VIEW.azimuth, elevation: HOME_VIEW.elevation });
     if (!magnified || !place) [view.x, view.y, view.half] = HOME[kind];
     else if (kind === "disk") [view.x, view.y] = place;
     else {
@@ -542,7 +543,7 @@ class Controls {
   }
 
   nudge(across, up) {
-    if (this.state.view.kind === "surface" && this.state.view.half > 0.9) this.turn(30 * across, -30 * up);
+    if (this.state.view.kind === "surface" && this.state.view.half > HOME.surface[2] - 0.1) this.turn(30 * across, -30 * up);
     else this.pan(-60 * across, 60 * up);
   }
 
@@ -685,7 +686,7 @@ class Controls {
     }
     if (gesture.kind === "scroll") return;
     const step = [point[0] - before[0], point[1] - before[1]];
-    if (this.state.view.kind === "surface" && !gesture.pan) this.turn(...step);
+    if (!this.page.section.framed && !gesture.pan) this.turn(...step);
     else this.pan(...step);
   }
 
@@ -1002,7 +1003,7 @@ class Controls {
     const { page } = this;
     on("copy-scene", "click", async () => {
       const kind = element("scene-kind").value;
-      const block = sceneBlock(kind, this.state, page.orbits, page.periodic);
+      const block = sceneBlock(kind, page);
       element("scene").value = block.text;
       const copied = await copyText(block.text, element("scene"));
       const first = copied ? "Copied." : "Copy the lines above.";
@@ -1021,7 +1022,7 @@ class Controls {
         setText("record-note", `${name} has ${COUNT.format(count)} impacts after the start, to the last bit.`);
       });
     }
-    for (const [id, ratio, name] of [["png2", 2, "section.png"], ["png4", 4, "section.png"], ["svg", null, "section.svg"]]) {
+    for (const [id, ratio, name] of [["png2", 2, "section-2x.png"], ["png4", 4, "section-4x.png"], ["svg", null, "section.svg"]]) {
       on(id, "click", async () => {
         download(name, await picture(page, ratio));
         setText("record-note", `${name} has the section as it is drawn, with k, g, E and the address.`);

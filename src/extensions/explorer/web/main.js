@@ -53,7 +53,7 @@ class Explorer {
     this.orbits = state.orbits.map((spec) => {
       const kept = before.get(writeOrbit(spec));
       before.delete(writeOrbit(spec));
-      return kept ?? new Orbit(spec, () => this.state.colour);
+      return kept ?? new Orbit(spec, this);
     });
     if (same) {
       this.follower.ask("close", { keys: [...before.values()].map(({ key }) => key) });
@@ -133,7 +133,7 @@ class Explorer {
     this.mark();
     const { impacts, back } = this.state;
     for (const [p, q] of places.slice(0, room)) {
-      const orbit = new Orbit({ p, q, xy, impacts, back, sea: false }, () => this.state.colour);
+      const orbit = new Orbit({ p, q, xy, impacts, back, sea: false }, this);
       this.orbits.push(orbit);
       this.open(orbit);
     }
@@ -230,7 +230,7 @@ class Explorer {
   }
 
   draw({ plots, recoloured }) {
-    if (recoloured || this.fresh) this.look();
+    if (recoloured || this.fresh || !this.orbits.some((orbit) => !orbit.done)) this.look();
     else {
       for (const [orbit, from] of plots) this.section.plot(orbit, from);
       this.section.showPoints();
@@ -280,11 +280,9 @@ class Explorer {
     const specs = this.state.branches;
     if (!specs.length) return;
     const round = (this.tracing = (this.tracing ?? 0) + 1);
-    this.window = null;
-    if (view.kind === "disk" && view.half < 0.5) {
-      const { x, y } = geometry.pointAt(k, g, energy, view.x, view.y);
-      this.window = { x, y, half: 1.5 * view.half };
-    }
+    this.section.project();
+    const place = view.half < 0.5 && this.section.place(...this.section.middle);
+    this.window = place ? { ...geometry.pointAt(k, g, energy, ...place), half: 1.5 * view.half } : null;
     const lines = [];
     const ended = [];
     for (const spec of specs) {
@@ -359,10 +357,10 @@ class Explorer {
     this.finer = setTimeout(() => {
       const { view } = this.state;
       const { window } = this;
-      if (!this.state.branches.length || view.kind !== "disk") return;
-      if (view.half > 0.5 && !window) return;
-      if (window && 1.5 * view.half > 0.6 * window.half && view.half < window.half) {
-        const { x, y } = geometry.pointAt(this.state.k, this.state.g, this.state.energy, view.x, view.y);
+      if (!this.state.branches.length || (view.half > 0.5 && !window)) return;
+      const place = this.section.place(...this.section.middle);
+      if (place && window && 1.5 * view.half > 0.6 * window.half && view.half < window.half) {
+        const { x, y } = geometry.pointAt(this.state.k, this.state.g, this.state.energy, ...place);
         const { radius } = this.section;
         if (Math.hypot(x - window.x, y - window.y) < 0.3 * window.half * radius) return;
       }
@@ -390,9 +388,12 @@ class Explorer {
     else this.motion = !state.motion && orbit?.start ? new OrbitMotion(orbit) : null;
     this.time.reset();
     this.time.draw();
+    this.section.drawPoints();
     this.section.drawCursors();
     this.controls.moment();
+    this.controls.updateFacts();
     this.controls.markChosen();
+    this.drawChartSoon();
   }
 
   showPeriodic(period, type, nth) {

@@ -20,8 +20,8 @@ function assignHues(orbits, section, hues) {
 }
 
 class Orbit {
-  constructor({ p, q, xy, impacts, back, sea }, mode) {
-    Object.assign(this, { p, q, xy, impacts, back, sea, mode });
+  constructor({ p, q, xy, impacts, back, sea }, page) {
+    Object.assign(this, { p, q, xy, impacts, back, sea, page });
     this.clear();
   }
 
@@ -74,8 +74,14 @@ class Orbit {
     return Boolean(this.sea || this.facts?.verdict === "chaotic");
   }
 
+  /** Whether it is the one that the time view shows, which stands out. */
+  get chosen() {
+    return this.page.orbits[this.page.state.chosen] === this;
+  }
+
   colour(colours) {
-    if (this.mode() === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
+    if (this.chosen && this.isSea()) return colours.ink;
+    if (this.page.state.colour === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }

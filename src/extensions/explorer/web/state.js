@@ -8,7 +8,7 @@
  */
 const MOST_ORBITS = 64;
 const MOST_IMPACTS = 1000000; // of an orbit
-const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1] };
+const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
   return {
