@@ -32,6 +32,8 @@ class Controls {
     for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
     element("period").append(option("all", "1 to 12"));
     element("period").value = "6";
+    element("near-period").append(option(0, `any to ${MOST_PERIOD}`));
+    for (let period = 1; period <= MOST_PERIOD; period++) element("near-period").append(option(period, period));
     for (const field of document.querySelectorAll("input")) field.autocomplete = "off";
     const { version, citation } = this.page.data;
     element("version").textContent = version;
@@ -105,8 +107,7 @@ class Controls {
     const pressed = {
       "as-surface": state.view.kind === "surface",
       "as-disk": state.view.kind === "disk",
-      "by-orbit": state.colour === "orbit",
-      "by-verdict": state.colour === "verdict",
+      ...Object.fromEntries(COLOURS.map((colour) => [`by-${colour}`, state.colour === colour])),
       "chart-exponent": state.chart === "exponent",
       "chart-rotation": state.chart === "rotation",
     };
@@ -169,6 +170,7 @@ class Controls {
   }
 
   updateFacts() {
+    element("run-on").textContent = this.page.orbits.some((orbit) => orbit.endless) ? "Stop" : "Run on";
     const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
@@ -311,18 +313,8 @@ class Controls {
     on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
     on("as-surface", "click", () => this.shape("surface"));
     on("as-disk", "click", () => this.shape("disk"));
-    for (const colour of ["orbit", "verdict"]) {
-      on(`by-${colour}`, "click", () => {
-        this.state.colour = colour;
-        this.changed();
-      });
-    }
-    for (const chart of ["exponent", "rotation"]) {
-      on(`chart-${chart}`, "click", () => {
-        this.state.chart = chart;
-        this.changed();
-      });
-    }
+    for (const colour of COLOURS) on(`by-${colour}`, "click", () => this.changed({ colour }));
+    for (const chart of ["exponent", "rotation"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
     on("home", "click", () => this.whole());
     on("closer", "click", () => this.zoom(0.6));
     on("further", "click", () => this.zoom(1 / 0.6));
@@ -354,6 +346,9 @@ class Controls {
       const turns = this.box.classList.toggle("turns");
       element("finger").setAttribute("aria-pressed", turns);
     });
+    on("box", "click", () => this.toggle("box", !this.box.classList.contains("box")));
+    on("pick", "click", () => this.toggle("pick", !this.box.classList.contains("pick")));
+    on("run-on", "click", () => page.runOn());
     on("clear", "click", () => {
       page.clear();
       this.hint("Start an orbit anywhere on the section.");
@@ -404,8 +399,17 @@ class Controls {
     element("atlas-panel").addEventListener("toggle", () => this.atlas.draw());
   }
 
+  /** Say whether the next drag draws a box, or the next click looks for a periodic orbit. */
+  toggle(name, on) {
+    this.box.classList.toggle(name, on);
+    element(name).setAttribute("aria-pressed", on);
+    if (on && name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
+    else if (on) this.hint("Drag a box on the section: it fills the view then.");
+  }
+
   /** Draw after a change of how things are shown. */
-  changed() {
+  changed(choice = {}) {
+    Object.assign(this.state, choice);
     this.press();
     this.page.look();
     this.updateFacts();
@@ -525,6 +529,22 @@ class Controls {
     this.moved();
   }
 
+  /** Let a box of the screen, given by two corners, fill the view. */
+  zoomBox([a, b], [c, d]) {
+    const { view } = this.state;
+    const { section } = this.page;
+    section.project();
+    const { frame, middle, scale, width, height } = section;
+    const wide = Math.abs(c - a) / (width - frame.left - frame.right);
+    const share = Math.max(wide, Math.abs(d - b) / (height - frame.top - frame.bottom));
+    this.toggle("box", false);
+    if (share < 0.01) return;
+    view.x += (0.5 * (a + c) - middle[0]) / scale;
+    view.y -= (0.5 * (b + d) - middle[1]) / scale;
+    view.half = Math.max(2e-15, view.half * share);
+    this.moved();
+  }
+
   pan(across, down) {
     const { view } = this.state;
     const { section } = this.page;
@@ -575,14 +595,17 @@ class Controls {
       down.set(event.pointerId, point);
       box.setPointerCapture(event.pointerId);
       if (down.size === 2) {
-        this.page.section.fan = null;
+        this.page.section.fan = this.page.section.corners = null;
         gesture = { kind: "pinch" };
         return;
       }
       if (down.size > 2) return;
       const place = this.onLine(point, event.pointerType);
-      const scrolls = event.pointerType === "touch" && !box.classList.contains("turns");
-      gesture = { kind: "click", from: point, fan: place, scrolls, pan: event.shiftKey || event.button === 1 };
+      const shifted = event.shiftKey && event.button === 0 && this.state.view.kind === "disk";
+      const boxes = shifted || box.classList.contains("box");
+      const scrolls = event.pointerType === "touch" && !boxes && !box.classList.contains("turns");
+      const pan = event.shiftKey || event.button === 1;
+      gesture = { kind: "click", from: point, fan: place, scrolls, pan, boxes };
       this.hideCross();
     });
     box.addEventListener("pointermove", (event) => {
@@ -674,6 +697,7 @@ class Controls {
       if (Math.hypot(point[0] - gesture.from[0], point[1] - gesture.from[1]) < CLICK) return;
       gesture.kind = gesture.fan !== null && !gesture.pan ? "fan" : "move";
       if (gesture.scrolls) gesture.kind = "scroll";
+      if (gesture.boxes) gesture.kind = "box";
       before = gesture.from;
     }
     if (gesture.kind === "fan") {
@@ -681,6 +705,11 @@ class Controls {
       if (!place) return;
       gesture.to = place[0];
       this.page.section.fan = [gesture.fan, gesture.to];
+      this.page.section.drawCursors();
+      return;
+    }
+    if (gesture.kind === "box") {
+      this.page.section.corners = [gesture.from, point];
       this.page.section.drawCursors();
       return;
     }
@@ -704,9 +733,10 @@ class Controls {
 
   finish(gesture, point, cancelled) {
     const { section } = this.page;
-    section.fan = null;
+    section.fan = section.corners = null;
     section.drawCursors();
     if (!gesture || cancelled) return;
+    if (gesture.kind === "box") this.zoomBox(gesture.from, point);
     if (gesture.kind === "fan" && gesture.to !== undefined) this.shoot(gesture.fan, gesture.to);
     if (gesture.kind !== "click") return;
     const { at = [Infinity, 0], when = 0 } = this.clicked ?? {};
@@ -718,8 +748,17 @@ class Controls {
 
   startAt(point) {
     const place = this.page.section.place(...point);
-    if (place) this.begin([place]);
+    if (place && this.box.classList.contains("pick")) this.pick(place);
+    else if (place) this.begin([place]);
     else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+  }
+
+  /** Look for the periodic orbit nearest to a place. */
+  pick(place) {
+    this.toggle("pick", false);
+    const length = readNumber(element("branch-length").value);
+    const allowed = length > 0 && length <= 20;
+    this.page.findNear(place, Number(element("near-period").value), allowed ? length : 1.5);
   }
 
   // ---------------------------------------------------------------- keys
@@ -741,6 +780,7 @@ class Controls {
       else if (key === "-" || key === "−") this.zoom(1 / 0.7);
       else if (key === "0") this.whole();
       else if (key === "f" || key === "F") this.markFan();
+      else if (key === "b" || key === "B") this.markBox();
       else if (key === " ") element("play").click();
       else if (key === "Escape") this.hideCross();
       else return;
@@ -768,6 +808,7 @@ class Controls {
       Math.min(section.width - 4, Math.max(4, left + across * step)),
       Math.min(section.height - 4, Math.max(4, top + down * step)),
     ];
+    if (this.corner) section.corners = [this.corner, section.cross];
     section.drawCursors();
     const text = this.describe(section.cross);
     element("where").textContent = text;
@@ -776,9 +817,20 @@ class Controls {
   }
 
   hideCross() {
-    this.page.section.cross = null;
-    this.fanFrom = null;
+    this.page.section.cross = this.page.section.corners = null;
+    this.fanFrom = this.corner = null;
     this.page.section.drawCursors();
+  }
+
+  /** Take the pointer as one corner of a box; the second corner makes the box fill the view. */
+  markBox() {
+    const { section } = this.page;
+    const at = section.cross ?? section.middle;
+    if (this.corner) this.zoomBox(this.corner, at);
+    else this.hint("One corner of the box is set: move the pointer and press B again.");
+    this.corner = this.corner ? null : at;
+    section.corners = null;
+    section.drawCursors();
   }
 
   /** Take the pointer's x as one end of a fan on y = 0; the second end shoots it. */
@@ -840,7 +892,11 @@ class Controls {
     });
     on("forget", "click", () => {
       page.mark();
-      this.state.periods = [];
+      const far = (one) => one?.type !== "near";
+      const { motion, branches } = this.state;
+      Object.assign(this.state, { periods: [], near: [], branches: branches.filter(far), motion: far(motion) ? motion : null });
+      page.chooseMotion();
+      if (!this.state.branches.length) page.branchLines = [];
       page.searcher.restart();
       this.listPeriodic();
       page.section.drawLines();
@@ -890,13 +946,20 @@ class Controls {
     list.replaceChildren();
     const saddles = [];
     let count = 0;
+    const add = (orbit, one) => {
+      if (orbit.type !== "elliptic") saddles.push({ ...one, points: orbit.period });
+      list.append(this.periodicRow(orbit, one));
+    };
+    this.state.near.forEach((spec, nth) => {
+      const orbit = page.found.get(writeNear(spec));
+      if (orbit) add(orbit, { period: 0, type: "near", nth });
+    });
     for (const period of this.state.periods) {
       const seen = {};
       for (const orbit of page.periodic.get(period) ?? []) {
         const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
         count += 1;
-        if (orbit.type !== "elliptic") saddles.push({ period, type: orbit.type, nth });
-        list.append(this.periodicRow(orbit, nth));
+        add(orbit, { period, type: orbit.type, nth });
       }
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
@@ -906,9 +969,9 @@ class Controls {
     const chosen = select.value;
     this.saddles = saddles;
     select.replaceChildren(
-      ...saddles.map(({ period, type, nth }, i) => {
+      ...saddles.map(({ points, type, nth }, i) => {
         const number = nth ? `, no. ${nth + 1}` : "";
-        return this.option(i, `period ${period}, ${type}${number}`);
+        return this.option(i, `period ${points}, ${type === "near" ? "near a click" : type}${number}`);
       }),
     );
     const { wanted } = this;
@@ -934,24 +997,24 @@ class Controls {
     element("branch-length").value = String(first.length);
   }
 
-  periodicRow(orbit, nth) {
+  periodicRow(orbit, one) {
     const { period, type, trace, multiplier, rotation, time } = orbit;
     const shape = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
     const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}` : `multiplier ${shortNumber(multiplier, 7)}`;
-    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · ${more} · time ${shortNumber(time, 6)}`;
-    const show = () => this.page.showPeriodic(period, type, nth);
+    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · residue ${shortNumber(0.25 * (2 - trace), 6)} · ${more} · time ${shortNumber(time, 6)}`;
+    const show = () => this.page.showPeriodic(one);
     return node(
       "li",
       {},
       node("span", { textContent: shape, ariaHidden: "true" }),
-      node("div", {}, `Period ${period}, ${type}`, node("div", { className: "facts", textContent: facts })),
+      node("div", {}, `Period ${period}, ${type}${one.type === "near" ? ", near a click" : ""}`, node("div", { className: "facts", textContent: facts })),
       button("In time", `Show the ${type} orbit of period ${period} in time`, show),
     );
   }
 
   listPoints() {
     const saddle = this.saddles?.[Number(element("saddle").value)];
-    const points = saddle ? Array.from({ length: saddle.period }, (_, i) => this.option(i, i + 1)) : [];
+    const points = saddle ? Array.from({ length: saddle.points }, (_, i) => this.option(i, i + 1)) : [];
     element("saddle-point").replaceChildren(this.option(-1, "all"), ...points);
   }
 

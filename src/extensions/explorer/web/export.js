@@ -10,13 +10,13 @@ function yamlNumber(value) {
 /** The kinds of scene that show what is on the page: the first one shows most of it. */
 function sceneKinds(state, orbits) {
   const forward = orbits.some((orbit) => !orbit.back && !orbit.refused);
-  const saddle = state.branches.find((branch) => branch.nth === 0);
+  const saddle = state.branches.find((branch) => branch.nth === 0 && branch.period);
   const kinds = [];
   if (saddle && state.view.half < 0.2) kinds.push("closeup");
   if (saddle && forward) kinds.push("tangle");
   if (state.jump && forward) kinds.push("jumps");
   if (forward) kinds.push("portrait");
-  if (state.motion && state.motion.nth === 0) kinds.push("motion");
+  if (state.motion?.period && state.motion.nth === 0) kinds.push("motion");
   if (forward) kinds.push("exponents");
   return kinds;
 }
@@ -61,7 +61,7 @@ function sceneBlock(kind, { state, orbits, periodic, section }) {
     lines.push(`period: ${period}`, `type: ${type}`, `duration: ${number(state.span)}`);
   }
   if (kind === "tangle" || kind === "closeup") {
-    const { period, type } = state.branches.find((branch) => branch.nth === 0);
+    const { period, type } = state.branches.find((branch) => branch.nth === 0 && branch.period);
     const same = state.branches.filter((b) => b.period === period && b.type === type && b.nth === 0);
     const lengths = { outer: 0, inner: 0 };
     for (const { side, length } of same) {

@@ -207,6 +207,11 @@ globalThis.pseudorigid = (() => {
     return call("chart_tangent", 4, ...checkState(x, xdot, udot), k, g, impacts);
   }
 
+  // Return the point that Newton steps towards P^n z = z reach from (x, y), and x and y of the last step.
+  function newton(k, g, energy, x, y, period, steps) {
+    return call("newton", 4, x, y, k, g, energy, period, steps);
+  }
+
   // Return the bytes of doubles, little-endian, every NaN the same.
   function bytesOf(values) {
     const bytes = new Uint8Array(8 * values.length);
@@ -313,7 +318,7 @@ globalThis.pseudorigid = (() => {
   }
 
   return {
-    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, follow,
+    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, newton, follow,
     sha256, bytesOf, checkFigure, TOO_LONG,
   };
 })();

@@ -13,9 +13,8 @@ class Explorer {
     this.state = freshState();
     this.orbits = [];
     this.periodic = new Map(); // periodic orbits by period, at the present ball and energy
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
+    this.found = new Map(); // and those near places, by `writeNear`
+    this.forgetLines();
     this.follower = new Computer();
     this.searcher = new Computer();
     this.generation = 0;
@@ -31,16 +30,24 @@ class Explorer {
 
   /** What the section view draws. */
   scene() {
-    const marks = this.state.periods.flatMap((period) =>
-      (this.periodic.get(period) ?? []).map(({ points, type }) => ({
-        points,
-        colour: type === "elliptic" ? "regular" : "ink",
-        shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
-      })),
-    );
+    const symmetric = this.state.periods.flatMap((period) => this.periodic.get(period) ?? []);
+    const near = this.state.near.flatMap((spec) => this.found.get(writeNear(spec)) ?? []);
+    const marks = [...symmetric, ...near].map(({ points, type }) => ({
+      points,
+      colour: type === "elliptic" ? "regular" : "ink",
+      shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
+    }));
     const lines = [...this.branchLines, ...this.jumpLines];
     const now = this.time ? this.time.now() : null;
-    return { state: this.state, orbits: this.orbits, overlays: { lines, marks }, cursor: now?.state };
+    const range = ["rotation", "exponent"].includes(this.state.colour) ? this.range() : null;
+    return { state: this.state, orbits: this.orbits, range, overlays: { lines, marks }, cursor: now?.state };
+  }
+
+  /** The range of what colours the orbits, the rotation number or the exponent. */
+  range() {
+    const values = this.orbits.map((orbit) => orbit.facts?.[this.state.colour]).filter(Number.isFinite);
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    return low < high ? [low, high] : [low, low + 1e-9];
   }
 
   // ---------------------------------------------------------------- states
@@ -67,16 +74,18 @@ class Explorer {
   lookAgain() {
     this.searcher.restart();
     this.tracing = (this.tracing ?? 0) + 1;
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
-    this.controls.noteBranches("");
+    this.forgetLines();
     assignHues(this.orbits, this.section.section, HUES);
     this.chooseMotion();
     this.look();
     this.search();
     this.run();
     this.saveSoon();
+  }
+
+  forgetLines() {
+    Object.assign(this, { branchLines: [], jumpLines: [], jumpLength: null });
+    this.controls?.noteBranches("");
   }
 
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
@@ -87,10 +96,8 @@ class Explorer {
     this.round += 1; // what is asked for will not come
     this.searcher.restart();
     this.periodic.clear();
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
-    this.controls.noteBranches("");
+    this.found.clear();
+    this.forgetLines();
     for (const orbit of this.orbits) {
       orbit.clear();
       this.open(orbit);
@@ -182,6 +189,22 @@ class Explorer {
     this.run();
   }
 
+  /** Follow the chosen orbit on until this is called again; the address has its impacts so far. */
+  runOn() {
+    const running = this.orbits.filter((orbit) => orbit.endless);
+    for (const orbit of running) Object.assign(orbit, { endless: false, impacts: orbit.count });
+    const orbit = this.orbits[this.state.chosen];
+    if (!running.length) {
+      const most = COUNT.format(MOST_IMPACTS);
+      this.controls.hint(orbit ? `The orbit goes on until it is stopped, at most to ${most} impacts.` : "Choose an orbit first.");
+      if (!orbit || orbit.refused || orbit.count >= MOST_IMPACTS) return;
+      this.mark();
+      orbit.endless = true;
+    }
+    this.changedOrbits();
+    this.run();
+  }
+
   /** Have the worker follow all orbits that are not complete, while the page draws what it has. */
   async run() {
     if (this.running === this.round) return;
@@ -205,7 +228,7 @@ class Explorer {
     const waiting = this.orbits.filter((orbit) => !orbit.done);
     if (!waiting.length) return null;
     const orbits = waiting.map((orbit) => {
-      const most = Math.min(Math.round(orbit.pace), orbit.impacts - orbit.count);
+      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_IMPACTS : orbit.impacts) - orbit.count);
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
@@ -216,14 +239,23 @@ class Explorer {
   append(pieces) {
     const plots = [];
     let recoloured = false;
+    const ranges = ["rotation", "exponent"].includes(this.state.colour); // which change with each orbit
+    const look = (orbit) =>
+      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict, ranges && Math.floor(Math.log2(orbit.count + 1))]);
     for (const piece of pieces) {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
-      const before = String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
+      const before = look(orbit);
       plots.push([orbit, orbit.count]);
       orbit.append(piece, this.state.k);
       if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
-      recoloured ||= before !== String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
+      recoloured ||= before !== look(orbit);
+      if (orbit.count > orbit.impacts) {
+        orbit.impacts = orbit.count;
+        orbit.endless &&= orbit.count < MOST_IMPACTS;
+        this.state.orbits[this.orbits.indexOf(orbit)].impacts = orbit.count;
+        this.saveSoon();
+      }
     }
     if (recoloured) assignHues(this.orbits, this.section.section, HUES);
     return { plots, recoloured };
@@ -254,7 +286,10 @@ class Explorer {
     const specs = this.state.branches;
     const periods = new Set([...this.state.periods, ...specs.map((spec) => spec.period)]);
     if (this.state.motion) periods.add(this.state.motion.period);
+    periods.delete(0);
     try {
+      await this.searchNear();
+      if (generation !== this.generation) return;
       for (const period of [...periods].sort((a, b) => a - b)) {
         if (this.periodic.has(period)) continue;
         this.controls.notePeriodic(`Searching for orbits of period ${period} …`);
@@ -275,6 +310,47 @@ class Explorer {
     }
   }
 
+  /** Find the periodic orbits nearest to the places that the state has. */
+  async searchNear() {
+    const { generation } = this;
+    const { k, g, energy, near } = this.state;
+    for (const spec of near.filter((one) => !this.found.has(writeNear(one)))) {
+      this.controls.notePeriodic("Searching for the nearest periodic orbit …");
+      const orbit = await this.searcher.ask("near", { k, g, energy, ...spec });
+      if (generation !== this.generation) return;
+      this.found.set(writeNear(spec), orbit);
+      if (this.state.motion?.type === "near") this.chooseMotion();
+    }
+    if (near.length) this.section.drawLines();
+  }
+
+  /** Show the periodic orbit nearest to a place, of a period or (0) of any, with a saddle's branches. */
+  async findNear([p, q], period, length) {
+    this.mark();
+    const { state } = this;
+    const spec = { p, q, period };
+    const nth = state.near.push(spec) - 1;
+    this.searcher.restart(); // which may still trace branches
+    this.saveSoon();
+    await this.searchNear();
+    const orbit = this.found.get(writeNear(spec));
+    if (this.state !== state || orbit === undefined) return;
+    const one = { period: 0, type: "near", nth };
+    if (!orbit) state.near = state.near.filter((other) => other !== spec);
+    else Object.assign(state, { motion: one, time: 0, chosen: -1, preset: "" });
+    if (orbit && orbit.type !== "elliptic") {
+      state.branches = [{ ...one, saddle: 0, kind: "both", side: "both", length }];
+      this.branchLines = [];
+    }
+    this.chooseMotion();
+    this.controls.refresh();
+    const residue = orbit && shortNumber(0.25 * (2 - orbit.trace), 5);
+    const none = `No periodic orbit of period ${period || `up to ${MOST_PERIOD}`} was found near that point.`;
+    this.controls.hint(orbit ? `The nearest orbit has period ${orbit.period}: ${orbit.type}, residue ${residue}.` : none);
+    this.search();
+    this.saveSoon();
+  }
+
   async traceBranches(generation) {
     const { k, g, energy, view } = this.state;
     const specs = this.state.branches;
@@ -291,7 +367,7 @@ class Explorer {
         this.controls.noteBranches(`There is no ${spec.type} orbit of period ${spec.period} here.`);
         continue;
       }
-      const saddles = spec.saddle < 0 ? orbit.points.keys() : [spec.saddle % spec.period];
+      const saddles = spec.saddle < 0 ? orbit.points.keys() : [spec.saddle % orbit.period];
       const sides = spec.side === "both" ? ["inner", "outer"] : [spec.side];
       const kinds = spec.kind === "both" ? [true, false] : [spec.kind === "stable"];
       for (const saddle of saddles) {
@@ -318,6 +394,7 @@ class Explorer {
   }
 
   periodicOrbit({ period, type, nth }) {
+    if (type === "near") return this.found.get(writeNear(this.state.near[nth] ?? {}));
     return (this.periodic.get(period) ?? []).filter((orbit) => orbit.type === type)[nth];
   }
 
@@ -343,8 +420,7 @@ class Explorer {
   setJump(on) {
     this.mark();
     this.state.jump = on;
-    this.jumpLines = [];
-    this.jumpLength = null;
+    Object.assign(this, { jumpLines: [], jumpLength: null });
     this.controls.noteJump();
     this.section.drawLines();
     this.search();
@@ -396,8 +472,8 @@ class Explorer {
     this.drawChartSoon();
   }
 
-  showPeriodic(period, type, nth) {
-    Object.assign(this.state, { motion: { period, type, nth }, time: 0, chosen: -1 });
+  showPeriodic(one) {
+    Object.assign(this.state, { motion: one, time: 0, chosen: -1 });
     this.chooseMotion();
     this.saveSoon();
   }

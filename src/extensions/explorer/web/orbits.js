@@ -32,13 +32,14 @@ class Orbit {
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
     this.refused = ""; // why it stops before its end
+    this.endless = false; // whether it goes on until it is stopped
     this.hue = null; // one of the style sheet's, if it is regular
     this.history = []; // [impacts, exponent so far]
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
 
   get done() {
-    return !this.start || this.refused !== "" || this.count >= this.impacts;
+    return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts);
   }
 
   /** Add impacts that the worker has computed; those of a backward orbit are mirrored. */
@@ -80,8 +81,14 @@ class Orbit {
   }
 
   colour(colours) {
+    const by = this.page.state.colour;
+    if (by === "rotation" || by === "exponent") {
+      const [low, high] = this.page.range();
+      const value = this.facts?.[by] ?? NaN;
+      return Number.isFinite(value) ? mixed(colours.ramp, (value - low) / (high - low)) : colours.sea;
+    }
     if (this.chosen && this.isSea()) return colours.ink;
-    if (this.page.state.colour === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
+    if (by === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }

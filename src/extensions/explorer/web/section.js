@@ -24,6 +24,7 @@ class SectionView {
     [this.ground, this.points, this.lines, this.cursors] = svg ? [svg, svg, svg, svg] : pens;
     this.cross = null; // the keyboard's pointer on the screen
     this.fan = null; // [p, p] of the fan that is being drawn
+    this.corners = null; // of the box that is being drawn, on the screen
     this.resize();
   }
 
@@ -195,6 +196,7 @@ class SectionView {
     ground.font = `13px ${colours.font}`;
     if (this.kind === "disk") this.drawDisk();
     else this.drawHalfEllipsoid();
+    this.drawScale();
     if (!this.framed) {
       this.drawBox();
       return;
@@ -207,6 +209,22 @@ class SectionView {
     const disk = this.kind === "disk";
     this.drawAxis(0, "x", wide, disk ? origin[0] : centre + origin[0], radius / scale);
     this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall, origin[1], (disk ? this.sectionHeight : radius) / scale);
+  }
+
+  /** Draw which colours mean which rotation numbers or exponents. */
+  drawScale() {
+    const { ground, colours } = this;
+    const { state, range } = this.read();
+    if (!range || !Number.isFinite(range[0])) return;
+    const [left, top] = [this.width - this.frame.right - 176, this.frame.top + 8];
+    const name = { rotation: "rotation number", exponent: "exponent so far" }[state.colour];
+    for (let i = 0; i < 80; i++) {
+      ground.fillStyle = mixed(colours.ramp, i / 79);
+      ground.fillRect(left + 2 * i, top + 18, 2.5, 9);
+    }
+    write(ground, name, left + 160, top, colours.ink, "right");
+    write(ground, shortNumber(range[0], 3), left, top + 30, colours.muted);
+    write(ground, shortNumber(range[1], 3), left + 160, top + 30, colours.muted, "right");
   }
 
   drawDisk() {
@@ -491,6 +509,11 @@ class SectionView {
       const [x, xdot, udot] = [0, 1, 2].map((i) => states.map((state) => state[i]));
       this.stroke(cursors, { x, xdot, udot }, colours.focus, 4);
     }
+    if (this.corners) {
+      const [[a, b], [c, d]] = this.corners;
+      cursors.strokeStyle = colours.focus;
+      cursors.strokeRect(Math.min(a, c), Math.min(b, d), Math.abs(c - a), Math.abs(d - b));
+    }
     if (this.cross) {
       const [left, top] = this.cross;
       for (const [colour, width] of [[colours.page, 4], [colours.focus, 1.5]]) {
@@ -541,8 +564,21 @@ function readColours() {
   const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
   [colours.regular, colours.chaotic] = colours.hues;
+  colours.ramp = style.getPropertyValue("--ramp").trim().split(" ");
   colours.font = getComputedStyle(document.body).fontFamily;
   return colours;
+}
+
+/** A colour at a share, from 0 to 1, of the way along colours #rrggbb in equal steps. */
+function mixed(stops, share) {
+  const at = Math.min(1, Math.max(0, share)) * (stops.length - 1);
+  const index = Math.min(stops.length - 2, Math.floor(at));
+  const part = (stop, i) => parseInt(stop.slice(i, i + 2), 16);
+  const bytes = [1, 3, 5].map((i) => {
+    const [low, high] = [part(stops[index], i), part(stops[index + 1], i)];
+    return Math.round(low + (at - index) * (high - low)).toString(16).padStart(2, "0");
+  });
+  return `#${bytes.join("")}`;
 }
 
 /** A colour #rrggbb as a pixel of a canvas (little endian, as all browsers' machines are). */

@@ -7,7 +7,8 @@
  * on the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
  */
 const MOST_ORBITS = 64;
-const MOST_IMPACTS = 1000000; // of an orbit
+const MOST_IMPACTS = 10000000; // of an orbit, in 320 MB
+const COLOURS = ["orbit", "verdict", "rotation", "exponent"];
 const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
@@ -20,6 +21,7 @@ function freshState() {
     orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
+    near: [], // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
     periods: [], // periods of the periodic orbits on the section
     branches: [], // {period, type, nth, saddle (-1: all), kind, side, length}
     jump: false,
@@ -94,6 +96,7 @@ function writeAddress(state) {
     ["chosen", state.chosen],
     ["motion", state.motion ? writeMotion(state.motion) : ""],
     ["periods", state.periods.join(",")],
+    ["near", state.near.map(writeNear).join(";")],
     ["branches", state.branches.map(writeBranch).join(";")],
     ["jump", state.jump ? 1 : ""],
     ["chart", state.chart],
@@ -111,7 +114,11 @@ function writeOrbit({ p, q, xy, impacts, back, sea }) {
   return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
 }
 
-const KIND_LETTERS = { elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
+function writeNear({ p, q, period }) {
+  return `${p}:${q}*${period}`;
+}
+
+const KIND_LETTERS = { near: "n", elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
 const LETTER_KINDS = Object.fromEntries(Object.entries(KIND_LETTERS).map(([a, b]) => [b, a]));
 
 function writeMotion({ period, type, nth }) {
@@ -136,8 +143,8 @@ function readAddress(text) {
   };
   const whole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
   const motion = (name, value) => {
-    const match = /^(\d+)([ehi])(\d+)$/.exec(value);
-    if (!match || !whole(1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
+    const match = /^(\d+)([ehi])(\d+)$|^(0)(n)(\d+)$/.exec(value)?.filter((part) => part !== undefined);
+    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
     return { period: Number(match[1]), type: LETTER_KINDS[match[2]], nth: Number(match[3]) };
   };
   const one = (name, value, words) => {
@@ -156,13 +163,13 @@ function readAddress(text) {
       if (!(half > 0)) fail("view", value, "a size above 0");
       state.view = { kind, azimuth, elevation, x, y, half };
     },
-    colour: (value) => (state.colour = one("colour", value, ["orbit", "verdict"])),
+    colour: (value) => (state.colour = one("colour", value, COLOURS)),
     orbits(value) {
       state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
         const match = /^(@?)([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
         if (!match) fail("orbits", part, "a start like 0.5*3000, 0.1:0.2*3000 or @x:y*3000 is needed");
         const at = [number("a start", match[2]), match[3] ? number("a start", match[3]) : 0];
-        const impacts = number("impacts", match[4], "1 to 1000000", whole(1, MOST_IMPACTS));
+        const impacts = number("impacts", match[4], `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
         return { part, at, typed: match[1] !== "", impacts, back: match[5] !== "", sea: match[6] !== "" };
       });
     },
@@ -172,12 +179,19 @@ function readAddress(text) {
       const read = (part) => number("periods", part, "1 to 12", whole(1, 12));
       state.periods = [...new Set(value.split(",").map(read))];
     },
+    near(value) {
+      state.near = value.split(";").map((part) => {
+        const [p, q, period] = part.split(/[:*]/).map((text) => number("near", text));
+        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period))) fail("near", part, "a place and a period, like 0.1:0.2*6");
+        return { p, q, period };
+      });
+    },
     branches(value) {
       state.branches = value.split(";").map((part) => {
         const [orbit, saddle, kind, side, length] = part.split(",");
         return {
           ...motion("branches", orbit ?? ""),
-          saddle: number("branches", saddle ?? "", "a saddle's index", whole(-1, 11)),
+          saddle: number("branches", saddle ?? "", "a saddle's index", whole(-1, MOST_PERIOD - 1)),
           kind: one("branches", kind ?? "", ["stable", "unstable", "both"]),
           side: one("branches", side ?? "", ["outer", "inner", "both"]),
           length: number("branches", length ?? "", "a length up to 20", (v) => v > 0 && v <= 20),
@@ -191,7 +205,7 @@ function readAddress(text) {
     next(value) {
       state.back = value.endsWith("<");
       const count = value.replace("<", "");
-      state.impacts = number("next", count, "1 to 1000000", whole(1, MOST_IMPACTS));
+      state.impacts = number("next", count, `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
     },
     preset: (value) => (state.preset = value),
   };

@@ -51,6 +51,10 @@ const jobs = {
     return analysis.periodicOrbits(k, g, energy, period);
   },
 
+  near({ k, g, energy, p, q, period }) {
+    return analysis.nearestOrbit(k, g, energy, p, q, period);
+  },
+
   branch({ k, g, energy, points, spec }) {
     return analysis.traceBranch(k, g, energy, points, spec);
   },
