@@ -85,7 +85,8 @@ def newton(x, y, k, g, energy, period, steps):
     """Return the point that Newton steps towards P^n z = z reach, and x and y of the last step."""
     across = up = 0.0
     for _ in range(steps):
-        p, q, a, b, c, d = advanced(*formulas.chart_state(k, g, energy, x, y), k, g, period)
+        _, v, w = formulas.chart_state(k, g, energy, x, y)
+        p, q, a, b, c, d = advanced(x, v, w, k, g, period)
         p, q, a, d = p - x, q - y, 1.0 - a, 1.0 - d
         determinant = a * d - b * c
         across, up = (d * p + b * q) / determinant, (c * p + a * q) / determinant

@@ -439,10 +439,6 @@ class Controls {
     for (const id of kept.open) element(id).open = true;
   }
 
-  showUndo() {
-    element("undo").disabled = this.page.at === 0;
-  }
-
   startTyped() {
     const { k, g, energy } = this.state;
     const [x, y] = ["start-x", "start-y"].map((id) => readNumber(element(id).value));
@@ -849,10 +845,6 @@ class Controls {
 
   // ---------------------------------------------------------------- time
 
-  speed() {
-    return Number(element("speed").value);
-  }
-
   showPlaying() {
     element("play").textContent = this.page.playing ? "Pause" : "Play";
   }
@@ -913,20 +905,12 @@ class Controls {
       this.words();
       page.branchLines = [];
       page.searcher.restart();
-      this.noteBranches("");
+      setText("branch-note", "");
       page.section.drawLines();
       this.sceneKinds();
       page.saveSoon();
     });
     on("jump", "change", () => page.setJump(element("jump").checked));
-  }
-
-  notePeriodic(text) {
-    setText("periodic-note", text);
-  }
-
-  noteBranches(text) {
-    setText("branch-note", text);
   }
 
   noteJump() {
@@ -963,8 +947,8 @@ class Controls {
       }
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
-      this.notePeriodic(`${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
-    } else if (!this.state.periods.length) this.notePeriodic("");
+      setText("periodic-note", `${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
+    } else if (!this.state.periods.length) setText("periodic-note", "");
     const select = element("saddle");
     const chosen = select.value;
     this.saddles = saddles;

@@ -85,7 +85,7 @@ class Explorer {
 
   forgetLines() {
     Object.assign(this, { branchLines: [], jumpLines: [], jumpLength: null });
-    this.controls?.noteBranches("");
+    setText("branch-note", "");
   }
 
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
@@ -292,7 +292,7 @@ class Explorer {
       if (generation !== this.generation) return;
       for (const period of [...periods].sort((a, b) => a - b)) {
         if (this.periodic.has(period)) continue;
-        this.controls.notePeriodic(`Searching for orbits of period ${period} …`);
+        setText("periodic-note", `Searching for orbits of period ${period} …`);
         const found = await this.searcher.ask("periodic", { k, g, energy, period });
         if (generation !== this.generation) return;
         this.periodic.set(period, found);
@@ -306,7 +306,7 @@ class Explorer {
         if (generation === this.generation && this.state.jump) this.showJump(curve);
       }
     } catch (error) {
-      if (generation === this.generation) this.controls.noteBranches(error.message);
+      if (generation === this.generation) setText("branch-note", error.message);
     }
   }
 
@@ -315,7 +315,7 @@ class Explorer {
     const { generation } = this;
     const { k, g, energy, near } = this.state;
     for (const spec of near.filter((one) => !this.found.has(writeNear(one)))) {
-      this.controls.notePeriodic("Searching for the nearest periodic orbit …");
+      setText("periodic-note", "Searching for the nearest periodic orbit …");
       const orbit = await this.searcher.ask("near", { k, g, energy, ...spec });
       if (generation !== this.generation) return;
       this.found.set(writeNear(spec), orbit);
@@ -364,7 +364,7 @@ class Explorer {
     for (const spec of specs) {
       const orbit = this.periodicOrbit(spec);
       if (!orbit || orbit.type === "elliptic") {
-        this.controls.noteBranches(`There is no ${spec.type} orbit of period ${spec.period} here.`);
+        setText("branch-note", `There is no ${spec.type} orbit of period ${spec.period} here.`);
         continue;
       }
       const saddles = spec.saddle < 0 ? orbit.points.keys() : [spec.saddle % orbit.period];
@@ -374,7 +374,7 @@ class Explorer {
         for (const side of sides) {
           for (const stable of kinds) {
             const details = { saddle, side, stable, length: spec.length, window: this.window };
-            this.controls.noteBranches(`Tracing branches: ${lines.length} done …`);
+            setText("branch-note", `Tracing branches: ${lines.length} done …`);
             const line = await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
             if (generation !== this.generation || round !== this.tracing) return;
             if (line.ended !== null) ended.push(line.ended);
@@ -390,7 +390,7 @@ class Explorer {
     if (!lines.length) return;
     const points = lines.reduce((sum, { line }) => sum + line.x.length, 0);
     const early = ended.length ? ` Rounding errors end ${ended.length} of them early.` : "";
-    this.controls.noteBranches(`${lines.length} branches of ${COUNT.format(points)} points.${early}`);
+    setText("branch-note", `${lines.length} branches of ${COUNT.format(points)} points.${early}`);
   }
 
   periodicOrbit({ period, type, nth }) {
@@ -500,7 +500,7 @@ class Explorer {
       const seconds = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
       before = now;
       const end = this.motion?.ends[1] ?? 0;
-      const next = this.state.time + seconds * this.controls.speed();
+      const next = this.state.time + seconds * Number(element("speed").value);
       const running = this.orbits[this.state.chosen] && !this.orbits[this.state.chosen].done;
       this.setTime(next);
       if (next > end && !running) this.pause();
@@ -568,7 +568,7 @@ class Explorer {
     this.saved = address;
     const entry = { at: this.at, ...this.controls.kept() };
     window.history[further ? "pushState" : "replaceState"](entry, "", address);
-    this.controls.showUndo();
+    element("undo").disabled = this.at === 0;
   }
 
   undo() {

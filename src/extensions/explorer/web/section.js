@@ -305,6 +305,11 @@ class SectionView {
     const low = -radius * Math.sqrt(k / (1 + k));
     const ranges = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
     const middle = this.flat(...ranges.map(([a, b]) => 0.5 * (a + b)));
+    const put = (text, [left, top], colour) => {
+      const half = 3 + 3.6 * text.length;
+      if (Math.abs(left - 0.5 * this.width) > 0.5 * this.width + 30) return; // out of sight
+      write(ground, text, Math.min(this.width - half, Math.max(half, left)), top, colour, "center", "middle");
+    };
     ["x", "ẋ⁻", "u̇⁻"].forEach((name, axis) => {
       const others = [0, 1, 2].filter((i) => i !== axis);
       const at = (value, corner) => {
@@ -326,14 +331,15 @@ class SectionView {
       if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
       strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
       const shift = axis ? 0 : this.centre;
-      const { offsets, labels } = ticksAround(half + shift, to - from, length / 40);
+      const { offsets, labels } = ticksAround(half + shift, to - from, length / 32);
       const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
       offsets.forEach((offset, i) => {
         const tick = at(half + offset, edge);
         strokePath(ground, colours.muted, 1, () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
-        write(ground, labels[i], ...beside(tick, 19), colours.muted, "center", "middle");
+        put(labels[i], beside(tick, 13 + 3.6 * labels[i].length * Math.abs(out[0])), colours.muted);
       });
-      write(ground, name, ...beside([left, top], 40), colours.ink, "center", "middle");
+      const above = [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16];
+      put(name, axis === 2 ? above : beside([left, top], 38), colours.ink);
     });
     ground.lineWidth = 1;
   }
