@@ -8,15 +8,17 @@ Object.assign(PRESETS, {
   exponents: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
 });
 
-/** The window of a close-up in (x, xdot), in the disk; the whole disk where a scene has no limits. */
+/** The window of a close-up in the plane (x, xdot), which is the half ellipsoid seen from above. */
 function closeUp(scene) {
   const { axes, ball } = scene;
   const lines = saddle({ ...scene, branches: { outer: scene, inner: scene } });
-  if (!axes) return { view: disk(), ...lines };
+  const whole = { ...HOME_VIEW, ...ABOVE };
+  if (!axes) return { view: whole, ...lines };
   const [x, xdot] = [axes.x, axes.xdot].map(({ limits }) => 0.5 * (limits[0] + limits[1]));
-  const { radius } = geometry.section(ball.k, ball.g, scene.energy);
+  const { centre, radius } = geometry.section(ball.k, ball.g, scene.energy);
   const half = (0.55 * (axes.x.limits[1] - axes.x.limits[0])) / radius;
-  return { view: disk(...placeOf({ x, xdot }, scene), half), ...lines };
+  const pivot = (0.2 * ball.k) / Math.sqrt(1 + ball.k);
+  return { view: { ...whole, x: (x - centre) / radius, y: xdot / radius - pivot, half }, ...lines };
 }
 
 function surface(scene) {

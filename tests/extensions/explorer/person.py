@@ -60,9 +60,18 @@ class Visitor:
         self.settle()
 
     def settle(self):
-        """Wait until all orbits are complete."""
-        counts = "return facts().map(t => t.split(' ')[0].replaceAll(',', ''))"
-        wait_for(lambda: re.findall(r"\*(\d+)", self.state().get("orbits", "")) == self.run(counts))
+        """Wait until all orbits are complete, or have stopped early."""
+        counts = "return facts().map((t, i) => [t.split(' ')[0].replaceAll(',', ''), titles()[i]])"
+
+        def complete():
+            wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
+            rows = self.run(counts)
+            return len(wanted) == len(rows) and all(
+                count == most or " stops: " in title
+                for most, (count, title) in zip(wanted, rows, strict=True)
+            )
+
+        wait_for(complete)
 
     def state(self):
         """Fields of the address, which follows the state after 0.4 s."""

@@ -9,7 +9,7 @@ from numba.extending import register_jitable
 
 from pseudorigid.kernel import arithmetic, formulas, impact, lanes, spectrum
 
-for _formula in (formulas.radius_squared, formulas.contact_speed_squared):
+for _formula in (formulas.radius_squared, formulas.contact_speed_squared, formulas.chart_state):
     register_jitable(_formula)  # the states on the section call them
 
 
@@ -59,8 +59,9 @@ def follow(orbit, k, g, impacts, rows):
     orbit[0] = ((x, v, w), (dx, dv, dw), *frame, (tau, grown, first))
 
 
-def chart_tangent(x, v, w, k, g, impacts):
-    """Return the derivative of the iterated map in the chart (x, y), row by row."""
+@register_jitable
+def advanced(x, v, w, k, g, impacts):
+    """Return the point (x, y) after some impacts, and the derivative by the first one, by rows."""
     coefficients = impact.impact_coefficients(k)
     # Derivatives of s = v + w at fixed energy, and of the state, by x and by y.
     s, y = v + w, v - k * w
@@ -72,7 +73,25 @@ def chart_tangent(x, v, w, k, g, impacts):
         (x, v, w), flight = after[:3], after[4:9]
         a = impact.tangent(*a, k, g, coefficients, x, w, *flight)
         b = impact.tangent(*b, k, g, coefficients, x, w, *flight)
-    return a[0], b[0], a[1] - k * a[2], b[1] - k * b[2]
+    return x, v - k * w, a[0], b[0], a[1] - k * a[2], b[1] - k * b[2]
+
+
+def chart_tangent(x, v, w, k, g, impacts):
+    """Return the derivative of the iterated map in the chart (x, y), row by row."""
+    return advanced(x, v, w, k, g, impacts)[2:]
+
+
+def newton(x, y, k, g, energy, period, steps):
+    """Return the point that Newton steps towards P^n z = z reach, and x and y of the last step."""
+    across = up = 0.0
+    for _ in range(steps):
+        _, v, w = formulas.chart_state(k, g, energy, x, y)
+        p, q, a, b, c, d = advanced(x, v, w, k, g, period)
+        p, q, a, d = p - x, q - y, 1.0 - a, 1.0 - d
+        determinant = a * d - b * c
+        across, up = (d * p + b * q) / determinant, (c * p + a * q) / determinant
+        x, y = x + across, y + up
+    return x, y, across, up
 
 
 def elementary(a):
@@ -87,6 +106,7 @@ ENTRY_POINTS = {
     history_in_lanes: "CPointer(f8), CPointer(i8), i4, f8, f8, i4",
     follow: "CPointer(UniTuple(UniTuple(f8, 3), 8)), f8, f8, i4, CPointer(f8)",
     chart_tangent: "f8, f8, f8, f8, f8, i4",
+    newton: "f8, f8, f8, f8, f8, i4, i4",
     impact.impact_coefficients: "f8,",
     impact.rebound: "f8, f8, f8, UniTuple(f8, 2)",
     impact.reflect: "f8, f8, f8, f8, UniTuple(f8, 2)",

@@ -14,6 +14,7 @@ const analysis = (() => {
   const CLOSURE = 1e-14;
   const JUMP = 1e-6;
   const NEWTON_STEPS = 5;
+  const STARTS = 3600; // of Newton's method around a place, shared by the periods
   const POINTS_OF_IMAGE = 16;
   const MOST_IMAGES = 400;
   const WEAK = 1.5;
@@ -52,9 +53,18 @@ const analysis = (() => {
       return [x - this.centre, this.round * (v - this.k * w)];
     }
 
-    /** Follow the orbit over further impacts, and return their states and times of flight. */
+    /**
+     * Follow the orbit over further impacts, and return their states and times of flight. It stops
+     * for good before a flight that is not finite, and `refused` says why.
+     */
     advance(impacts) {
       const piece = this.orbit.advance(impacts);
+      const end = piece.tau.findIndex((tau, i) => !Number.isFinite(tau + piece.x[i] + piece.xdot[i] + piece.udot[i]));
+      if (end >= 0) {
+        for (const name in piece) piece[name] = piece[name].slice(0, end);
+        impacts = end;
+        this.refused = pseudorigid.TOO_LONG;
+      }
       const total = this.impacts + impacts;
       if (total > this.turns.length) {
         this.turns = grown(this.turns, total);
@@ -81,7 +91,8 @@ const analysis = (() => {
       const n = this.impacts;
       const growth = growthOf(this.sizes, n);
       let verdict = "";
-      if (n >= FIRST_VERDICT) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
+      if (n >= FIRST_VERDICT && !this.refused) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
+      if (verdict && Number.isNaN(growth)) verdict = "undefined"; // it grazes exactly, as in Python
       return {
         impacts: n,
         exponent: this.orbit.exponent(),
@@ -287,22 +298,12 @@ const analysis = (() => {
   function closest(k, g, energy, state, period) {
     let best = state;
     let least = Infinity;
-    for (let step = 0; step < NEWTON_STEPS; step++) {
-      const after = iterate(k, g, state, period);
-      const gap = Math.max(...after.map((value, i) => Math.abs(value - state[i])));
+    for (let step = 0; state && step < NEWTON_STEPS; step++) {
+      const gap = gapOf(k, g, state, period);
       if (!(gap < least)) break;
-      best = state;
-      least = gap;
-      const [a, b, c, d] = pseudorigid.tangent(k, g, ...state, period);
-      const y = state[1] - k * state[2];
-      const fx = after[0] - state[0];
-      const fy = after[1] - k * after[2] - y;
-      const determinant = (a - 1) * (d - 1) - b * c;
-      if (determinant === 0) break;
-      const dx = (b * fy - (d - 1) * fx) / determinant;
-      const dy = (c * fx - (a - 1) * fy) / determinant;
-      state = geometry.chartState(k, g, energy, state[0] + dx, y + dy);
-      if (!state) break;
+      [best, least] = [state, gap];
+      const [x, y] = pseudorigid.newton(k, g, energy, state[0], state[1] - k * state[2], period, 1);
+      state = geometry.chartState(k, g, energy, x, y);
     }
     const ulp = best.map((value) => 2 ** (Math.floor(Math.log2(Math.abs(value) || 1e-300)) - 52));
     let nearest = best;
@@ -314,6 +315,41 @@ const analysis = (() => {
       if (gap < least) [nearest, least] = [near, gap];
     }
     return [nearest, least];
+  }
+
+  /**
+   * The periodic orbit nearest to a place that Newton's method reaches from points around it, of a prime
+   * period, or with 0 of any; its first point is the nearest. Null if there is none.
+   */
+  function nearestOrbit(k, g, energy, p, q, wanted) {
+    const { radius, height } = geometry.section(k, g, energy);
+    const target = geometry.pointAt(k, g, energy, p, q);
+    const size = (x, y) => Math.sqrt((x / radius) ** 2 + (y / height) ** 2);
+    const periods = wanted ? [wanted] : Array.from({ length: MOST_PERIOD }, (_, i) => i + 1);
+    let found = null;
+    let least = Infinity;
+    const starts = STARTS / periods.length;
+    let [cosine, sine] = [1, 0];
+    for (let i = 0; i < starts; i++) {
+      const reach = 0.5 * (i / starts) ** 2; // along a spiral, whose bits are the same in all browsers
+      if (reach > 2 * least) break;
+      [cosine, sine] = [0.6 * sine - 0.8 * cosine, -0.8 * sine - 0.6 * cosine];
+      const from = [target.x + reach * radius * cosine, target.y + reach * height * sine];
+      for (const period of periods) {
+        const [x, y, across, up] = pseudorigid.newton(k, g, energy, ...from, period, 12);
+        const away = size(x - target.x, y - target.y);
+        if (!(size(across, up) < 1e-10 && away < least * (1 - 1e-6))) continue;
+        const state = geometry.chartState(k, g, energy, x, y);
+        const [point, gap] = state ? closest(k, g, energy, state, period) : [null, Infinity];
+        if (!(gap < JUMP * radius)) continue;
+        const divisors = Array.from({ length: period - 1 }, (_, n) => n + 1).filter((n) => period % n === 0);
+        if (divisors.some((n) => gapOf(k, g, point, n) < JUMP * radius)) continue;
+        [found, least] = [{ point, period }, away];
+      }
+    }
+    if (!found) return null;
+    const [a, , , d] = pseudorigid.tangent(k, g, ...found.point, found.period);
+    return described(k, g, found.point, found.period, a + d);
   }
 
   // ---------------------------------------------------------------- branches of a saddle
@@ -348,6 +384,10 @@ const analysis = (() => {
         this.multiplier *= this.multiplier;
       }
       this.weak = this.multiplier < WEAK;
+      // An image that is far longer than the one before is traced in parts, of which the first may do.
+      this.parts = this.multiplier > 1e3 ? 16 : 1;
+      this.ratio = this.multiplier;
+      for (let n = this.parts; n > 1; n /= 2) this.ratio = Math.sqrt(this.ratio);
       this.jumps = energy > geometry.firstJump(k, g);
       this.first = e.map((value) => (1e-6 * this.radius * value) / this.multiplier);
       this.images = MOST_IMAGES;
@@ -356,10 +396,12 @@ const analysis = (() => {
 
     at(u) {
       const image = Math.floor(u);
-      const sigma = 1 + (this.multiplier - 1) * (u - image);
+      const part = Math.floor((u - image) * this.parts);
+      let sigma = 1 + (this.ratio - 1) * ((u - image) * this.parts - part);
+      for (let n = 0; n < part; n++) sigma *= this.ratio;
       const [x, y] = this.origin.map((value, i) => value + sigma * this.first[i]);
       const state = pseudorigid.stateXY(this.k, this.g, this.energy, x, y);
-      return this.mirror(iterate(this.k, this.g, state, image * this.period));
+      return this.after(state, image * this.period);
     }
 
     /**
@@ -393,7 +435,13 @@ const analysis = (() => {
         state = geometry.chartState(k, this.g, this.energy, x, y);
         if (!state) return this.at(u);
       }
-      return this.mirror(iterate(k, this.g, state, this.period));
+      return this.after(state, this.period);
+    }
+
+    after(state, impacts) {
+      const after = iterate(this.k, this.g, state, impacts);
+      if (!after.every(Number.isFinite)) throw new Error(pseudorigid.TOO_LONG);
+      return this.mirror(after);
     }
 
     mirror(state) {
@@ -430,7 +478,14 @@ const analysis = (() => {
   function traceBranch(k, g, energy, points, spec) {
     const { stable, side, length, distance = 0.01, bend = 10, window } = spec;
     let { saddle } = spec;
-    if (stable) saddle = mirrored(k, points, saddle);
+    if (stable) {
+      // A stable branch is the mirror image of an unstable one, of this orbit or of its mirror image.
+      const image = pseudorigid.reverse(k, ...points[saddle].slice(0, 3));
+      const gaps = points.map((point) => Math.max(...image.map((value, i) => Math.abs(value - point[i]))));
+      const nearest = gaps.indexOf(Math.min(...gaps));
+      if (gaps[nearest] < JUMP * geometry.section(k, g, energy).radius) saddle = nearest;
+      else points = points.map((point) => pseudorigid.reverse(k, ...point.slice(0, 3)));
+    }
     const branch = new Branch(k, g, energy, points, saddle, side, stable);
     const rule = { distance, straight: Math.cos((bend * Math.PI) / 180), finest: () => 1 };
     if (window) rule.finest = magnification(k, g, energy, window);
@@ -438,7 +493,8 @@ const analysis = (() => {
     let travelled = 0;
     let ended = null;
     let steps = [];
-    for (let image = 0; travelled < length; image++) {
+    for (let part = 0; travelled < length; part++) {
+      const image = Math.floor(part / branch.parts);
       const recent = vertices.filter((vertex) => vertex.u >= image - 1).map((v) => v.state);
       if (image > branch.images || (branch.weak && !branch.accurate(image, recent))) {
         ended = travelled;
@@ -448,7 +504,7 @@ const analysis = (() => {
       const fixed = vertices.slice(0, Math.max(0, vertices.length - 3));
       let rest = vertices.slice(fixed.length);
       for (let i = 0; i < POINTS_OF_IMAGE; i++) {
-        const u = image + i / POINTS_OF_IMAGE;
+        const u = (part + i / POINTS_OF_IMAGE) / branch.parts;
         rest.push({ u, state: branch.next(u, vertices) });
       }
       for (;;) {
@@ -466,16 +522,6 @@ const analysis = (() => {
       for (const step of steps) travelled += step.jump ? 0 : step.length;
     }
     return { ...polyline(branch, vertices, steps, length), ended };
-  }
-
-  function mirrored(k, points, saddle) {
-    const chart = ([x, v, w]) => [x, v - k * w];
-    const [x, y] = chart(points[saddle]);
-    const distances = points.map((point) => {
-      const [a, b] = chart(point);
-      return Math.max(Math.abs(a - x), Math.abs(b + y));
-    });
-    return distances.indexOf(Math.min(...distances));
   }
 
   function isJump(low, high) {
@@ -609,5 +655,5 @@ const analysis = (() => {
     };
   }
 
-  return { Follower, periodicOrbits, traceBranch, jumpCurve };
+  return { Follower, periodicOrbits, nearestOrbit, traceBranch, jumpCurve };
 })();

@@ -139,11 +139,5 @@ class AtlasView {
 /** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */
 function shade(share) {
   if (Number.isNaN(share)) return "#808080";
-  const stops = [[0, 33, 16, 70], [0.25, 94, 40, 120], [0.5, 180, 70, 100], [0.75, 240, 140, 70], [1, 252, 240, 170]];
-  const at = Math.sqrt(share);
-  const index = Math.min(3, Math.floor(at * 4));
-  const [low, high] = [stops[index], stops[index + 1]];
-  const part = (at - low[0]) / (high[0] - low[0]);
-  const mixed = [1, 2, 3].map((i) => Math.round(low[i] + part * (high[i] - low[i])));
-  return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+  return mixed(["#211046", "#5e2878", "#b44664", "#f08c46", "#fcf0aa"], Math.sqrt(share));
 }

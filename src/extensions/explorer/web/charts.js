@@ -161,7 +161,8 @@ function drawExponents(canvas, orbits, cursor) {
   plot.axes("number of impacts", "largest exponent so far");
   const order = [...shown].sort((a, b) => b.isSea() - a.isSea());
   for (const orbit of order) {
-    plot.line(late(orbit).map(([impacts, exponent]) => [Math.log10(impacts), exponent]), orbit.colour(colours));
+    const line = late(orbit).map(([impacts, exponent]) => [Math.log10(impacts), exponent]);
+    plot.line(line, orbit.colour(colours), orbit.chosen ? 3 : 1.5);
   }
   if (cursor > 0 && shown.length) plot.vertical(Math.log10(cursor), colours.focus);
 }
@@ -184,5 +185,5 @@ function drawRotations(canvas, orbits) {
     frame: { left: 58, top: 24, right: 26, bottom: 36 },
   });
   plot.axes("start along y = 0, section radii", "rotation number");
-  shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(colours), 3.5));
+  shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(colours), orbit.chosen ? 6 : 3.5));
 }

@@ -32,6 +32,8 @@ class Controls {
     for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
     element("period").append(option("all", "1 to 12"));
     element("period").value = "6";
+    element("near-period").append(option(0, `any to ${MOST_PERIOD}`));
+    for (let period = 1; period <= MOST_PERIOD; period++) element("near-period").append(option(period, period));
     for (const field of document.querySelectorAll("input")) field.autocomplete = "off";
     const { version, citation } = this.page.data;
     element("version").textContent = version;
@@ -76,11 +78,11 @@ class Controls {
   /** Set all fields from the state. */
   refresh() {
     const { state } = this;
-    for (const [name, value] of [["k", state.k], ["g", state.g], ["E", state.energy]]) {
+    for (const [name, value] of Object.entries(this.ball)) {
       element(name).value = String(value);
+      this.validate(name);
     }
     this.slides();
-    this.validate();
     this.words();
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
       element("span").append(this.option(state.span, `${state.span} / ω`));
@@ -105,8 +107,7 @@ class Controls {
     const pressed = {
       "as-surface": state.view.kind === "surface",
       "as-disk": state.view.kind === "disk",
-      "by-orbit": state.colour === "orbit",
-      "by-verdict": state.colour === "verdict",
+      ...Object.fromEntries(COLOURS.map((colour) => [`by-${colour}`, state.colour === colour])),
       "chart-exponent": state.chart === "exponent",
       "chart-rotation": state.chart === "rotation",
     };
@@ -126,8 +127,9 @@ class Controls {
 
   /** Tell what has been found, and what to do next. */
   completed() {
+    this.sceneKinds();
     const mine = this.watched;
-    if (!mine?.facts?.verdict) return;
+    if (!["regular", "chaotic"].includes(mine?.facts?.verdict)) return;
     this.watched = null;
     this.seen[mine.facts.verdict] = true;
     const first =
@@ -168,10 +170,12 @@ class Controls {
   }
 
   updateFacts() {
+    element("run-on").textContent = this.page.orbits.some((orbit) => orbit.endless) ? "Stop" : "Run on";
     const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
-      const verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      let verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      if (orbit.refused) verdict = `stops: ${orbit.refused}`;
       name.textContent = `${index + 1}. ${verdict}${orbit.back ? ", backwards" : ""}`;
       const count = `${COUNT.format(orbit.count)} impacts`;
       const exponent = orbit.facts ? shortNumber(orbit.facts.exponent, 4) : "–";
@@ -202,66 +206,90 @@ class Controls {
 
   // ---------------------------------------------------------------- k, g and E
 
-  slides() {
+  get ball() {
     const { k, g, energy } = this.state;
-    const [low, high] = geometry.energyBounds(k, g);
-    element("k-slide").value = Math.sqrt(k);
-    element("g-slide").value = Math.sqrt(g / k);
-    element("E-slide").value = Math.sqrt((energy - low) / (high - low));
-    for (const [name, value] of [["k", k], ["g", g], ["E", energy]]) {
-      element(`${name}-slide`).setAttribute("aria-valuetext", String(value));
+    return { k, g, E: energy };
+  }
+
+  /** Set the sliders, whose ends are those of the range at the other two values. */
+  slides() {
+    const { ball } = this;
+    const { k, g, E } = ball;
+    const [low, high] = rangeOf("E", ball);
+    for (const name of ["k", "g", "E"]) {
+      const slide = element(`${name}-slide`);
+      const shares = [...rangeOf(name, ball), ball[name]].map((value) => this.share(name, value));
+      [slide.min, slide.max, slide.value] = shares;
+      slide.setAttribute("aria-valuetext", String(ball[name]));
     }
     const first = geometry.firstJump(k, g);
-    const share = Math.sqrt((first - low) / (high - low));
+    const share = this.share("E", first);
     element("mark").hidden = !(share < 1);
     element("mark").style.left = `calc(8px + ${share} * (100% - 16px) - 1px)`;
     const show = (value) => shortNumber(value, 4);
     element("bounds").textContent =
-      `E lies between ${show(low)} and ${show(high)}, eq. (31). Mark: E_g = g²(1 + k/2) = ${show(first)}, above which the map jumps. E/g² = ${show(energy / (g * g))}.`;
+      `E lies between ${show(low)} and ${show(high)}, eq. (31). Mark: E_g = g²(1 + k/2) = ${show(first)}, above which the map jumps. E/g² = ${show(E / (g * g))}.`;
   }
 
-  /** A slider's value with as many digits as it can mean. */
+  /** Where a value is on its slider, which resolves small ones more finely. */
+  share(name, value) {
+    const { k } = this.state;
+    const [low, high] = name === "E" ? rangeOf("E", this.ball) : [0, name === "g" ? k : 1];
+    return Math.sqrt((value - low) / (high - low));
+  }
+
+  /** A slider's value with as many digits as it can mean, inside the range. */
   slid(name) {
+    const { k } = this.state;
+    const [low, high] = rangeOf(name, this.ball);
     const share = Number(element(`${name}-slide`).value) ** 2;
-    if (name === "k") return Math.max(0.001, Number(share.toPrecision(3)));
-    const { k, g } = this.typed();
-    if (name === "g") return Number((k * Math.min(0.999, Math.max(1e-4, share))).toPrecision(3));
-    const [low, high] = geometry.energyBounds(k, g);
-    const step = 10 ** Math.floor(Math.log10((high - low) / 500));
-    const value = Math.round((low + share * (high - low)) / step) * step;
-    return Number(Math.min(high - step / 10, Math.max(low + step / 10, value)).toPrecision(6));
+    const value = name === "E" ? low + share * (high - low) : name === "g" ? share * k : share;
+    const room = (high - low) / 500;
+    const step = 10 ** Math.floor(Math.log10(room));
+    const inside = Math.min(high - room, Math.max(low + room, value));
+    return Number((Math.round(inside / step) * step).toPrecision(12));
   }
 
-  typed() {
-    return { k: readNumber(element("k").value), g: readNumber(element("g").value), E: readNumber(element("E").value) };
+  /** Say what is wrong with a field of the ball, and return whether nothing is. */
+  validate(name) {
+    const error = parameterError(name, element(name).value, this.ball);
+    complain(name, error, name);
+    return !error;
   }
 
-  /** Show what is wrong with the fields, and return whether nothing is. */
-  validate() {
-    const { k, g } = this.typed();
-    const errors = ["k", "g", "E"].map((name) => parameterError(name, element(name).value, { k, g }));
-    // Where k or g is wrong, bounds that depend on them cannot be told.
-    if (errors[0]) errors[1] = errors[2] = "";
-    if (errors[1]) errors[2] = "";
-    ["k", "g", "E"].forEach((name, i) => complain(name, errors[i], name));
-    return errors.every((error) => !error);
-  }
-
-  /** Take over k, g and E soon if they are allowed. */
-  applyBall(delay = 30) {
+  /** Take over a field's value soon if it is allowed. */
+  applyBall(name, delay = 30) {
     clearTimeout(this.ballWaits);
-    if (this.validate()) this.ballWaits = setTimeout(() => this.takeBall(), delay);
+    if (this.validate(name)) this.ballWaits = setTimeout(() => this.takeField(name), delay);
+  }
+
+  takeField(name) {
+    this.takeBall({ ...this.ball, [name]: readNumber(element(name).value) });
+  }
+
+  /** A field is left: take over its value, or return to the present one and say why. */
+  leave(name) {
+    if (this.validate(name)) this.takeField(name);
+    else this.keep(name, this.ball[name]);
+    this.editing = false;
+  }
+
+  /** Let a field show the value that stays, after a refusal. */
+  keep(name, value) {
+    element(name).value = String(value);
+    element(name).setAttribute("aria-invalid", "false");
+    setText(`${name}-error`, `${element(`${name}-error`).textContent}. It stays ${value}.`);
   }
 
   /** Take over k, g and E; the starts keep their places. What one drag does is undone at once. */
-  takeBall() {
+  takeBall({ k, g, E }) {
     clearTimeout(this.ballWaits);
     const { page, state } = this;
-    const { k, g, E } = this.typed();
-    if (!this.validate() || (k === state.k && g === state.g && E === state.energy)) return;
+    if (k === state.k && g === state.g && E === state.energy) return;
     if (!this.editing) page.mark();
     this.editing = true;
     Object.assign(state, { k, g, energy: E });
+    for (const name of ["k", "g", "E"]) complain(name, "", name);
     for (const orbit of page.orbits) orbit.xy = null;
     this.slides();
     this.atlas.draw();
@@ -285,18 +313,8 @@ class Controls {
     on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
     on("as-surface", "click", () => this.shape("surface"));
     on("as-disk", "click", () => this.shape("disk"));
-    for (const colour of ["orbit", "verdict"]) {
-      on(`by-${colour}`, "click", () => {
-        this.state.colour = colour;
-        this.changed();
-      });
-    }
-    for (const chart of ["exponent", "rotation"]) {
-      on(`chart-${chart}`, "click", () => {
-        this.state.chart = chart;
-        this.changed();
-      });
-    }
+    for (const colour of COLOURS) on(`by-${colour}`, "click", () => this.changed({ colour }));
+    for (const chart of ["exponent", "rotation"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
     on("home", "click", () => this.whole());
     on("closer", "click", () => this.zoom(0.6));
     on("further", "click", () => this.zoom(1 / 0.6));
@@ -304,17 +322,12 @@ class Controls {
       on(id, "click", () => this.nudge(across, up));
     }
     for (const name of ["k", "g", "E"]) {
-      on(name, "input", () => this.applyBall(250)); // more digits may follow
+      on(name, "input", () => this.applyBall(name, 250)); // more digits may follow
       on(`${name}-slide`, "input", () => {
         element(name).value = String(this.slid(name));
-        this.applyBall();
+        this.applyBall(name);
       });
-      for (const id of [name, `${name}-slide`]) {
-        on(id, "change", () => {
-          this.takeBall();
-          this.editing = false;
-        });
-      }
+      for (const id of [name, `${name}-slide`]) on(id, "change", () => this.leave(name));
     }
     on("undo", "click", () => page.undo());
     document.addEventListener("keydown", (event) => {
@@ -333,19 +346,26 @@ class Controls {
       const turns = this.box.classList.toggle("turns");
       element("finger").setAttribute("aria-pressed", turns);
     });
+    on("box", "click", () => this.toggle("box", !this.box.classList.contains("box")));
+    on("pick", "click", () => this.toggle("pick", !this.box.classList.contains("pick")));
+    on("run-on", "click", () => page.runOn());
     on("clear", "click", () => {
       page.clear();
       this.hint("Start an orbit anywhere on the section.");
     });
-    on("impacts", "input", () => {
-      const value = readNumber(element("impacts").value);
-      const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
-      const most = COUNT.format(MOST_IMPACTS);
-      const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
-      complain("impacts", allowed ? "" : error, "impacts");
-      if (allowed) this.state.impacts = value;
-      page.saveSoon();
-    });
+    for (const type of ["input", "change"]) {
+      on("impacts", type, () => {
+        const value = readCount(element("impacts").value);
+        const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
+        const most = COUNT.format(MOST_IMPACTS);
+        const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
+        complain("impacts", allowed ? "" : error, "impacts");
+        if (type === "input") return;
+        if (allowed) this.state.impacts = value;
+        else this.keep("impacts", this.state.impacts);
+        page.saveSoon();
+      });
+    }
     on("back", "change", () => {
       this.state.back = element("back").checked;
       page.saveSoon();
@@ -379,8 +399,17 @@ class Controls {
     element("atlas-panel").addEventListener("toggle", () => this.atlas.draw());
   }
 
+  /** Say whether the next drag draws a box, or the next click looks for a periodic orbit. */
+  toggle(name, on) {
+    this.box.classList.toggle(name, on);
+    element(name).setAttribute("aria-pressed", on);
+    if (on && name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
+    else if (on) this.hint("Drag a box on the section: it fills the view then.");
+  }
+
   /** Draw after a change of how things are shown. */
-  changed() {
+  changed(choice = {}) {
+    Object.assign(this.state, choice);
     this.press();
     this.page.look();
     this.updateFacts();
@@ -410,10 +439,6 @@ class Controls {
     for (const id of kept.open) element(id).open = true;
   }
 
-  showUndo() {
-    element("undo").disabled = this.page.at === 0;
-  }
-
   startTyped() {
     const { k, g, energy } = this.state;
     const [x, y] = ["start-x", "start-y"].map((id) => readNumber(element(id).value));
@@ -430,7 +455,8 @@ class Controls {
   }
 
   fanTyped() {
-    const [from, to, count] = ["fan-from", "fan-to", "fan-count"].map((id) => readNumber(element(id).value));
+    const [from, to] = ["fan-from", "fan-to"].map((id) => readNumber(element(id).value));
+    const count = readCount(element("fan-count").value);
     let error = "";
     if (!(Math.abs(from) < 1 && Math.abs(to) < 1)) error = "the ends of a fan lie between −1 and 1";
     else if (!(Number.isInteger(count) && count >= 2 && count <= MOST_ORBITS)) {
@@ -457,11 +483,12 @@ class Controls {
 
   shape(kind) {
     const { view } = this.state;
-    if (view.kind === kind) return;
     const { section } = this.page;
+    if (view.kind === kind && (kind === "disk" || !section.framed)) return;
     const place = section.place(...section.middle);
-    const magnified = view.half < 0.9;
+    const magnified = view.half < HOME[view.kind][2] - 0.1;
     view.kind = kind;
+    if (section.framed) Object.assign(view, { azimuth: HOME_VIEW.azimuth, elevation: HOME_VIEW.elevation });
     if (!magnified || !place) [view.x, view.y, view.half] = HOME[kind];
     else if (kind === "disk") [view.x, view.y] = place;
     else {
@@ -498,6 +525,22 @@ class Controls {
     this.moved();
   }
 
+  /** Let a box of the screen, given by two corners, fill the view. */
+  zoomBox([a, b], [c, d]) {
+    const { view } = this.state;
+    const { section } = this.page;
+    section.project();
+    const { frame, middle, scale, width, height } = section;
+    const wide = Math.abs(c - a) / (width - frame.left - frame.right);
+    const share = Math.max(wide, Math.abs(d - b) / (height - frame.top - frame.bottom));
+    this.toggle("box", false);
+    if (share < 0.01) return;
+    view.x += (0.5 * (a + c) - middle[0]) / scale;
+    view.y -= (0.5 * (b + d) - middle[1]) / scale;
+    view.half = Math.max(2e-15, view.half * share);
+    this.moved();
+  }
+
   pan(across, down) {
     const { view } = this.state;
     const { section } = this.page;
@@ -516,7 +559,7 @@ class Controls {
   }
 
   nudge(across, up) {
-    if (this.state.view.kind === "surface" && this.state.view.half > 0.9) this.turn(30 * across, -30 * up);
+    if (this.state.view.kind === "surface" && this.state.view.half > HOME.surface[2] - 0.1) this.turn(30 * across, -30 * up);
     else this.pan(-60 * across, 60 * up);
   }
 
@@ -544,17 +587,21 @@ class Controls {
     box.addEventListener("pointerdown", (event) => {
       if (event.button > 1) return;
       const point = at(event);
+      if (document.activeElement !== box) document.activeElement.blur(); // fields take or refuse first
       down.set(event.pointerId, point);
       box.setPointerCapture(event.pointerId);
       if (down.size === 2) {
-        this.page.section.fan = null;
+        this.page.section.fan = this.page.section.corners = null;
         gesture = { kind: "pinch" };
         return;
       }
       if (down.size > 2) return;
       const place = this.onLine(point, event.pointerType);
-      const scrolls = event.pointerType === "touch" && !box.classList.contains("turns");
-      gesture = { kind: "click", from: point, fan: place, scrolls, pan: event.shiftKey || event.button === 1 };
+      const shifted = event.shiftKey && event.button === 0 && this.state.view.kind === "disk";
+      const boxes = shifted || box.classList.contains("box");
+      const scrolls = event.pointerType === "touch" && !boxes && !box.classList.contains("turns");
+      const pan = event.shiftKey || event.button === 1;
+      gesture = { kind: "click", from: point, fan: place, scrolls, pan, boxes };
       this.hideCross();
     });
     box.addEventListener("pointermove", (event) => {
@@ -646,6 +693,7 @@ class Controls {
       if (Math.hypot(point[0] - gesture.from[0], point[1] - gesture.from[1]) < CLICK) return;
       gesture.kind = gesture.fan !== null && !gesture.pan ? "fan" : "move";
       if (gesture.scrolls) gesture.kind = "scroll";
+      if (gesture.boxes) gesture.kind = "box";
       before = gesture.from;
     }
     if (gesture.kind === "fan") {
@@ -656,9 +704,14 @@ class Controls {
       this.page.section.drawCursors();
       return;
     }
+    if (gesture.kind === "box") {
+      this.page.section.corners = [gesture.from, point];
+      this.page.section.drawCursors();
+      return;
+    }
     if (gesture.kind === "scroll") return;
     const step = [point[0] - before[0], point[1] - before[1]];
-    if (this.state.view.kind === "surface" && !gesture.pan) this.turn(...step);
+    if (!this.page.section.framed && !gesture.pan) this.turn(...step);
     else this.pan(...step);
   }
 
@@ -676,9 +729,10 @@ class Controls {
 
   finish(gesture, point, cancelled) {
     const { section } = this.page;
-    section.fan = null;
+    section.fan = section.corners = null;
     section.drawCursors();
     if (!gesture || cancelled) return;
+    if (gesture.kind === "box") this.zoomBox(gesture.from, point);
     if (gesture.kind === "fan" && gesture.to !== undefined) this.shoot(gesture.fan, gesture.to);
     if (gesture.kind !== "click") return;
     const { at = [Infinity, 0], when = 0 } = this.clicked ?? {};
@@ -690,8 +744,17 @@ class Controls {
 
   startAt(point) {
     const place = this.page.section.place(...point);
-    if (place) this.begin([place]);
+    if (place && this.box.classList.contains("pick")) this.pick(place);
+    else if (place) this.begin([place]);
     else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+  }
+
+  /** Look for the periodic orbit nearest to a place. */
+  pick(place) {
+    this.toggle("pick", false);
+    const length = readNumber(element("branch-length").value);
+    const allowed = length > 0 && length <= 20;
+    this.page.findNear(place, Number(element("near-period").value), allowed ? length : 1.5);
   }
 
   // ---------------------------------------------------------------- keys
@@ -713,6 +776,7 @@ class Controls {
       else if (key === "-" || key === "−") this.zoom(1 / 0.7);
       else if (key === "0") this.whole();
       else if (key === "f" || key === "F") this.markFan();
+      else if (key === "b" || key === "B") this.markBox();
       else if (key === " ") element("play").click();
       else if (key === "Escape") this.hideCross();
       else return;
@@ -740,6 +804,7 @@ class Controls {
       Math.min(section.width - 4, Math.max(4, left + across * step)),
       Math.min(section.height - 4, Math.max(4, top + down * step)),
     ];
+    if (this.corner) section.corners = [this.corner, section.cross];
     section.drawCursors();
     const text = this.describe(section.cross);
     element("where").textContent = text;
@@ -748,9 +813,20 @@ class Controls {
   }
 
   hideCross() {
-    this.page.section.cross = null;
-    this.fanFrom = null;
+    this.page.section.cross = this.page.section.corners = null;
+    this.fanFrom = this.corner = null;
     this.page.section.drawCursors();
+  }
+
+  /** Take the pointer as one corner of a box; the second corner makes the box fill the view. */
+  markBox() {
+    const { section } = this.page;
+    const at = section.cross ?? section.middle;
+    if (this.corner) this.zoomBox(this.corner, at);
+    else this.hint("One corner of the box is set: move the pointer and press B again.");
+    this.corner = this.corner ? null : at;
+    section.corners = null;
+    section.drawCursors();
   }
 
   /** Take the pointer's x as one end of a fan on y = 0; the second end shoots it. */
@@ -768,10 +844,6 @@ class Controls {
   }
 
   // ---------------------------------------------------------------- time
-
-  speed() {
-    return Number(element("speed").value);
-  }
 
   showPlaying() {
     element("play").textContent = this.page.playing ? "Pause" : "Play";
@@ -812,7 +884,11 @@ class Controls {
     });
     on("forget", "click", () => {
       page.mark();
-      this.state.periods = [];
+      const far = (one) => one?.type !== "near";
+      const { motion, branches } = this.state;
+      Object.assign(this.state, { periods: [], near: [], branches: branches.filter(far), motion: far(motion) ? motion : null });
+      page.chooseMotion();
+      if (!this.state.branches.length) page.branchLines = [];
       page.searcher.restart();
       this.listPeriodic();
       page.section.drawLines();
@@ -829,7 +905,7 @@ class Controls {
       this.words();
       page.branchLines = [];
       page.searcher.restart();
-      this.noteBranches("");
+      setText("branch-note", "");
       page.section.drawLines();
       this.sceneKinds();
       page.saveSoon();
@@ -837,18 +913,11 @@ class Controls {
     on("jump", "change", () => page.setJump(element("jump").checked));
   }
 
-  notePeriodic(text) {
-    setText("periodic-note", text);
-  }
-
-  noteBranches(text) {
-    setText("branch-note", text);
-  }
-
   noteJump() {
     const { jumpLength, state } = this.page;
     let text = "";
-    if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
+    if (Number.isNaN(jumpLength)) text = pseudorigid.TOO_LONG;
+    else if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
     else if (state.jump && jumpLength) {
       text = `The map jumps across a curve of length ${shortNumber(jumpLength, 6)} in (x, y); its inverse across the mirror image.`;
     } else if (state.jump) text = "Computing the curve …";
@@ -861,25 +930,32 @@ class Controls {
     list.replaceChildren();
     const saddles = [];
     let count = 0;
+    const add = (orbit, one) => {
+      if (orbit.type !== "elliptic") saddles.push({ ...one, points: orbit.period });
+      list.append(this.periodicRow(orbit, one));
+    };
+    this.state.near.forEach((spec, nth) => {
+      const orbit = page.found.get(writeNear(spec));
+      if (orbit) add(orbit, { period: 0, type: "near", nth });
+    });
     for (const period of this.state.periods) {
       const seen = {};
       for (const orbit of page.periodic.get(period) ?? []) {
         const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
         count += 1;
-        if (orbit.type !== "elliptic") saddles.push({ period, type: orbit.type, nth });
-        list.append(this.periodicRow(orbit, nth));
+        add(orbit, { period, type: orbit.type, nth });
       }
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
-      this.notePeriodic(`${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
-    } else if (!this.state.periods.length) this.notePeriodic("");
+      setText("periodic-note", `${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
+    } else if (!this.state.periods.length) setText("periodic-note", "");
     const select = element("saddle");
     const chosen = select.value;
     this.saddles = saddles;
     select.replaceChildren(
-      ...saddles.map(({ period, type, nth }, i) => {
+      ...saddles.map(({ points, type, nth }, i) => {
         const number = nth ? `, no. ${nth + 1}` : "";
-        return this.option(i, `period ${period}, ${type}${number}`);
+        return this.option(i, `period ${points}, ${type === "near" ? "near a click" : type}${number}`);
       }),
     );
     const { wanted } = this;
@@ -905,24 +981,24 @@ class Controls {
     element("branch-length").value = String(first.length);
   }
 
-  periodicRow(orbit, nth) {
+  periodicRow(orbit, one) {
     const { period, type, trace, multiplier, rotation, time } = orbit;
     const shape = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
     const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}` : `multiplier ${shortNumber(multiplier, 7)}`;
-    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · ${more} · time ${shortNumber(time, 6)}`;
-    const show = () => this.page.showPeriodic(period, type, nth);
+    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · residue ${shortNumber(0.25 * (2 - trace), 6)} · ${more} · time ${shortNumber(time, 6)}`;
+    const show = () => this.page.showPeriodic(one);
     return node(
       "li",
       {},
       node("span", { textContent: shape, ariaHidden: "true" }),
-      node("div", {}, `Period ${period}, ${type}`, node("div", { className: "facts", textContent: facts })),
+      node("div", {}, `Period ${period}, ${type}${one.type === "near" ? ", near a click" : ""}`, node("div", { className: "facts", textContent: facts })),
       button("In time", `Show the ${type} orbit of period ${period} in time`, show),
     );
   }
 
   listPoints() {
     const saddle = this.saddles?.[Number(element("saddle").value)];
-    const points = saddle ? Array.from({ length: saddle.period }, (_, i) => this.option(i, i + 1)) : [];
+    const points = saddle ? Array.from({ length: saddle.points }, (_, i) => this.option(i, i + 1)) : [];
     element("saddle-point").replaceChildren(this.option(-1, "all"), ...points);
   }
 
@@ -961,12 +1037,9 @@ class Controls {
     const largest = (Math.sqrt(1 + 2 * ratio * k) - 1) / (2 * ratio);
     const { g: present } = this.state;
     const g = present < largest ? present : Number((0.9 * largest).toPrecision(2));
-    element("k").value = String(k);
-    element("g").value = String(g);
-    element("E").value = String(Number((ratio * g * g).toPrecision(6)));
     this.editing = false;
-    this.takeBall();
-    this.editing = false;
+    this.takeBall({ k, g, E: Number((ratio * g * g).toPrecision(6)) });
+    this.refresh();
     const note = g === present ? "" : ` g became ${g}, which changes the scale only.`;
     this.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
   }
@@ -977,7 +1050,7 @@ class Controls {
     const { page } = this;
     on("copy-scene", "click", async () => {
       const kind = element("scene-kind").value;
-      const block = sceneBlock(kind, this.state, page.orbits, page.periodic);
+      const block = sceneBlock(kind, page);
       element("scene").value = block.text;
       const copied = await copyText(block.text, element("scene"));
       const first = copied ? "Copied." : "Copy the lines above.";
@@ -996,7 +1069,7 @@ class Controls {
         setText("record-note", `${name} has ${COUNT.format(count)} impacts after the start, to the last bit.`);
       });
     }
-    for (const [id, ratio, name] of [["png2", 2, "section.png"], ["png4", 4, "section.png"], ["svg", null, "section.svg"]]) {
+    for (const [id, ratio, name] of [["png2", 2, "section-2x.png"], ["png4", 4, "section-4x.png"], ["svg", null, "section.svg"]]) {
       on(id, "click", async () => {
         download(name, await picture(page, ratio));
         setText("record-note", `${name} has the section as it is drawn, with k, g, E and the address.`);

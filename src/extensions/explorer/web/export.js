@@ -9,25 +9,25 @@ function yamlNumber(value) {
 
 /** The kinds of scene that show what is on the page: the first one shows most of it. */
 function sceneKinds(state, orbits) {
-  const forward = orbits.some((orbit) => !orbit.back);
-  const saddle = state.branches.find((branch) => branch.nth === 0);
+  const forward = orbits.some((orbit) => !orbit.back && !orbit.refused);
+  const saddle = state.branches.find((branch) => branch.nth === 0 && branch.period);
   const kinds = [];
-  if (saddle && state.view.kind === "disk" && state.view.half < 0.2) kinds.push("closeup");
+  if (saddle && state.view.half < 0.2) kinds.push("closeup");
   if (saddle && forward) kinds.push("tangle");
   if (state.jump && forward) kinds.push("jumps");
   if (forward) kinds.push("portrait");
-  if (state.motion && state.motion.nth === 0) kinds.push("motion");
+  if (state.motion?.period && state.motion.nth === 0) kinds.push("motion");
   if (forward) kinds.push("exponents");
   return kinds;
 }
 
 /** The block of a scene, and a note about what of the picture it leaves out. */
-function sceneBlock(kind, state, orbits, periodic) {
+function sceneBlock(kind, { state, orbits, periodic, section }) {
   const { k, g, energy, view } = state;
   const number = yamlNumber;
   const lines = [`ball: {k: ${number(k)}, g: ${number(g)}}`, `energy: ${number(energy)}`];
   const notes = [];
-  const shown = orbits.filter((orbit) => !orbit.back);
+  const shown = orbits.filter((orbit) => !orbit.back && !orbit.refused);
   if (kind !== "motion" && kind !== "closeup") {
     const starts = shown.map((orbit) => {
       if (orbit.q === 0 && !orbit.xy) return number(orbit.p);
@@ -39,7 +39,7 @@ function sceneBlock(kind, state, orbits, periodic) {
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
     const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
     if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
-    if (shown.length < orbits.length) notes.push("A scene has no backward orbits: they are left out.");
+    if (shown.length < orbits.length) notes.push("A scene has no backward orbits and none that stop early: they are left out.");
   }
   if (kind === "portrait" || kind === "tangle") {
     const { elevation, azimuth } = view;
@@ -61,7 +61,7 @@ function sceneBlock(kind, state, orbits, periodic) {
     lines.push(`period: ${period}`, `type: ${type}`, `duration: ${number(state.span)}`);
   }
   if (kind === "tangle" || kind === "closeup") {
-    const { period, type } = state.branches.find((branch) => branch.nth === 0);
+    const { period, type } = state.branches.find((branch) => branch.nth === 0 && branch.period);
     const same = state.branches.filter((b) => b.period === period && b.type === type && b.nth === 0);
     const lengths = { outer: 0, inner: 0 };
     for (const { side, length } of same) {
@@ -75,7 +75,7 @@ function sceneBlock(kind, state, orbits, periodic) {
       const parts = sides.map(([side, length]) => `${side}: {length: ${number(length)}}`);
       lines.push(`branches: {${parts.join(", ")}}`);
     } else {
-      lines.push(...windowLines(state, periodic, period, type));
+      lines.push(...windowLines(state, periodic, section, period, type));
       lines.push(`length: ${number(Math.max(...sides.map(([, length]) => length)))}`);
     }
     if (same.length < state.branches.length || same.some((b) => b.saddle >= 0 || b.kind !== "both")) {
@@ -102,27 +102,23 @@ function flowList(name, items) {
 }
 
 /** The window of a close-up, relative to the nearest point of the orbit, in section radii. */
-function windowLines({ k, g, energy, view }, periodic, period, type) {
-  const { radius, centre, height } = geometry.section(k, g, energy);
+function windowLines({ k, g, energy }, periodic, section, period, type) {
+  const { radius } = section;
   const orbit = (periodic.get(period) ?? []).find((entry) => entry.type === type);
   if (!orbit) return [];
-  const middle = [centre + view.x * radius, view.y * height];
-  const away = ([x, v, w]) => Math.hypot((x - middle[0]) / radius, (v - k * w - middle[1]) / height);
-  const distances = orbit.points.map(away);
-  const point = distances.indexOf(Math.min(...distances));
-  const [x0, v0] = orbit.points[point];
-  // The section's window in (x, y) as one in (x, xdot): its corners and sides.
-  const across = [];
-  const up = [];
+  // The part of the section that is in sight as one in (x, xdot): its corners and sides.
+  const states = [];
   for (let i = -4; i <= 4; i++) {
     for (let j = -4; j <= 4; j++) {
-      const at = [middle[0] + (i / 4) * view.half * radius, middle[1] + (j / 4) * view.half * height];
-      const state = geometry.chartState(k, g, energy, ...at);
-      if (!state) continue;
-      across.push((state[0] - x0) / radius);
-      up.push((state[1] - v0) / radius);
+      const reach = section.scale * section.read().state.view.half;
+      const place = section.place(section.middle[0] + (i / 4) * reach, section.middle[1] + (j / 4) * reach);
+      if (place) states.push(geometry.stateAt(k, g, energy, { p: place[0], q: place[1] }));
     }
   }
+  const [x, v] = [0, 1].map((i) => states.reduce((sum, state) => sum + state[i], 0) / states.length);
+  const distances = orbit.points.map((point) => Math.hypot(point[0] - x, point[1] - v));
+  const point = distances.indexOf(Math.min(...distances));
+  const [across, up] = [0, 1].map((i) => states.map((state) => (state[i] - orbit.points[point][i]) / radius));
   const range = (values) => `[${yamlNumber(Number(Math.min(...values).toPrecision(6)))}, ${yamlNumber(Number(Math.max(...values).toPrecision(6)))}]`;
   return [`point: ${point}`, `window: {x: ${range(across)}, xdot: ${range(up)}}`];
 }

@@ -6,6 +6,7 @@
  * is the disk with the given centre, radius (along x) and height (along y). A place on it is (p, q)
  * with x = centre + p radius and y = q height, so that it carries over to another ball or energy.
  */
+const MOST_PERIOD = 24; // of an orbit near a click
 const geometry = {
   section(k, g, energy) {
     const radius = Math.sqrt((2 * energy + (g * g) / k) / k);

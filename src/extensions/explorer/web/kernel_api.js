@@ -57,6 +57,9 @@ globalThis.pseudorigid = (() => {
     return finite ? [x, xdot, udot] : [NaN, NaN, NaN];
   }
 
+  // What Python's `orbit` says of a flight that ends in NaN.
+  const TOO_LONG = "a flight lasts 2^20/omega or longer: take a larger g or a lower energy";
+
   // Copy rows of the kernel to arrays, from their entry `first` on.
   function copyRows(arrays, first, count) {
     arrays.forEach((array, i) => array.set(at(ROWS + 8 * i * count, count), first));
@@ -204,6 +207,11 @@ globalThis.pseudorigid = (() => {
     return call("chart_tangent", 4, ...checkState(x, xdot, udot), k, g, impacts);
   }
 
+  // Return the point that Newton steps towards P^n z = z reach from (x, y), and x and y of the last step.
+  function newton(k, g, energy, x, y, period, steps) {
+    return call("newton", 4, x, y, k, g, energy, period, steps);
+  }
+
   // Return the bytes of doubles, little-endian, every NaN the same.
   function bytesOf(values) {
     const bytes = new Uint8Array(8 * values.length);
@@ -310,7 +318,7 @@ globalThis.pseudorigid = (() => {
   }
 
   return {
-    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, follow,
-    sha256, bytesOf, checkFigure,
+    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, newton, follow,
+    sha256, bytesOf, checkFigure, TOO_LONG,
   };
 })();

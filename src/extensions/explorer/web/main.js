@@ -13,9 +13,8 @@ class Explorer {
     this.state = freshState();
     this.orbits = [];
     this.periodic = new Map(); // periodic orbits by period, at the present ball and energy
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
+    this.found = new Map(); // and those near places, by `writeNear`
+    this.forgetLines();
     this.follower = new Computer();
     this.searcher = new Computer();
     this.generation = 0;
@@ -31,16 +30,24 @@ class Explorer {
 
   /** What the section view draws. */
   scene() {
-    const marks = this.state.periods.flatMap((period) =>
-      (this.periodic.get(period) ?? []).map(({ points, type }) => ({
-        points,
-        colour: type === "elliptic" ? "regular" : "ink",
-        shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
-      })),
-    );
+    const symmetric = this.state.periods.flatMap((period) => this.periodic.get(period) ?? []);
+    const near = this.state.near.flatMap((spec) => this.found.get(writeNear(spec)) ?? []);
+    const marks = [...symmetric, ...near].map(({ points, type }) => ({
+      points,
+      colour: type === "elliptic" ? "regular" : "ink",
+      shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
+    }));
     const lines = [...this.branchLines, ...this.jumpLines];
     const now = this.time ? this.time.now() : null;
-    return { state: this.state, orbits: this.orbits, overlays: { lines, marks }, cursor: now?.state };
+    const range = ["rotation", "exponent"].includes(this.state.colour) ? this.range() : null;
+    return { state: this.state, orbits: this.orbits, range, overlays: { lines, marks }, cursor: now?.state };
+  }
+
+  /** The range of what colours the orbits, the rotation number or the exponent. */
+  range() {
+    const values = this.orbits.map((orbit) => orbit.facts?.[this.state.colour]).filter(Number.isFinite);
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    return low < high ? [low, high] : [low, low + 1e-9];
   }
 
   // ---------------------------------------------------------------- states
@@ -53,7 +60,7 @@ class Explorer {
     this.orbits = state.orbits.map((spec) => {
       const kept = before.get(writeOrbit(spec));
       before.delete(writeOrbit(spec));
-      return kept ?? new Orbit(spec, () => this.state.colour);
+      return kept ?? new Orbit(spec, this);
     });
     if (same) {
       this.follower.ask("close", { keys: [...before.values()].map(({ key }) => key) });
@@ -67,16 +74,18 @@ class Explorer {
   lookAgain() {
     this.searcher.restart();
     this.tracing = (this.tracing ?? 0) + 1;
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
-    this.controls.noteBranches("");
+    this.forgetLines();
     assignHues(this.orbits, this.section.section, HUES);
     this.chooseMotion();
     this.look();
     this.search();
     this.run();
     this.saveSoon();
+  }
+
+  forgetLines() {
+    Object.assign(this, { branchLines: [], jumpLines: [], jumpLength: null });
+    setText("branch-note", "");
   }
 
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
@@ -87,10 +96,8 @@ class Explorer {
     this.round += 1; // what is asked for will not come
     this.searcher.restart();
     this.periodic.clear();
-    this.branchLines = [];
-    this.jumpLines = [];
-    this.jumpLength = null;
-    this.controls.noteBranches("");
+    this.found.clear();
+    this.forgetLines();
     for (const orbit of this.orbits) {
       orbit.clear();
       this.open(orbit);
@@ -133,7 +140,7 @@ class Explorer {
     this.mark();
     const { impacts, back } = this.state;
     for (const [p, q] of places.slice(0, room)) {
-      const orbit = new Orbit({ p, q, xy, impacts, back, sea: false }, () => this.state.colour);
+      const orbit = new Orbit({ p, q, xy, impacts, back, sea: false }, this);
       this.orbits.push(orbit);
       this.open(orbit);
     }
@@ -182,6 +189,22 @@ class Explorer {
     this.run();
   }
 
+  /** Follow the chosen orbit on until this is called again; the address has its impacts so far. */
+  runOn() {
+    const running = this.orbits.filter((orbit) => orbit.endless);
+    for (const orbit of running) Object.assign(orbit, { endless: false, impacts: orbit.count });
+    const orbit = this.orbits[this.state.chosen];
+    if (!running.length) {
+      const most = COUNT.format(MOST_IMPACTS);
+      this.controls.hint(orbit ? `The orbit goes on until it is stopped, at most to ${most} impacts.` : "Choose an orbit first.");
+      if (!orbit || orbit.refused || orbit.count >= MOST_IMPACTS) return;
+      this.mark();
+      orbit.endless = true;
+    }
+    this.changedOrbits();
+    this.run();
+  }
+
   /** Have the worker follow all orbits that are not complete, while the page draws what it has. */
   async run() {
     if (this.running === this.round) return;
@@ -205,7 +228,7 @@ class Explorer {
     const waiting = this.orbits.filter((orbit) => !orbit.done);
     if (!waiting.length) return null;
     const orbits = waiting.map((orbit) => {
-      const most = Math.min(Math.round(orbit.pace), orbit.impacts - orbit.count);
+      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_IMPACTS : orbit.impacts) - orbit.count);
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
@@ -216,20 +239,30 @@ class Explorer {
   append(pieces) {
     const plots = [];
     let recoloured = false;
+    const ranges = ["rotation", "exponent"].includes(this.state.colour); // which change with each orbit
+    const look = (orbit) =>
+      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict, ranges && Math.floor(Math.log2(orbit.count + 1))]);
     for (const piece of pieces) {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
-      const before = String([orbit.isSea(), orbit.settled, orbit.facts?.verdict]);
+      const before = look(orbit);
       plots.push([orbit, orbit.count]);
       orbit.append(piece, this.state.k);
-      recoloured ||= before !== String([orbit.isSea(), orbit.settled, orbit.facts.verdict]);
+      if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
+      recoloured ||= before !== look(orbit);
+      if (orbit.count > orbit.impacts) {
+        orbit.impacts = orbit.count;
+        orbit.endless &&= orbit.count < MOST_IMPACTS;
+        this.state.orbits[this.orbits.indexOf(orbit)].impacts = orbit.count;
+        this.saveSoon();
+      }
     }
     if (recoloured) assignHues(this.orbits, this.section.section, HUES);
     return { plots, recoloured };
   }
 
   draw({ plots, recoloured }) {
-    if (recoloured || this.fresh) this.look();
+    if (recoloured || this.fresh || !this.orbits.some((orbit) => !orbit.done)) this.look();
     else {
       for (const [orbit, from] of plots) this.section.plot(orbit, from);
       this.section.showPoints();
@@ -253,10 +286,13 @@ class Explorer {
     const specs = this.state.branches;
     const periods = new Set([...this.state.periods, ...specs.map((spec) => spec.period)]);
     if (this.state.motion) periods.add(this.state.motion.period);
+    periods.delete(0);
     try {
+      await this.searchNear();
+      if (generation !== this.generation) return;
       for (const period of [...periods].sort((a, b) => a - b)) {
         if (this.periodic.has(period)) continue;
-        this.controls.notePeriodic(`Searching for orbits of period ${period} …`);
+        setText("periodic-note", `Searching for orbits of period ${period} …`);
         const found = await this.searcher.ask("periodic", { k, g, energy, period });
         if (generation !== this.generation) return;
         this.periodic.set(period, found);
@@ -270,8 +306,49 @@ class Explorer {
         if (generation === this.generation && this.state.jump) this.showJump(curve);
       }
     } catch (error) {
-      if (generation === this.generation) this.controls.noteBranches(error.message);
+      if (generation === this.generation) setText("branch-note", error.message);
     }
+  }
+
+  /** Find the periodic orbits nearest to the places that the state has. */
+  async searchNear() {
+    const { generation } = this;
+    const { k, g, energy, near } = this.state;
+    for (const spec of near.filter((one) => !this.found.has(writeNear(one)))) {
+      setText("periodic-note", "Searching for the nearest periodic orbit …");
+      const orbit = await this.searcher.ask("near", { k, g, energy, ...spec });
+      if (generation !== this.generation) return;
+      this.found.set(writeNear(spec), orbit);
+      if (this.state.motion?.type === "near") this.chooseMotion();
+    }
+    if (near.length) this.section.drawLines();
+  }
+
+  /** Show the periodic orbit nearest to a place, of a period or (0) of any, with a saddle's branches. */
+  async findNear([p, q], period, length) {
+    this.mark();
+    const { state } = this;
+    const spec = { p, q, period };
+    const nth = state.near.push(spec) - 1;
+    this.searcher.restart(); // which may still trace branches
+    this.saveSoon();
+    await this.searchNear();
+    const orbit = this.found.get(writeNear(spec));
+    if (this.state !== state || orbit === undefined) return;
+    const one = { period: 0, type: "near", nth };
+    if (!orbit) state.near = state.near.filter((other) => other !== spec);
+    else Object.assign(state, { motion: one, time: 0, chosen: -1, preset: "" });
+    if (orbit && orbit.type !== "elliptic") {
+      state.branches = [{ ...one, saddle: 0, kind: "both", side: "both", length }];
+      this.branchLines = [];
+    }
+    this.chooseMotion();
+    this.controls.refresh();
+    const residue = orbit && shortNumber(0.25 * (2 - orbit.trace), 5);
+    const none = `No periodic orbit of period ${period || `up to ${MOST_PERIOD}`} was found near that point.`;
+    this.controls.hint(orbit ? `The nearest orbit has period ${orbit.period}: ${orbit.type}, residue ${residue}.` : none);
+    this.search();
+    this.saveSoon();
   }
 
   async traceBranches(generation) {
@@ -279,27 +356,25 @@ class Explorer {
     const specs = this.state.branches;
     if (!specs.length) return;
     const round = (this.tracing = (this.tracing ?? 0) + 1);
-    this.window = null;
-    if (view.kind === "disk" && view.half < 0.5) {
-      const { x, y } = geometry.pointAt(k, g, energy, view.x, view.y);
-      this.window = { x, y, half: 1.5 * view.half };
-    }
+    this.section.project();
+    const place = view.half < 0.5 && this.section.place(...this.section.middle);
+    this.window = place ? { ...geometry.pointAt(k, g, energy, ...place), half: 1.5 * view.half } : null;
     const lines = [];
     const ended = [];
     for (const spec of specs) {
       const orbit = this.periodicOrbit(spec);
       if (!orbit || orbit.type === "elliptic") {
-        this.controls.noteBranches(`There is no ${spec.type} orbit of period ${spec.period} here.`);
+        setText("branch-note", `There is no ${spec.type} orbit of period ${spec.period} here.`);
         continue;
       }
-      const saddles = spec.saddle < 0 ? orbit.points.keys() : [spec.saddle % spec.period];
+      const saddles = spec.saddle < 0 ? orbit.points.keys() : [spec.saddle % orbit.period];
       const sides = spec.side === "both" ? ["inner", "outer"] : [spec.side];
       const kinds = spec.kind === "both" ? [true, false] : [spec.kind === "stable"];
       for (const saddle of saddles) {
         for (const side of sides) {
           for (const stable of kinds) {
             const details = { saddle, side, stable, length: spec.length, window: this.window };
-            this.controls.noteBranches(`Tracing branches: ${lines.length} done …`);
+            setText("branch-note", `Tracing branches: ${lines.length} done …`);
             const line = await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
             if (generation !== this.generation || round !== this.tracing) return;
             if (line.ended !== null) ended.push(line.ended);
@@ -315,10 +390,11 @@ class Explorer {
     if (!lines.length) return;
     const points = lines.reduce((sum, { line }) => sum + line.x.length, 0);
     const early = ended.length ? ` Rounding errors end ${ended.length} of them early.` : "";
-    this.controls.noteBranches(`${lines.length} branches of ${COUNT.format(points)} points.${early}`);
+    setText("branch-note", `${lines.length} branches of ${COUNT.format(points)} points.${early}`);
   }
 
   periodicOrbit({ period, type, nth }) {
+    if (type === "near") return this.found.get(writeNear(this.state.near[nth] ?? {}));
     return (this.periodic.get(period) ?? []).filter((orbit) => orbit.type === type)[nth];
   }
 
@@ -344,8 +420,7 @@ class Explorer {
   setJump(on) {
     this.mark();
     this.state.jump = on;
-    this.jumpLines = [];
-    this.jumpLength = null;
+    Object.assign(this, { jumpLines: [], jumpLength: null });
     this.controls.noteJump();
     this.section.drawLines();
     this.search();
@@ -358,10 +433,10 @@ class Explorer {
     this.finer = setTimeout(() => {
       const { view } = this.state;
       const { window } = this;
-      if (!this.state.branches.length || view.kind !== "disk") return;
-      if (view.half > 0.5 && !window) return;
-      if (window && 1.5 * view.half > 0.6 * window.half && view.half < window.half) {
-        const { x, y } = geometry.pointAt(this.state.k, this.state.g, this.state.energy, view.x, view.y);
+      if (!this.state.branches.length || (view.half > 0.5 && !window)) return;
+      const place = this.section.place(...this.section.middle);
+      if (place && window && 1.5 * view.half > 0.6 * window.half && view.half < window.half) {
+        const { x, y } = geometry.pointAt(this.state.k, this.state.g, this.state.energy, ...place);
         const { radius } = this.section;
         if (Math.hypot(x - window.x, y - window.y) < 0.3 * window.half * radius) return;
       }
@@ -389,13 +464,16 @@ class Explorer {
     else this.motion = !state.motion && orbit?.start ? new OrbitMotion(orbit) : null;
     this.time.reset();
     this.time.draw();
+    this.section.drawPoints();
     this.section.drawCursors();
     this.controls.moment();
+    this.controls.updateFacts();
     this.controls.markChosen();
+    this.drawChartSoon();
   }
 
-  showPeriodic(period, type, nth) {
-    Object.assign(this.state, { motion: { period, type, nth }, time: 0, chosen: -1 });
+  showPeriodic(one) {
+    Object.assign(this.state, { motion: one, time: 0, chosen: -1 });
     this.chooseMotion();
     this.saveSoon();
   }
@@ -422,7 +500,7 @@ class Explorer {
       const seconds = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
       before = now;
       const end = this.motion?.ends[1] ?? 0;
-      const next = this.state.time + seconds * this.controls.speed();
+      const next = this.state.time + seconds * Number(element("speed").value);
       const running = this.orbits[this.state.chosen] && !this.orbits[this.state.chosen].done;
       this.setTime(next);
       if (next > end && !running) this.pause();
@@ -490,7 +568,7 @@ class Explorer {
     this.saved = address;
     const entry = { at: this.at, ...this.controls.kept() };
     window.history[further ? "pushState" : "replaceState"](entry, "", address);
-    this.controls.showUndo();
+    element("undo").disabled = this.at === 0;
   }
 
   undo() {

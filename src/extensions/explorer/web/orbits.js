@@ -20,8 +20,8 @@ function assignHues(orbits, section, hues) {
 }
 
 class Orbit {
-  constructor({ p, q, xy, impacts, back, sea }, mode) {
-    Object.assign(this, { p, q, xy, impacts, back, sea, mode });
+  constructor({ p, q, xy, impacts, back, sea }, page) {
+    Object.assign(this, { p, q, xy, impacts, back, sea, page });
     this.clear();
   }
 
@@ -31,13 +31,15 @@ class Orbit {
     this.count = 0;
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
+    this.refused = ""; // why it stops before its end
+    this.endless = false; // whether it goes on until it is stopped
     this.hue = null; // one of the style sheet's, if it is regular
     this.history = []; // [impacts, exponent so far]
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
 
   get done() {
-    return !this.start || this.count >= this.impacts;
+    return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts);
   }
 
   /** Add impacts that the worker has computed; those of a backward orbit are mirrored. */
@@ -60,7 +62,8 @@ class Orbit {
     }
     this.count += size;
     this.facts = piece.facts;
-    this.history.push([this.count, piece.facts.exponent]);
+    this.refused = piece.refused ?? "";
+    if (piece.facts) this.history.push([this.count, piece.facts.exponent]);
   }
 
   /** The state before impact i; 0 is the start. */
@@ -72,8 +75,20 @@ class Orbit {
     return Boolean(this.sea || this.facts?.verdict === "chaotic");
   }
 
+  /** Whether it is the one that the time view shows, which stands out. */
+  get chosen() {
+    return this.page.orbits[this.page.state.chosen] === this;
+  }
+
   colour(colours) {
-    if (this.mode() === "verdict") return colours[this.facts?.verdict || "young"];
+    const by = this.page.state.colour;
+    if (by === "rotation" || by === "exponent") {
+      const [low, high] = this.page.range();
+      const value = this.facts?.[by] ?? NaN;
+      return Number.isFinite(value) ? mixed(colours.ramp, (value - low) / (high - low)) : colours.sea;
+    }
+    if (this.chosen && this.isSea()) return colours.ink;
+    if (by === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }

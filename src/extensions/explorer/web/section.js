@@ -5,6 +5,7 @@
  * a file all are drawn anew: at another `ratio` of pixels, or by an `svg` pen.
  */
 const SNAP = 4; // pixels from the symmetry line within which a start lies on it
+const ABOVE = { azimuth: 270, elevation: 90 };
 const LAYERS = ["ground", "points", "lines", "cursors"];
 
 class SectionView {
@@ -23,6 +24,7 @@ class SectionView {
     [this.ground, this.points, this.lines, this.cursors] = svg ? [svg, svg, svg, svg] : pens;
     this.cross = null; // the keyboard's pointer on the screen
     this.fan = null; // [p, p] of the fan that is being drawn
+    this.corners = null; // of the box that is being drawn, on the screen
     this.resize();
   }
 
@@ -65,7 +67,9 @@ class SectionView {
     const { centre, radius, height } = this.section;
     Object.assign(this, { k, centre, radius, sectionHeight: height, kind: view.kind });
     const disk = view.kind === "disk";
-    const margin = disk ? { left: 52, top: 10, right: 10, bottom: 40 } : null;
+    // Seen from above, along the axis of udot, the half ellipsoid is the plane (x, xdot) of Figure 6.
+    this.framed = disk || (view.elevation === ABOVE.elevation && view.azimuth === ABOVE.azimuth);
+    const margin = this.framed ? { left: disk ? 52 : 62, top: 10, right: 10, bottom: 40 } : null;
     this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
     const wide = this.width - this.frame.left - this.frame.right;
     const tall = this.height - this.frame.top - this.frame.bottom;
@@ -192,10 +196,39 @@ class SectionView {
     ground.font = `13px ${colours.font}`;
     if (this.kind === "disk") this.drawDisk();
     else this.drawHalfEllipsoid();
+    this.drawScale();
+    if (!this.framed) {
+      this.drawBox();
+      return;
+    }
+    const { frame, origin, centre, radius, scale } = this;
+    const wide = this.width - frame.left - frame.right;
+    const tall = this.height - frame.top - frame.bottom;
+    ground.strokeStyle = colours.line;
+    ground.strokeRect(frame.left, frame.top, wide, tall);
+    const disk = this.kind === "disk";
+    this.drawAxis(0, "x", wide, disk ? origin[0] : centre + origin[0], radius / scale);
+    this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall, origin[1], (disk ? this.sectionHeight : radius) / scale);
+  }
+
+  /** Draw which colours mean which rotation numbers or exponents. */
+  drawScale() {
+    const { ground, colours } = this;
+    const { state, range } = this.read();
+    if (!range || !Number.isFinite(range[0])) return;
+    const [left, top] = [this.width - this.frame.right - 176, this.frame.top + 8];
+    const name = { rotation: "rotation number", exponent: "exponent so far" }[state.colour];
+    for (let i = 0; i < 80; i++) {
+      ground.fillStyle = mixed(colours.ramp, i / 79);
+      ground.fillRect(left + 2 * i, top + 18, 2.5, 9);
+    }
+    write(ground, name, left + 160, top, colours.ink, "right");
+    write(ground, shortNumber(range[0], 3), left, top + 30, colours.muted);
+    write(ground, shortNumber(range[1], 3), left + 160, top + 30, colours.muted, "right");
   }
 
   drawDisk() {
-    const { ground, colours, frame, middle, scale } = this;
+    const { ground, frame, middle, scale } = this;
     const wide = this.width - frame.left - frame.right;
     const tall = this.height - frame.top - frame.bottom;
     ground.save();
@@ -213,16 +246,11 @@ class SectionView {
       ground.fill();
     }
     ground.restore();
-    ground.strokeStyle = colours.line;
-    ground.strokeRect(frame.left, frame.top, wide, tall);
-    this.drawAxis(0, "x", wide);
-    this.drawAxis(1, "y = ẋ − k u̇", tall);
   }
 
-  drawAxis(index, name, length) {
-    const { ground, colours, frame, middle, scale } = this;
-    const unit = (index ? this.sectionHeight : this.radius) / scale; // of a pixel
-    const centre = this.origin[index];
+  /** Draw an axis of the frame, around a value at its centre; a pixel is `unit` long. */
+  drawAxis(index, name, length, centre, unit) {
+    const { ground, colours, frame, middle } = this;
     const { offsets, labels, base } = ticksAround(centre, length * unit, length / (index ? 60 : 90));
     const bottom = this.height - frame.bottom;
     offsets.forEach((offset, i) => {
@@ -240,6 +268,8 @@ class SectionView {
 
   drawHalfEllipsoid() {
     const { ground, colours, radius, k } = this;
+    ground.save();
+    this.clip(ground);
     ground.beginPath();
     if (this.scale > 1e4) {
       if (this.place(...this.middle)) ground.rect(0, 0, this.width, this.height);
@@ -266,23 +296,50 @@ class SectionView {
     }
     ground.fillStyle = colours.surface;
     ground.fill();
-    this.drawTriad();
+    ground.restore();
   }
 
-  /** Draw the directions of the axes in a corner. */
-  drawTriad() {
-    const { ground, colours } = this;
-    const size = Math.min(46, 0.07 * this.width + 6);
-    const at = [size + 22, this.height - size - 26];
-    ["x", "ẋ⁻", "u̇⁻"].forEach((name, i) => {
-      const tip = [this.across[i] * size, -this.up[i] * size];
-      const length = Math.hypot(...tip);
-      strokePath(ground, colours.muted, 1.2, () => {
-        ground.moveTo(...at);
-        ground.lineTo(at[0] + tip[0], at[1] + tip[1]);
+  /** Draw axes with numbers at edges of the box around the half ellipsoid, clear of what one sees. */
+  drawBox() {
+    const { ground, colours, radius, k } = this;
+    const low = -radius * Math.sqrt(k / (1 + k));
+    const ranges = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
+    const middle = this.flat(...ranges.map(([a, b]) => 0.5 * (a + b)));
+    const put = (text, [left, top], colour) => {
+      const half = 3 + 3.6 * text.length;
+      if (Math.abs(left - 0.5 * this.width) > 0.5 * this.width + 30) return; // out of sight
+      write(ground, text, Math.min(this.width - half, Math.max(half, left)), top, colour, "center", "middle");
+    };
+    ["x", "ẋ⁻", "u̇⁻"].forEach((name, axis) => {
+      const others = [0, 1, 2].filter((i) => i !== axis);
+      const at = (value, corner) => {
+        const point = [];
+        point[axis] = value;
+        others.forEach((i, n) => (point[i] = ranges[i][corner[n]]));
+        return this.flat(...point);
+      };
+      const [from, to] = ranges[axis];
+      const half = 0.5 * (from + to);
+      // The edge furthest from the middle: downwards for x and xdot, to the left for udot.
+      const reach = (corner) => (axis === 2 ? -at(half, corner)[0] : at(half, corner)[1]);
+      const edge = [[0, 0], [0, 1], [1, 0], [1, 1]].reduce((a, b) => (reach(b) > reach(a) + 1e-6 ? b : a));
+      const ends = [at(from, edge), at(to, edge)];
+      const length = Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+      if (length < 40) return; // seen along it
+      let out = [-(ends[1][1] - ends[0][1]) / length, (ends[1][0] - ends[0][0]) / length];
+      const [left, top] = at(half, edge);
+      if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
+      strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
+      const shift = axis ? 0 : this.centre;
+      const { offsets, labels } = ticksAround(half + shift, to - from, length / 32);
+      const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
+      offsets.forEach((offset, i) => {
+        const tick = at(half + offset, edge);
+        strokePath(ground, colours.muted, 1, () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
+        put(labels[i], beside(tick, 13 + 3.6 * labels[i].length * Math.abs(out[0])), colours.muted);
       });
-      const far = 1 + 12 / length;
-      if (length > 8) write(ground, name, at[0] + tip[0] * far, at[1] + tip[1] * far, colours.ink, "center", "middle");
+      const above = [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16];
+      put(name, axis === 2 ? above : beside([left, top], 38), colours.ink);
     });
     ground.lineWidth = 1;
   }
@@ -292,7 +349,8 @@ class SectionView {
   drawPoints() {
     this.pixels?.fill(0);
     const { orbits } = this.read();
-    const order = [...orbits].sort((a, b) => (b.isSea() ? 1 : 0) - (a.isSea() ? 1 : 0));
+    const rank = (orbit) => (orbit.chosen ? 2 : orbit.isSea() ? 0 : 1);
+    const order = [...orbits].sort((a, b) => rank(a) - rank(b));
     for (const orbit of order) this.plot(orbit, 0);
     this.showPoints();
   }
@@ -305,7 +363,8 @@ class SectionView {
   plot(orbit, from) {
     const { pixels, image, ratio, svg } = this;
     const colour = orbit.colour(this.colours);
-    const size = orbit.isSea() ? 0.7 : 1.7;
+    const sea = orbit.isSea();
+    const size = orbit.chosen ? (sea ? 1.7 : 3) : sea ? 0.7 : 1.7;
     if (svg) {
       const places = [];
       this.eachPoint(orbit, from, 1, size, (left, top) => places.push(left, top));
@@ -456,6 +515,11 @@ class SectionView {
       const [x, xdot, udot] = [0, 1, 2].map((i) => states.map((state) => state[i]));
       this.stroke(cursors, { x, xdot, udot }, colours.focus, 4);
     }
+    if (this.corners) {
+      const [[a, b], [c, d]] = this.corners;
+      cursors.strokeStyle = colours.focus;
+      cursors.strokeRect(Math.min(a, c), Math.min(b, d), Math.abs(c - a), Math.abs(d - b));
+    }
     if (this.cross) {
       const [left, top] = this.cross;
       for (const [colour, width] of [[colours.page, 4], [colours.focus, 1.5]]) {
@@ -506,9 +570,21 @@ function readColours() {
   const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
   [colours.regular, colours.chaotic] = colours.hues;
-  colours.young = colours.sea;
+  colours.ramp = style.getPropertyValue("--ramp").trim().split(" ");
   colours.font = getComputedStyle(document.body).fontFamily;
   return colours;
+}
+
+/** A colour at a share, from 0 to 1, of the way along colours #rrggbb in equal steps. */
+function mixed(stops, share) {
+  const at = Math.min(1, Math.max(0, share)) * (stops.length - 1);
+  const index = Math.min(stops.length - 2, Math.floor(at));
+  const part = (stop, i) => parseInt(stop.slice(i, i + 2), 16);
+  const bytes = [1, 3, 5].map((i) => {
+    const [low, high] = [part(stops[index], i), part(stops[index + 1], i)];
+    return Math.round(low + (at - index) * (high - low)).toString(16).padStart(2, "0");
+  });
+  return `#${bytes.join("")}`;
 }
 
 /** A colour #rrggbb as a pixel of a canvas (little endian, as all browsers' machines are). */

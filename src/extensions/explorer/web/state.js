@@ -7,8 +7,9 @@
  * on the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
  */
 const MOST_ORBITS = 64;
-const MOST_IMPACTS = 1000000; // of an orbit
-const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1] };
+const MOST_IMPACTS = 10000000; // of an orbit, in 320 MB
+const COLOURS = ["orbit", "verdict", "rotation", "exponent"];
+const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
   return {
@@ -20,6 +21,7 @@ function freshState() {
     orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
+    near: [], // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
     periods: [], // periods of the periodic orbits on the section
     branches: [], // {period, type, nth, saddle (-1: all), kind, side, length}
     jump: false,
@@ -32,31 +34,44 @@ function freshState() {
   };
 }
 
-/** What is wrong with a value of k, g or E, in a line; empty if it is allowed. */
-function parameterError(name, text, { k, g }) {
-  const value = readNumber(text);
-  const show = (number) => shortNumber(number, 4);
-  if (Number.isNaN(value)) return `${name} = ${text.trim() || "nothing"} is not allowed: a number`;
-  if (name === "k" && !(value > 0 && value <= 1)) {
-    return `k = ${text.trim()} is not allowed: above 0, at most 1 (a sphere has at most 1/3)`;
-  }
-  if (name === "g" && !(value > 0 && value < k)) {
-    return `g = ${text.trim()} is not allowed: between 0 and k = ${show(k)}`;
-  }
-  if (name === "E") {
-    const [low, high] = geometry.energyBounds(k, g);
-    if (!(value > low && value < high)) {
-      const range = `between −g²/2k = ${show(low)} and k/2 − g = ${show(high)}, eq. (31)`;
-      return `E = ${text.trim()} is not allowed: ${range}`;
-    }
-  }
-  return "";
+/** The open range of k, g or E at the other two values; k may also be 1. */
+function rangeOf(name, { k, g, E }) {
+  if (name === "k") return [Math.max(g, 2 * (E + g)), E < 0 ? Math.min(1, (g * g) / (-2 * E)) : 1];
+  if (name === "g") return [Math.sqrt(Math.max(0, -2 * k * E)), Math.min(k, 0.5 * k - E)];
+  return geometry.energyBounds(k, g);
 }
 
-/** A number that was typed, with a comma or a real minus sign too; NaN if it is none. */
+/** What is wrong with a value of k, g or E beside the other two, in a line; empty if it is allowed. */
+function parameterError(name, text, ball) {
+  const value = readNumber(text);
+  const refused = `${name} = ${String(text).trim() || "nothing"} is not allowed`;
+  if (Number.isNaN(value)) return `${refused}: a number`;
+  if (name === "k" && !(value > 0 && value <= 1)) return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
+  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: between 0 and k = ${shortNumber(ball.k, 4)}`;
+  const [low, high] = rangeOf(name, ball).map((end) => shortNumber(end, 4));
+  if (ballAllowed({ ...ball, [name]: value })) return "";
+  if (name === "E") return `${refused}: between −g²/2k = ${low} and k/2 − g = ${high}, eq. (31)`;
+  const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
+  return `${refused}: between ${low} and ${high} at ${others.join(" and ")}, eq. (31)`;
+}
+
+function ballAllowed({ k, g, E }) {
+  const [low, high] = geometry.energyBounds(k, g);
+  return k > 0 && k <= 1 && g > 0 && g < k && E > low && E < high;
+}
+
+/** A number or a fraction that was typed, with a comma or a real minus sign too; NaN if it is none. */
 function readNumber(text) {
-  const plain = String(text).trim().replace("−", "-").replace(",", ".");
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  const plain = String(text).trim().replace("−", "-").replaceAll(",", ".");
+  const match = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(?:\s*\/\s*(\d+\.?\d*|\.\d+))?$/i.exec(plain);
+  const value = match ? Number(match[1]) / Number(match[2] ?? 1) : NaN;
+  return Number.isFinite(value) ? value : NaN;
+}
+
+/** A count that was typed, also with commas between thousands; NaN if it is none. */
+function readCount(text) {
+  const plain = String(text).trim().replace(/^\d{1,3}(,\d{3})+$/, (count) => count.replaceAll(",", ""));
+  return /[.,]/.test(plain) ? NaN : readNumber(plain);
 }
 
 /** A number with so many significant digits, with a proper minus sign. */
@@ -81,6 +96,7 @@ function writeAddress(state) {
     ["chosen", state.chosen],
     ["motion", state.motion ? writeMotion(state.motion) : ""],
     ["periods", state.periods.join(",")],
+    ["near", state.near.map(writeNear).join(";")],
     ["branches", state.branches.map(writeBranch).join(";")],
     ["jump", state.jump ? 1 : ""],
     ["chart", state.chart],
@@ -98,7 +114,11 @@ function writeOrbit({ p, q, xy, impacts, back, sea }) {
   return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
 }
 
-const KIND_LETTERS = { elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
+function writeNear({ p, q, period }) {
+  return `${p}:${q}*${period}`;
+}
+
+const KIND_LETTERS = { near: "n", elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
 const LETTER_KINDS = Object.fromEntries(Object.entries(KIND_LETTERS).map(([a, b]) => [b, a]));
 
 function writeMotion({ period, type, nth }) {
@@ -123,8 +143,8 @@ function readAddress(text) {
   };
   const whole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
   const motion = (name, value) => {
-    const match = /^(\d+)([ehi])(\d+)$/.exec(value);
-    if (!match || !whole(1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
+    const match = /^(\d+)([ehi])(\d+)$|^(0)(n)(\d+)$/.exec(value)?.filter((part) => part !== undefined);
+    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
     return { period: Number(match[1]), type: LETTER_KINDS[match[2]], nth: Number(match[3]) };
   };
   const one = (name, value, words) => {
@@ -143,13 +163,13 @@ function readAddress(text) {
       if (!(half > 0)) fail("view", value, "a size above 0");
       state.view = { kind, azimuth, elevation, x, y, half };
     },
-    colour: (value) => (state.colour = one("colour", value, ["orbit", "verdict"])),
+    colour: (value) => (state.colour = one("colour", value, COLOURS)),
     orbits(value) {
       state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
         const match = /^(@?)([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
         if (!match) fail("orbits", part, "a start like 0.5*3000, 0.1:0.2*3000 or @x:y*3000 is needed");
         const at = [number("a start", match[2]), match[3] ? number("a start", match[3]) : 0];
-        const impacts = number("impacts", match[4], "1 to 1000000", whole(1, MOST_IMPACTS));
+        const impacts = number("impacts", match[4], `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
         return { part, at, typed: match[1] !== "", impacts, back: match[5] !== "", sea: match[6] !== "" };
       });
     },
@@ -159,12 +179,19 @@ function readAddress(text) {
       const read = (part) => number("periods", part, "1 to 12", whole(1, 12));
       state.periods = [...new Set(value.split(",").map(read))];
     },
+    near(value) {
+      state.near = value.split(";").map((part) => {
+        const [p, q, period] = part.split(/[:*]/).map((text) => number("near", text));
+        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period))) fail("near", part, "a place and a period, like 0.1:0.2*6");
+        return { p, q, period };
+      });
+    },
     branches(value) {
       state.branches = value.split(";").map((part) => {
         const [orbit, saddle, kind, side, length] = part.split(",");
         return {
           ...motion("branches", orbit ?? ""),
-          saddle: number("branches", saddle ?? "", "a saddle's index", whole(-1, 11)),
+          saddle: number("branches", saddle ?? "", "a saddle's index", whole(-1, MOST_PERIOD - 1)),
           kind: one("branches", kind ?? "", ["stable", "unstable", "both"]),
           side: one("branches", side ?? "", ["outer", "inner", "both"]),
           length: number("branches", length ?? "", "a length up to 20", (v) => v > 0 && v <= 20),
@@ -178,7 +205,7 @@ function readAddress(text) {
     next(value) {
       state.back = value.endsWith("<");
       const count = value.replace("<", "");
-      state.impacts = number("next", count, "1 to 1000000", whole(1, MOST_IMPACTS));
+      state.impacts = number("next", count, `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
     },
     preset: (value) => (state.preset = value),
   };
@@ -189,10 +216,10 @@ function readAddress(text) {
     else if (at > 0) fail(name, part.slice(at + 1), "no such field");
     else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
   }
-  for (const [name, value] of Object.entries({ k: state.k, g: state.g, E: state.energy })) {
-    const error = parameterError(name, String(value), state);
-    if (error) throw new Error(`the address has ${error}`);
-  }
+  const { k, g, energy: E } = state;
+  const wrong = !(k > 0 && k <= 1) ? "k" : !(g > 0 && g < k) ? "g" : "E";
+  const error = parameterError(wrong, String({ k, g, E }[wrong]), { k, g, E });
+  if (error) throw new Error(`the address has ${error}`);
   state.orbits = state.orbits.map(({ part, at, typed, ...rest }) => {
     const [p, q] = typed ? geometry.placeAt(state.k, state.g, state.energy, ...at) : at;
     if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");

@@ -9,7 +9,11 @@ let rate = 200; // impacts in a ms, as measured last
 const jobs = {
   /** Begin to follow an orbit; the state of a backward one has been mirrored by the page. */
   open({ key, k, g, energy, state }) {
-    followers.set(key, new analysis.Follower(k, g, energy, state));
+    try {
+      followers.set(key, new analysis.Follower(k, g, energy, state));
+    } catch ({ message }) {
+      followers.set(key, { refused: message });
+    }
   },
 
   reset() {
@@ -30,15 +34,25 @@ const jobs = {
       const follower = followers.get(key);
       const impacts = Math.max(1, Math.min(most, Math.round((rate * time) / known.length)));
       const begin = performance.now();
-      const { x, xdot, udot, tau } = follower.advance(impacts);
+      let piece = { x: [], xdot: [], udot: [], tau: [] };
+      try {
+        if (!follower.refused) piece = follower.advance(impacts);
+      } catch ({ message }) {
+        follower.refused = message; // where the kernel finds no impact
+      }
       const measured = impacts / Math.max(0.01, performance.now() - begin); // clocks may be coarse
       if (impacts > 100) rate = Math.min(2 * rate, Math.max(rate / 2, measured));
-      return { key, x, xdot, udot, tau, facts: follower.facts() };
+      const { x, xdot, udot, tau } = piece;
+      return { key, x, xdot, udot, tau, facts: follower.facts?.() ?? null, refused: follower.refused };
     });
   },
 
   periodic({ k, g, energy, period }) {
     return analysis.periodicOrbits(k, g, energy, period);
+  },
+
+  near({ k, g, energy, p, q, period }) {
+    return analysis.nearestOrbit(k, g, energy, p, q, period);
   },
 
   branch({ k, g, energy, points, spec }) {

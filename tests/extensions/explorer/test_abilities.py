@@ -1,0 +1,174 @@
+"""A box to zoom into, orbits that run on, periodic orbits near a click, and colours by numbers."""
+
+import numpy as np
+import pytest
+from person import DISK, WHOLE, Visitor
+from project import wait_for
+from selenium.webdriver import Keys
+
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.variables import of_type
+
+pytestmark = pytest.mark.slow  # it sees no figure
+BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
+NEAREST = """return pseudorigid && new Computer().ask("near",
+    { k: 0.2, g: 0.04, energy: 0.01, p: args[0], q: args[1], period: args[2] })"""
+
+
+@pytest.mark.parametrize("way", ["shift", "button", "touch", "keys"])
+def test_a_box_fills_the_view(person, way):
+    """Its middle is the view's middle, whichever corner comes first, and no orbit starts."""
+    person.open(DISK)
+    ends = person.spot(-0.5, 0.3), person.spot(0.1, -0.3)
+    if way == "shift":
+        chain = person.pointer(ends[1]).key_down(Keys.SHIFT).click_and_hold()
+        chain.move_to_element_with_offset(person.find("section"), *ends[0]).release()
+        chain.key_up(Keys.SHIFT).perform()
+    elif way == "keys":
+        box = person.find("section")
+        person.run("document.getElementById('section').focus()")
+        box.send_keys(*[Keys.ARROW_LEFT] * 8, "b", *[Keys.ARROW_RIGHT] * 6, *[Keys.ARROW_UP] * 6)
+        box.send_keys("b")
+        view = person.view()
+        assert view.half < 0.6 * WHOLE and view.x < -0.1 and view.y > 0.1
+        return
+    else:
+        person.press("box")
+        assert person.find("box").get_attribute("aria-pressed") == "true"
+        if way == "button":
+            person.drag(*ends)
+        else:
+            box = person.find("section").rect
+            (a, b), (c, d) = [(0.5 + e[0] / box["width"], 0.5 + e[1] / box["height"]) for e in ends]
+            person.dispatch("pointerdown pointermove", a, b, pointerType="touch")
+            person.dispatch("pointermove pointerup", c, d, pointerType="touch")
+        assert person.find("box").get_attribute("aria-pressed") == "false"
+    view = person.view()
+    assert (view.x, view.y) == pytest.approx((-0.2, 0.0), abs=0.01)
+    assert view.half < 0.6 * WHOLE
+    assert person.starts() == []
+    person.drag(person.spot(0.0, 0.5), person.spot(0.1, 0.4))  # moves the view as before
+    assert person.view().half == view.half and person.view().x < view.x
+
+
+def test_an_orbit_runs_on_until_it_is_stopped(person):
+    person.open(f"{DISK}&orbits=0.5*100;0.534522*100&chosen=1")
+    person.press("run-on")
+    count = "return Number(facts()[1].split(' ')[0].replaceAll(',', ''))"
+    wait_for(lambda: person.run(count) > 20_000)
+    assert person.text("run-on") == "Stop"
+    person.press("run-on")
+    person.settle()
+    assert person.text("run-on") == "Run on"
+    impacts = person.run(count)
+    assert person.state()["orbits"] == f"0.5*100;0.534522*{impacts}"
+    person.reload()  # the link has the same orbit
+    found = person.states()
+    expected = BALL.after(BALL.start(0.534522, ENERGY), impacts)
+    assert len(found) == impacts + 1 and found[-1].tolist() == np.ravel(expected)[:3].tolist()
+
+
+def test_the_nearest_orbit_is_python_s_where_it_is_symmetric(person):
+    centre, radius = BALL.section(ENERGY)[:2]
+    height = np.sqrt(BALL.k * (1 + BALL.k)) * radius
+    for period in (1, 5, 6, 10):
+        for row in range(symmetric_orbits(BALL, ENERGY, period).sizes["orbit"]):
+            orbit = symmetric_orbits(BALL, ENERGY, period).isel(orbit=row)
+            x, y = orbit["x"].values, orbit["xdot"].values - BALL.k * orbit["udot"].values
+            p, q = (x[0] - centre) / radius + 3e-4, y[0] / height - 2e-4
+            for wanted in (period, 0):
+                one = person.run(NEAREST, p, q, wanted)
+                if wanted or one["period"] == period:
+                    assert one["type"] == orbit["type"].item()
+                    assert one["trace"] == pytest.approx(orbit["trace"].item(), rel=1e-8, abs=1e-8)
+                    assert np.allclose([point[0] for point in one["points"]], x, atol=1e-11)
+
+
+@pytest.mark.parametrize("period", [*range(0, 25, 3), 23])
+def test_found_orbits_close_and_have_their_prime_period(person, period):
+    for p, q in ((0.2, 0.3), (-0.2, 0.05), (0.6, -0.2)):
+        one = person.run(NEAREST, p, q, period)
+        if one is None:
+            continue
+        assert one["period"] == (period or one["period"]) <= 24
+        points = np.array(one["points"])
+        after = np.ravel(BALL.after(points[0, :3], one["period"]))[:3]
+        assert np.allclose(after, points[0, :3], atol=1e-15 * max(10.0, 10 * abs(one["trace"])))
+        apart = np.abs(points[1:, :3] - points[0, :3]).max(axis=1, initial=0.0)
+        assert np.all(apart > 1e-7) or one["period"] == 1
+        trace = np.trace(BALL.chart_jacobian(*points[0, :3], one["period"]))
+        assert one["trace"] == pytest.approx(trace, rel=1e-6, abs=1e-6)
+
+
+def test_a_click_finds_a_saddle_with_its_branches_and_the_link_keeps_them(person):
+    saddle = of_type(symmetric_orbits(BALL, ENERGY, 6), "hyperbolic").isel(point=0)
+    centre, radius = BALL.section(ENERGY)[:2]
+    height = np.sqrt(BALL.k * (1 + BALL.k)) * radius
+    y = (saddle["xdot"] - BALL.k * saddle["udot"]).item()
+    person.open(DISK)
+    person.unfold("periodic-panel")
+    person.set("near-period", "6")
+    person.press("pick")
+    person.click((saddle["x"].item() - centre) / radius, y / height)
+    wait_for(lambda: "4 branches" in person.text("branch-note"))
+    assert person.starts() == []  # no orbit has started there
+    residue = 0.25 * (2 - saddle["trace"].item())
+    assert f"period 6: hyperbolic, residue {residue:.5g}".replace("-", "−") in person.text("hint")
+    facts = person.text("periodic")
+    state = person.state()
+    assert state["motion"] == "0n0" and state["branches"].startswith("0n0,0,both,both,")
+    picture = person.pixels()
+    person.open(person.run("return location.hash.slice(1)"))
+    wait_for(lambda: "4 branches" in person.text("branch-note"))
+    assert person.text("periodic") == facts and person.state() == state
+    assert np.mean(np.any(person.pixels() != picture, axis=2)) < 1e-3
+    person.click(0.5, 0.3)  # clicks start orbits again
+    assert len(person.settled()) == 1
+    person.press("forget")
+    assert "near" not in person.state() and person.text("periodic") == ""
+
+
+def test_branches_of_an_orbit_that_is_not_symmetric_lead_to_it(person):
+    """Their first points are near the saddle, also those of the mirror image's branch."""
+    script = """const worker = new Computer(), ball = { k: 0.2, g: 0.04, energy: 0.01 };
+        const one = await worker.ask("near", { ...ball, p: args[0], q: args[1], period: 24 });
+        const lines = [];
+        for (const stable of [true, false]) {
+          const spec = { saddle: 0, side: "outer", stable, length: 0.2 };
+          const line = await worker.ask("branch", { ...ball, points: one.points, spec });
+          lines.push([line.x[5], line.xdot[5], line.udot[5], line.x.length]);
+        }
+        return [one.points[0], one.period, ...lines];"""
+    for place in ((0.5, 0.5), (0.3, -0.4)):
+        point, _, *lines = person.run(script, *place)
+        for line in lines:
+            assert np.abs(np.subtract(line[:3], point[:3])).max() < 1e-6
+            assert line[3] > 20
+
+
+@pytest.mark.parametrize("colour", ["rotation", "exponent"])
+def test_orbits_have_colours_by_a_number(person, colour):
+    person.open(f"{DISK}&orbits=-0.4*900;-0.2*900;0.05*900;0.534522*900")
+    person.press(f"by-{colour}")
+    rows, swatches = person.settled(), person.run("return swatches()")
+    values = [float(row[colour]) for row in rows]
+    stops = person.run(
+        "return getComputedStyle(document.documentElement).getPropertyValue('--ramp').split(' ')"
+    )
+    rgb = [tuple(int(stop[i : i + 2], 16) for i in (1, 3, 5)) for stop in (stops[0], stops[-1])]
+    assert swatches[int(np.argmin(values))] == f"rgb{rgb[0]}"
+    assert swatches[int(np.argmax(values))] == f"rgb{rgb[1]}"
+    assert len(set(swatches)) == 4
+    assert person.state()["colour"] == colour
+    person.reload()
+    assert person.run("return swatches()") == swatches
+
+
+def test_the_same_orbit_is_found_in_firefox(firefox, chromium, address):
+    script = NEAREST.replace("return pseudorigid &&", "return await")
+    found = []
+    for browser in (firefox, chromium):
+        Visitor(browser, address).open(DISK)
+        found.append([browser.run(script, 0.2, 0.3, 0), browser.run(script, -0.15, 0.05, 0)])
+    assert found[0] == found[1]
+    assert firefox.errors() == []

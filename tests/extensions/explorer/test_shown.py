@@ -1,0 +1,94 @@
+"""What the explorer shows stands out, has names and numbers, and stays in sight."""
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from person import DISK
+from project import wait_for
+
+pytestmark = pytest.mark.slow  # it sees no figure
+
+
+def svg_texts(person):
+    root = ElementTree.fromstring(person.saved("svg")[1])
+    return [node.text for node in root.iter("{http://www.w3.org/2000/svg}text")]
+
+
+def colours_near(person):
+    """The section's pixels, as a count of each colour."""
+    colours, counts = np.unique(person.pixels()[..., :3].reshape(-1, 3), axis=0, return_counts=True)
+    return {tuple(map(int, c)): int(n) for c, n in zip(colours, counts, strict=True)}
+
+
+@pytest.mark.parametrize("colour", ["orbit", "verdict"])
+@pytest.mark.parametrize("start", [0.5, -0.2])
+def test_the_chosen_orbit_stands_out(person, colour, start):
+    """Also a chaotic one on the sea: much of the picture changes, and the rest does not."""
+    orbits = f"0.534522*9000;-0.2001*900;0.1*900;{start}*900"
+    person.open(f"{DISK}&colour={colour}&orbits={orbits}&chosen=2")
+    before = person.pixels()
+    person.run("document.querySelectorAll('#orbits input')[3].click()")
+    after = person.pixels()
+    person.run("document.querySelectorAll('#orbits input')[2].click()")
+    assert np.mean(np.any(person.pixels() != before, axis=2)) < 1e-3
+    assert np.sum(np.any(before != after, axis=2)) > 600
+
+
+def test_a_click_in_the_sea_is_seen_at_once(person):
+    person.open(f"{DISK}&orbits=0.534522*20000&next=800")
+    ink, before = (27, 31, 36), colours_near(person)
+    person.click(0.5, 0.3)
+    assert person.settled()[1]["verdict"] == "chaotic"
+    assert colours_near(person)[ink] > before.get(ink, 0) + 500
+
+
+def test_all_buttons_have_different_names(person):
+    names = person.run(
+        "return [...document.querySelectorAll('button[id]')].map(n => n.ariaLabel || n.textContent)"
+    )
+    assert len(set(names)) == len(names)
+    saved = "const make = HTMLAnchorElement.prototype.click; globalThis.names = [];"
+    saved += "HTMLAnchorElement.prototype.click = function () { names.push(this.download); }"
+    person.run(saved)
+    for name in ("png2", "png4", "svg"):
+        person.saved(name)
+    assert len({*person.run("return names")}) == 3
+
+
+@pytest.mark.parametrize("name", ["fig6", "below/fig6", "thin-shell/fig6"])
+def test_figure_6_has_the_paper_s_axes(person, name):
+    person.open(name)
+    wait_for(lambda: "branches of" in person.text("branch-note"))
+    texts = svg_texts(person)
+    assert "x" in texts and "ẋ⁻" in texts and not any("y =" in text for text in texts)
+    numbers = [float(t.replace("−", "-")) for t in texts if re.fullmatch(r"[−\d.]+", t)]
+    if name == "fig6":
+        assert {0.2105, 0.2115} <= set(numbers) and any(0.0925 < n < 0.0932 for n in numbers)
+
+
+def test_the_half_ellipsoid_has_numbers_at_its_axes(person):
+    for view in ("115,40", "30,20", "250,70"):
+        person.open(f"orbits=0.1*10&view=surface,{view},0,0,1.12")
+        texts = svg_texts(person)
+        assert {"x", "ẋ⁻", "u̇⁻"} <= set(texts)
+        assert sum(bool(re.fullmatch(r"[−\d.]+", text)) for text in texts) >= 8
+
+
+def test_the_section_stays_in_sight_on_a_phone(person):
+    metrics = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+    person.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    try:
+        person.open()
+        for name in ("k-slide", "g-slide", "E-slide"):
+            section, slide = person.run(
+                "const [a, b] = ['section', args[0]].map(n => document.getElementById(n));"
+                "b.scrollIntoView({block: 'center'});"
+                "return [a, b].map(n => n.getBoundingClientRect())",
+                name,
+            )
+            assert section["top"] >= 0 and section["bottom"] < slide["top"]
+            assert slide["bottom"] < 844
+    finally:
+        person.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
