@@ -72,9 +72,9 @@ def calls() -> dict[str, Call]:
     sea, many_orbits = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     states_20, states_500 = (certified_orbit(BALL, sea, count)[0] for count in (20, 500))
     scan, careful = scan_method(0.1, 1e-12), careful_method(0.5)
-    heyoka, whole = libraries.careful_taylor_method(1e-15), libraries.taylor_orbit
-    cyrk = libraries.careful_cyrk_method("DOP853", 1e-9)
-    dop853 = libraries.careful_ivp_method("DOP853", 1e-9)
+    heyoka, whole = libraries.taylor_method(1e-15), libraries.taylor_orbit
+    cyrk = libraries.cyrk_method("DOP853", 1e-9)
+    dop853 = libraries.ivp_method("DOP853", 1e-9)
     spectrum = partial(lyapunov_spectrum, BALL, records=1)
     pynamicalsys = partial(libraries.lyapunov_exponents, BALL, sea, IMPACTS)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
