@@ -1,20 +1,19 @@
-"""Ratios of speed: medians of interleaved repetitions, in one run on one core.
+"""./reproduce benchmark: ratios of speed, medians of interleaved calls in one run on one core.
 
-`run` returns lines of text for `./reproduce benchmark`; no figure depends on them. Seconds are
-those of the processor, so that other work on the machine shows less. Calls take turns, so that what
-slows the machine down slows all of them.
+No figure depends on them. Seconds are those of the processor, so that other work on the machine
+shows less. Calls take turns, so that what slows the machine down slows all of them.
 """
 
 import os
 import statistics
-import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from importlib import import_module
-from types import ModuleType
 
 import numpy as np
 
+from pipeline.cli.arguments import Arguments
+from pipeline.declaration import parts
 from pseudorigid.dynamics import branch as branch_rule
 from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
@@ -45,11 +44,13 @@ BRANCH, NONE = "that branch here", "a search finding none"
 Triple = tuple[float, float, float]
 
 
-def run(more: Iterable[ModuleType] = ()) -> list[str]:
-    """Return the table's lines: label, seconds, ratio and aim; then machine and versions.
+def run(args: Arguments) -> int:
+    """Print the table: label, seconds, ratio and aim; then machine and versions.
 
-    Each module of `more`, which a part declares, adds calls(), and lines(seconds) on them.
+    A module that a part declares as `benchmark` adds calls(), and lines(seconds) on them.
     """
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
+    more = [import_module(part.benchmark) for part in parts().values() if part.benchmark]
     timed = calls()
     for module in more:
         timed |= module.calls()
@@ -64,7 +65,8 @@ def run(more: Iterable[ModuleType] = ()) -> list[str]:
     lines += [f"{name}: {_spread(seconds[name])}" for name in (THREE, SPECTRUM)]
     for module in more:
         lines += module.lines(seconds)
-    return [*lines, ", ".join(f"{key} {value}" for key, value in machine().items())]
+    print(*lines, ", ".join(f"{key} {value}" for key, value in machine().items()), sep="\n")
+    return 0
 
 
 def calls() -> dict[str, Call]:
@@ -175,8 +177,3 @@ def _from_the_segment(branch: Callable[[], object]) -> None:
         branch()
     finally:
         branch_rule.WEAK = usual
-
-
-if __name__ == "__main__":
-    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
-    print("\n".join(run([*map(import_module, sys.argv[1:])])))

@@ -1,17 +1,6 @@
 """Methods of scipy, CyRK, heyoka and pynamicalsys, which has Lyapunov exponents.
 
-Each is there as it is usually written, and with care. With care means:
-
-- The gap z and its speed are variables of the system, z'' = g - u, u'' = -u, so that near grazing
-  nothing cancels.
-- A flight starts on the exact flight at a thousandth of its contact speed s (a time that is shorter
-  than any first root), with an absolute tolerance in proportion to s.
-- The first step ends before the first root.
-- A second event, where the gap's speed falls through 0, shows touches that are shorter than a step.
-
-As usually written, (x, u) and their speeds are integrated from 1e-9 after the impact, because event
-detection looks for a change of sign, and the gap is 0 at the impact itself.
-
+Each is there as it is usually written, and with care; src/study/README.md says what that means.
 CyRK, heyoka and pynamicalsys are imported when they are first used, since their packages are
 installed for the study alone.
 """
@@ -35,8 +24,9 @@ from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import Flights, Method
 
-# Time after the impact at which a flight begins as usually written. Above x = -g a flight with
-# xdot + udot below about 1e-10 may be shorter; its end is then wrong or missed.
+# Time after the impact at which a flight begins as usually written: the gap is 0 at the impact, and
+# events are changes of sign. Above x = -g a flight with xdot + udot below about 1e-10 may be
+# shorter; its end is then wrong or missed.
 AFTER = 1e-9
 _START = 1e-3  # the same with care, in units of s: a flight lasts for 2 s/(g + A) or longer
 _ATOL = 1e-3  # absolute tolerance over the relative one, in units of s with care
