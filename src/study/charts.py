@@ -55,6 +55,7 @@ _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 _SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "s", -0.14)  # colour, mark and rise in a row
+_COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
@@ -182,8 +183,7 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     drift = _from_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
-    powers = ["0", *(rf"$10^{e}$" for e in range(5))]
-    up = replace(_from_zero(-1, 4, "Impacts missed in a million", 1), labels=powers)
+    up = replace(_from_zero(-1, 4, "Impacts missed in a million", 1), labels=_COUNTS)
     lower = PanelWithZeros(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
     letters(sheet, upper.frame, lower.frame)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
@@ -264,10 +264,10 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
     sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
-    up = _from_zero(-1, 4.3, "Impacts missed", 1)
-    exponents = range(3, 10)
-    labels = [rf"$10^{exponent}$" for exponent in exponents]
-    across = Axis((2.5, 9.5), exponents, "Flights of the chaotic sea", labels=labels)
+    up = replace(_from_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
+    powers = range(3, len(str(data["long_flights"].values[-1])))
+    labels, limits = [rf"$10^{power}$" for power in powers], (2.5, powers[-1] + 0.5)
+    across = Axis(limits, powers, "Flights of the chaotic sea", labels=labels)
     upper = PanelWithZeros(sheet, (LEFT, top - 470, RIGHT, top), across, up)
     for i, (name, (_, color, marker, hollow)) in enumerate(styles.items()):
         aside = 0.09 * (i - 0.5 * (len(styles) - 1))

@@ -163,7 +163,7 @@ if __name__ == "__main__":
     for name, values, work, seconds in rows:
         *sea, regular = values
         error = np.std(sea, ddof=1) / math.sqrt(len(sea))
-        print(f"exponents, {name}: sea {np.mean(sea):.4f} +- {error:.4f}, regular {regular:.6f},")
+        print(f"exponents, {name}: sea {np.mean(sea):.4f} +- {error:.4f}, regular {regular:.9f},")
         print(f"    {work:.3g} evaluations, {seconds / rows[0][-1]:.3g} times the first")
     for n in PERIODS:
         for index, name in enumerate(METHODS):
