@@ -3,7 +3,7 @@
     export PYTHONPATH=src
     .venv/bin/python tests/study/record.py libraries   # the methods of libraries, five minutes
     .venv/bin/python tests/study/record.py search      # states at which methods fail, five minutes
-    .venv/bin/python tests/study/record.py flights     # misses among 1e9 flights, 25 minutes
+    .venv/bin/python tests/study/record.py flights     # misses among 1e9 flights, 21 minutes
     .venv/bin/python tests/study/record.py trials      # forms that were tried and were worse
 
 Each was run once, on one core. recorded.json names the processor and the versions of packages, and
