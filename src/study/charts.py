@@ -265,17 +265,18 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     rows = len(searched)
     sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
     up = replace(_from_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
-    powers = range(3, len(str(data["long_flights"].values[-1])))
+    flights = [*data["flights"].values, *data["long_flights"].values]
+    powers = [len(str(n)) - 1 for n in flights]
     labels, limits = [rf"$10^{power}$" for power in powers], (2.5, powers[-1] + 0.5)
     across = Axis(limits, powers, "Flights of the chaotic sea", labels=labels)
     upper = PanelWithZeros(sheet, (LEFT, top - 470, RIGHT, top), across, up)
     for i, (name, (_, color, marker, hollow)) in enumerate(styles.items()):
         aside = 0.09 * (i - 0.5 * (len(styles) - 1))
-        for part in ("", "long_"):
-            flights = [len(str(n)) - 1 + aside for n in data[f"{part}flights"].values]
-            for count in data[f"{part}missed"].values[data[f"{part}name"].values == name]:
-                upper.line(flights, count, color=color, lw=0.6)
-                upper.dots(flights, count, color, hollow=hollow, marker=marker)
+        own = (data[f"{part}missed"].values[data[f"{part}name"] == name] for part in ("", "long_"))
+        count = np.concatenate([row for rows in own for row in rows])
+        x = np.array(powers[: count.size]) + aside
+        upper.line(x, count, color=color, lw=0.6)
+        upper.dots(x, count, color, hollow=hollow, marker=marker)
     method_key(sheet, [*styles.values()], top - 610)
     high = top - 660 - _KEY_LINE * math.ceil(len(styles) / _KEY_COLUMNS)
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)

@@ -123,7 +123,7 @@ def test_missed_impacts_are_drawn_at_their_numbers():
             "name": ("method", names), "family": ("method", of),
             "flights": ("flights", [1000, 10_000]),
             "missed": (("method", "flights"), count), "long_name": ("long", names),
-            "long_flights": ("long_flights", [100_000_000]),
+            "long_flights": ("long_flights", [100_000]),
             "long_missed": (("long", "long_flights"), [[0], [100]]),
             "searched_name": ("searched", names),
             "families": ("drawn", ["near_the_rim", "touches"]),
