@@ -147,3 +147,16 @@ def test_the_figures_of_the_paper_need_nothing_of_the_study():
 def test_a_comparison_loads_no_drawing(module):
     """Otherwise seconds would be measured again after a change of a drawing."""
     assert not any("figures" in file for file in source_files(module))
+
+
+def test_recorded_trials_are_worse_than_the_methods(monkeypatch):
+    """Care that was tried in another form fails at grazing states, as recorded."""
+    data = stages.recorded("trials")
+    wrong = dict(zip(data["trial"].values.tolist(), data["wrong_states"].values, strict=True))
+    assert {n for text, n in wrong.items() if "its own" in text or "a first call" in text} == {0}
+    columns = states.grazing(500)[:, :60]
+    method = libraries.ivp_method("LSODA", 1e-3)
+    assert not stages.wrong_roots([method], columns).any()
+    monkeypatch.setattr(libraries, "_CHOOSES_FIRST_STEP", ())
+    share = wrong["LSODA with care, 1e-03, our first step"] / 500
+    assert stages.wrong_roots([method], columns).mean() == pytest.approx(share, abs=0.2)
