@@ -1,21 +1,19 @@
-"""Ratios of speed: medians of interleaved repetitions, in one run on one core.
+"""./reproduce benchmark: ratios of speed, medians of interleaved calls in one run on one core.
 
-`run` returns lines of text for `./reproduce benchmark`; no figure depends on them. Seconds are
-those of the processor, so that other work on the machine shows less. Calls take turns, so that what
-slows the machine down slows all of them.
+No figure depends on them. Seconds are those of the processor, so that other work on the machine
+shows less. Calls take turns, so that what slows the machine down slows all of them.
 """
 
 import os
 import statistics
-import sys
 import time
 from collections.abc import Callable
-from functools import partial
 from importlib import import_module
-from types import ModuleType
 
 import numpy as np
 
+from pipeline.cli.arguments import Arguments
+from pipeline.declaration import parts
 from pseudorigid.dynamics import branch as branch_rule
 from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
@@ -32,7 +30,8 @@ from .methods.counted_methods import careful_method, scan_method
 from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
-REPETITIONS = 9
+REPETITIONS = 9  # of a call
+FEW, SLOW = 3, 0.5  # repetitions of one that takes more than so many seconds
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
 WEAK_SADDLE_ENERGY = 0.001  # of a saddle of period 10 with a small multiplier
@@ -45,91 +44,99 @@ BRANCH, NONE = "that branch here", "a search finding none"
 Triple = tuple[float, float, float]
 
 
-def run(repetitions: int = REPETITIONS, more: tuple[ModuleType, ...] = ()) -> list[str]:
-    """Return the table's lines: label, seconds, ratio and aim; then machine and versions.
+def run(args: Arguments) -> int:
+    """Print the table: label, seconds, ratio and aim; then machine and versions.
 
-    Each module of `more`, which a part declares, adds calls(), and lines(seconds) on them.
+    A module that a part declares as `benchmark` adds calls(), and lines(seconds) on them.
     """
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
+    more = [import_module(part.benchmark) for part in parts().values() if part.benchmark]
     timed = calls()
     for module in more:
         timed |= module.calls()
-    seconds = _interleaved(timed, repetitions)
-    lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
+    seconds, times = _interleaved(timed)
+    lines = [f"{'':42}{'median (lowest-highest)':>30}  times  {'ratio':>7}  {'to':24}aim"]
     for name, call in timed.items():
         if call.base:
-            ratio = f"{seconds[name][0] / seconds[call.base][0]:7.4g}"
+            ratio = f"{times[name]:5}  {seconds[name][0] / seconds[call.base][0]:7.4g}"
             lines.append(
                 f"{name:42}{_spread(seconds[name]):>30}  {ratio}  {call.base:24}{call.aim}"
             )
     lines += [f"{name}: {_spread(seconds[name])}" for name in (THREE, SPECTRUM)]
     for module in more:
         lines += module.lines(seconds)
-    return [*lines, ", ".join(f"{key} {value}" for key, value in machine().items())]
+    print(*lines, ", ".join(f"{key} {value}" for key, value in machine().items()), sep="\n")
+    return 0
 
 
 def calls() -> dict[str, Call]:
     """Return the calls of the table by name."""
-    sea, many_orbits = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
-    states_20, states_500 = (certified_orbit(BALL, sea, count)[0] for count in (20, 500))
-    scan, careful = scan_method(0.1, 1e-12), careful_method(0.5)
-    heyoka, whole = libraries.careful_taylor_method(1e-15), libraries.taylor_orbit
-    cyrk = libraries.careful_cyrk_method("DOP853", 1e-9)
-    dop853 = libraries.careful_ivp_method("DOP853", 1e-9)
-    spectrum = partial(lyapunov_spectrum, BALL, records=1)
-    pynamicalsys = partial(libraries.lyapunov_exponents, BALL, sea, IMPACTS)
+    sea, many = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
     saddle = of_type(symmetric_orbits(BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
-    branch = partial(trace_manifold, BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
-    from_segment = partial(_from_the_segment, branch)
-    # With g = 1 the energy is E/g^2: that of E = 0.01 is 6.25.
-    search = partial(symmetric_orbits, Ball(k=BALL.k, g=1.0))
-    ensemble, stored = partial(BALL.after, many_orbits, 200), partial(_store, many_orbits, out)
-    vectors, spectra = partial(_with_tangent, many_orbits, 192), partial(spectrum, many_orbits, 192)
+    unit_g = Ball(k=BALL.k, g=1.0)  # its energy is E/g^2: that of E = 0.01 is 6.25
+
+    def flights(method: Method, aim: str, count: int = 500) -> Call:
+        """Return the call that solves flights of the sea, against those of one orbit."""
+        columns, _ = certified_orbit(BALL, sea, count)
+        return Call(lambda: method.solve(BALL, *columns), count, ORBIT, aim)
+
+    def branch() -> object:
+        return trace_manifold(BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
+
+    def spectrum(states: State, impacts: int) -> object:
+        return lyapunov_spectrum(BALL, states, impacts, records=1)
+
+    heyoka = libraries.taylor_method(1e-15)
+    cyrk, dop853 = libraries.cyrk_method("DOP853", 1e-9), libraries.ivp_method("DOP853", 1e-9)
+    n, of_stored, of_vectors = IMPACTS, LANES * 200, LANES * 192
     return {
-        THREE: Call(partial(_three_sincos, 1.0, IMPACTS), IMPACTS),
-        ONE: Call(partial(_three_sincos, 1.0, IMPACTS), 3 * IMPACTS),
-        ORBIT: Call(partial(BALL.after, sea, IMPACTS), IMPACTS, THREE, "at most 2.3"),
-        "scan 0.1, bisection to 1e-12, as usual": _flights(scan, states_500, "at least 5"),
-        "scan with care, steps of 0.5": _flights(careful, states_500, "at least 1.3"),
-        "heyoka, an orbit in one call": Call(
-            partial(whole, BALL, sea, IMPACTS), IMPACTS, ORBIT, "at least 10"
-        ),
-        "heyoka with care, a call a flight": _flights(heyoka, states_500, "at least 25"),
-        "CyRK DOP853 with care, rtol 1e-9": _flights(cyrk, states_500, "at least 100"),
-        "solve_ivp DOP853 with care (interpreted)": _flights(dop853, states_20, "at least 2000"),
-        SPECTRUM: Call(partial(spectrum, sea, IMPACTS), IMPACTS),
-        "spectrum by pynamicalsys, an impact": Call(pynamicalsys, IMPACTS, SPECTRUM, "at least 3"),
-        "ensemble, the end only, an impact": Call(ensemble, 200 * LANES, ONE, "at most 1.2"),
-        "ensemble, every impact stored": Call(stored, 200 * LANES, ONE, "at most 1.6"),
-        "ensemble with a tangent vector each": Call(
-            vectors, 192 * LANES, ONE, "at most 3; 5 with AVX2"
-        ),
-        "spectra of an ensemble, an impact": Call(spectra, 192 * LANES, SPECTRUM, "at most 0.5"),
+        THREE: Call(lambda: _three_sincos(1.0, n), n),
+        ONE: Call(lambda: _three_sincos(1.0, n), 3 * n),
+        ORBIT: Call(lambda: BALL.after(sea, n), n, THREE, "at most 2.3"),
+        "scan 0.1, bisection to 1e-12, as usual": flights(scan_method(0.1, 1e-12), "at least 5"),
+        "scan with care, steps of 0.5": flights(careful_method(0.5), "at least 1.3"),
+        "heyoka, an orbit in one call":
+            Call(lambda: libraries.taylor_orbit(BALL, sea, n), n, ORBIT, "at least 10"),
+        "heyoka with care, a call a flight": flights(heyoka, "at least 25"),
+        "CyRK DOP853 with care, rtol 1e-9": flights(cyrk, "at least 100"),
+        "solve_ivp DOP853 with care (interpreted)": flights(dop853, "at least 2000", 20),
+        SPECTRUM: Call(lambda: spectrum(sea, n), n),
+        "spectrum by pynamicalsys, an impact":
+            Call(lambda: libraries.lyapunov_exponents(BALL, sea, n), n, SPECTRUM, "at least 3"),
+        "ensemble, the end only, an impact":
+            Call(lambda: BALL.after(many, 200), of_stored, ONE, "at most 1.2"),
+        "ensemble, every impact stored":
+            Call(lambda: _store(many, out), of_stored, ONE, "at most 1.6"),
+        "ensemble with a tangent vector each":
+            Call(lambda: _with_tangent(many, 192), of_vectors, ONE, "at most 3; 5 with AVX2"),
+        "spectra of an ensemble, an impact":
+            Call(lambda: spectrum(many, 192), of_vectors, SPECTRUM, "at most 0.5"),
         BRANCH: Call(branch, 1),
-        "weak branch, each image from the segment": Call(from_segment, 1, BRANCH, "at least 5"),
-        NONE: Call(partial(search, 6.25, 12), 1),
-        "period 12 at E/g^2 = 1e5: 2,006 orbits": Call(
-            partial(search, MANY, 12), 1, NONE, "at most 50"
-        ),
-    }
+        "weak branch, each image from the segment":
+            Call(lambda: _from_the_segment(branch), 1, BRANCH, "at least 5"),
+        NONE: Call(lambda: symmetric_orbits(unit_g, 6.25, 12), 1),
+        "period 12 at E/g^2 = 1e5: 2,006 orbits":
+            Call(lambda: symmetric_orbits(unit_g, MANY, 12), 1, NONE, "at most 50"),
+    }  # fmt: skip
 
 
-def _flights(method: Method, columns: np.ndarray, aim: str) -> Call:
-    """Return the call that solves flights from states (3, n), against those of one orbit."""
-    return Call(partial(method.solve, BALL, *columns), columns.shape[1], ORBIT, aim)
+def _interleaved(timed: dict[str, Call]) -> tuple[dict[str, Triple], dict[str, int]]:
+    """Return median, lowest and highest seconds a unit of each call, and how often it was timed.
 
-
-def _interleaved(timed: dict[str, Call], repetitions: int) -> dict[str, Triple]:
-    """Return median, lowest and highest seconds a unit of each call, after one that compiles it."""
+    Before this each call is made once, so that it compiles.
+    """
     for call in timed.values():
         call.function()
     seconds: dict[str, list[float]] = {name: [] for name in timed}
-    for _ in range(repetitions):
+    for turn in range(REPETITIONS):
         for name, call in timed.items():
-            start = time.process_time()
-            call.function()
-            seconds[name].append((time.process_time() - start) / call.units)
-    return {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
+            if turn < FEW or seconds[name][0] * call.units < SLOW:
+                start = time.process_time()
+                call.function()
+                seconds[name].append((time.process_time() - start) / call.units)
+    spreads = {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
+    return spreads, {name: len(s) for name, s in seconds.items()}
 
 
 def _spread(seconds: Triple) -> str:
@@ -170,8 +177,3 @@ def _from_the_segment(branch: Callable[[], object]) -> None:
         branch()
     finally:
         branch_rule.WEAK = usual
-
-
-if __name__ == "__main__":
-    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
-    print("\n".join(run(more=tuple(map(import_module, sys.argv[1:])))))

@@ -31,11 +31,9 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "LSODA with care": (_GREY, "D"),
     "RK45 with care": (style.PURPLE, "v"),
     "scan 0.5 + bisection": (style.SKY, "o", _USUAL),
-    "scan 0.2 + bisection": ("#3d94d4", "o", _USUAL),
     "scan 0.1 + bisection": (style.BLUE, "o", _USUAL),
-    "scan 0.05 + bisection": ("#1d5a9b", "o", _USUAL),
-    "scan 0.02 + bisection": ("#123f78", "o", _USUAL),
     "scan 0.01 + bisection": ("#0b2a55", "o", _USUAL),
+    "scan 0.5 to 0.01": (style.BLUE, "o", _USUAL),
     "time stepping": (style.ORANGE, "o", _USUAL),
     "heyoka": (style.GREEN, "s", _USUAL),
     "DOP853": (style.BLACK, "^", _USUAL),
@@ -54,11 +52,10 @@ STYLES: dict[str, tuple[Any, ...]] = {
 LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
-_MOST_FLAT_SHARE = 0.02  # share below which a panel has room for the key
-_MOST_IN_PANEL = 8  # methods of that key
 _NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 _SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "s", -0.14)  # colour, mark and rise in a row
+_COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
@@ -71,6 +68,10 @@ class AxisWithZero(Axis):
     def fraction(self, values: ArrayLike) -> np.ndarray:
         """Return where values lie between the limits, 0 to 1."""
         return super().fraction(np.maximum(values, float(f"1e{self.limits[0]}")))
+
+    def texts(self) -> Sequence[str]:
+        """Return the labels of the ticks, the first of which is zero."""
+        return self.labels or ["0", *super().texts()[1:]]
 
 
 class PanelWithZeros(Panel):
@@ -96,7 +97,8 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     The worst error is at the top if a root is wrong. Marks that others would hide are larger.
     CyRK evaluates as often as DOP853, so that it is drawn against seconds alone.
     """
-    which, cost = ("uniform", "grazing").index(scene["states"]), scene["cost"]
+    which = ("uniform", "grazing").index(scene["states"])
+    cost = "seconds" if "seconds" in data else "evaluations"
     drawn = [not (f.startswith("CyRK") and cost == "evaluations") for f in data["family"].values]
     data = data.isel(set=which, method=drawn)
     present = set(data["family"].values)
@@ -104,7 +106,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     entries = _entries(families, families)
     sheet, top = chart_sheet(1280, entries)
     across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
-    median = _error_axis(_ZERO_DECADE, 0, "Median relative error of the flight time")
+    median = _from_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
     worst = replace(median, name="Worst relative error")
     panels = (
         PanelWithZeros(sheet, (LEFT, top - 480, RIGHT, top), across.blank(), median),
@@ -131,18 +133,13 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
 def edges(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the failing share against the distance from grazing, and the height of a maximum.
 
-    A ball that grazes at x > -g comes back at once, at x < -g it leaves. The key stands in a panel
-    in which no method fails, if there is one. Methods whose marks coincide take turns in front.
+    A ball that grazes at x > -g comes back at once, at x < -g it leaves. Methods whose marks
+    coincide take turns in front.
     """
     order = np.argsort([[*STYLES].index(f) for f in data["family"].values], kind="stable")
     data = data.isel(method=order)
     methods = _entries(data["name"].values, data["family"].values)
-    flat = [
-        (v, s) for v in ("near", "touch") for s in (0, 1) if data[v][:, s].max() <= _MOST_FLAT_SHARE
-    ][:1]
-    flat = flat if len(methods) <= _MOST_IN_PANEL else []
-    below = 0 if flat else _KEY_LINE * math.ceil(len(methods) / 2)
-    sheet, top = chart_sheet(1130 + below)
+    sheet, top = chart_sheet(1130 + _KEY_LINE * math.ceil(len(methods) / 2))
     gap, frames = 40, []
     wide = (RIGHT - LEFT - gap) / 2
     height = "Height of the gap's maximum, + or −"
@@ -157,7 +154,7 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
             left, high = LEFT + side * (wide + gap), top - row * 540
             up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
             frames.append((left, high - 360, left + wide, high))
-            panel = Panel(sheet, frames[-1], across, up, grid=(variable, side) not in flat)
+            panel = Panel(sheet, frames[-1], across, up)
             if side:
                 middle = left - gap / 2, high - 360 - 16 * POINT
                 sheet.text(*middle, name, ha="center", va="top", size=8.0)
@@ -169,11 +166,8 @@ def edges(scene: Scene, data: xr.Dataset) -> Figure:
                 for i in np.roll(np.arange(len(methods)), -1 - column).tolist():
                     _, color, marker, hollow = methods[i]
                     panel.dots(at, shares[i, column], color, 2.6, hollow=hollow, marker=marker)
-            if (variable, side) in flat:
-                method_key(sheet, methods, high - 30, columns=1, left=left + 30)
     letters(sheet, *frames)
-    if not flat:
-        method_key(sheet, methods, top - 1040, columns=2)
+    method_key(sheet, methods, top - 1040, columns=2)
     return sheet.figure
 
 
@@ -183,14 +177,13 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
 
     In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
     """
-    entries = _methods_with_merged_scans(data)
+    entries = _entries(data["name"].values, data["family"].values)
     named = list(dict.fromkeys(entries))
     sheet, top = chart_sheet(1135, named)
-    drift = _error_axis(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
+    drift = _from_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
-    powers = ["0", *(rf"$10^{e}$" for e in range(5))]
-    up = AxisWithZero((-1, 4), range(-1, 5), "Impacts missed in a million", True, powers)
+    up = replace(_from_zero(-1, 4, "Impacts missed in a million", 1), labels=_COUNTS)
     lower = PanelWithZeros(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
     letters(sheet, upper.frame, lower.frame)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
@@ -202,7 +195,8 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
         end = drift[-1], float(data["missed"].values[i])
         lower.dots(*end, color, hollow=hollow, marker=marker)
         if entries.count(entries[i]) > 1:
-            lower.note(*end, _scan_step(data["name"].values[i]), shift=(3, 3.5))
+            step = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
+            lower.note(*end, step, shift=(3, 3.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
     method_key(sheet, named, top - 1075)
     return sheet.figure
@@ -213,9 +207,9 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the distance of each method's orbit from the proved one, from `stages.drift`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = _error_axis(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
+    up = _from_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
-    entries = _methods_with_merged_scans(data)
+    entries = _entries(data["name"].values, data["family"].values)
     for (_, color, *_), distance in zip(entries, data["apart"].values, strict=True):
         panel.line(data["impact"].values, distance, color=color, lw=0.9)
     method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
@@ -235,7 +229,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
     up = Axis((0, scenes), middles, labels=names)
-    across = _error_axis(-16, 6, "Error of the picture / what it can hide")
+    across = _from_zero(-16, 6, "Error of the picture / what it can hide")
     panel = PanelWithZeros(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     heading = "Evaluations an impact, of the two cheapest that suffice"
@@ -270,26 +264,23 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
     sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
-    powers = ["0", *(rf"$10^{e}$" for e in range(5))]
-    up = AxisWithZero((-1, 4.3), range(-1, 5), "Impacts missed", True, powers)
-    labels = [rf"$10^{exponent}$" for exponent in range(3, 9)]
-    across = Axis((2.5, 8.5), range(3, 9), "Flights of the chaotic sea", labels=labels)
+    up = replace(_from_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
+    flights = [*data["flights"].values, *data["long_flights"].values]
+    powers = [len(str(n)) - 1 for n in flights]
+    labels, limits = [rf"$10^{power}$" for power in powers], (2.5, powers[-1] + 0.5)
+    across = Axis(limits, powers, "Flights of the chaotic sea", labels=labels)
     upper = PanelWithZeros(sheet, (LEFT, top - 470, RIGHT, top), across, up)
     for i, (name, (_, color, marker, hollow)) in enumerate(styles.items()):
         aside = 0.09 * (i - 0.5 * (len(styles) - 1))
-        for part in ("", "long_"):
-            for at in np.flatnonzero(data[f"{part}name"].values == name):
-                flights = [len(str(n)) - 1 + aside for n in data[f"{part}flights"].values]
-                count = data[f"{part}missed"].values[at]
-                upper.line(flights, count, color=color, lw=0.6)
-                upper.dots(flights, count, color, hollow=hollow, marker=marker)
+        own = (data[f"{part}missed"].values[data[f"{part}name"] == name] for part in ("", "long_"))
+        count = np.concatenate([row for rows in own for row in rows])
+        x = np.array(powers[: count.size]) + aside
+        upper.line(x, count, color=color, lw=0.6)
+        upper.dots(x, count, color, hollow=hollow, marker=marker)
     method_key(sheet, [*styles.values()], top - 610)
     high = top - 660 - _KEY_LINE * math.ceil(len(styles) / _KEY_COLUMNS)
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
-    powers = ["0", *(rf"$10^{{{e}}}$" for e in range(-6, 1, 2))]
-    share = AxisWithZero(
-        (-7, 0), (-7, *range(-6, 1, 2)), "Share of hard states at which it fails", True, powers
-    )
+    share = _from_zero(-7, 0, "Share of hard states at which it fails", 2)
     middles = [rows - 0.5 - i for i in range(rows)]
     labels = [_printed(name, re.sub(" with care, 1e.*", "", name)) for name in searched]
     lower = PanelWithZeros(sheet, frame, share, Axis((0, rows), middles, labels=labels))
@@ -320,11 +311,10 @@ def _sizes(panel: Panel, family: np.ndarray, x: np.ndarray, y: np.ndarray) -> np
     return np.where(hidden, 3.2 + _RIM * over, 3.2)
 
 
-def _error_axis(low: int, high: int, name: str) -> AxisWithZero:
+def _from_zero(low: int, high: float, name: str, every: int = 4) -> AxisWithZero:
     """Return an axis of decades with ticks at its lower end, which stands for zero, and above."""
-    ticks = [low, *range(-(-(low + 2) // 4) * 4, high + 1, 4)]
-    labels = ["0", *(rf"$10^{{{tick}}}$" for tick in ticks[1:])]
-    return AxisWithZero((low, high), ticks, name, True, labels)
+    ticks = [low, *range(-(-(low + 1) // every) * every, int(high) + 1, every)]
+    return AxisWithZero((low, high), ticks, name, True)
 
 
 def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
@@ -332,26 +322,6 @@ def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
     pairs = zip(names, families, strict=True)
     styles = [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
     return [(*entry, False)[:4] for entry in styles]
-
-
-def _methods_with_merged_scans(data: xr.Dataset) -> list[Entry]:
-    """Return an entry for each method; scans of one tolerance look alike and share theirs."""
-    entries = _entries(data["name"].values, data["family"].values)
-    scans: dict[str, list[int]] = {}  # by tolerance
-    for i, name in enumerate(data["name"].values):
-        if name.startswith("scan "):
-            scans.setdefault(name.partition(", ")[2], []).append(i)
-    for tolerance, same in scans.items():
-        if len(same) > 1:
-            first, last = (_scan_step(data["name"].values[i]) for i in (same[0], same[-1]))
-            for i in same:
-                entries[i] = (_printed(tolerance, f"scan {first} to {last}"), style.BLUE, "o", True)
-    return entries
-
-
-def _scan_step(name: str) -> str:
-    """Return STEP of a method named "scan STEP, TOLERANCE"."""
-    return name.partition(", ")[0].removeprefix("scan ")
 
 
 def _printed(name: str, family: str) -> str:

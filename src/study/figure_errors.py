@@ -27,7 +27,7 @@ import xarray as xr
 from paper.figures import closeup, exponents, motion
 from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.orbits import start_state
-from pseudorigid.dynamics.variables import of_type, states_of
+from pseudorigid.dynamics.variables import of_rows, of_type, states_of
 from pseudorigid.figures.axes.box import Box
 from pseudorigid.figures.axes.plane import Plane
 from pseudorigid.figures.canvas.style import DPI, pinned
@@ -48,14 +48,29 @@ _AXIS = "unit of the axis"  # R for positions, 1/omega for times, 1 for exponent
 EXPONENT_DEVIATION = 0.004
 BRANCH_POINTS = 2000  # of a manifold, evenly by index; one miss in a thousand shows
 Block = dict[str, Any]  # a scene of the checked config
+Counts = tuple[np.ndarray, np.ndarray, int]
+_EACH = ("scene", "method")
+_VARIABLES = {
+    "scene": ("scene", "scene"),
+    "error": (_EACH, "error of the picture in pixels", "pixel"),
+    "missed": (_EACH, "impacts flown past"),
+    "evaluations": (_EACH, "evaluations an impact"),
+    "impacts": ("scene", "impacts computed for the comparison"),
+    "pixel": ("scene", "a pixel in units of the axis", _AXIS),
+    "line": ("scene", "width of a line or dot in units of the axis", _AXIS),
+    "digit": ("scene", "last digit of the axis' labels", _AXIS),
+    "limit": ("scene", "error that the picture can hide, in pixels", "pixel"),
+    "good": (_EACH, "1 where the picture is right"),
+    "cheapest": ("scene", "cheapest method within the limit, by its place"),
+}
 
 
 class PictureErrors(NamedTuple):
-    """Errors of the methods in one figure; lists have an entry for each method."""
+    """Errors of the methods in one figure; arrays have an entry for each method."""
 
-    error: list[float]  # of the picture, in pixels
-    missed: list[int]  # impacts flown past: no root, or another one
-    evaluations: list[float]  # for one impact
+    error: np.ndarray  # of the picture, in pixels
+    missed: np.ndarray  # impacts flown past: no root, or another one
+    evaluations: np.ndarray  # for one impact
     impacts: int  # computed for the comparison
     axis: str  # in whose units `pixel` is
     pixel: float
@@ -78,28 +93,15 @@ def figure_errors(
     for path, artifact in zip(inputs, datasets, strict=True):
         stage, _, scene = path.partition("/")
         data[scene][stage] = artifact
-    rows = [MEASURES[measures[name]](block, **data[name]) for name, block in scenes.items()]
-    column = dict(zip(PictureErrors._fields, map(np.array, zip(*rows, strict=True)), strict=True))
-    no_miss_shows = (column["missed"] == 0) | ~column["misses_show"][:, None]
-    good = (column["error"] <= column["limit"][:, None]) & no_miss_shows
-    cheapest = np.where(good, column["evaluations"], np.inf).argmin(axis=1)
-    axes = [block["axes"][row.axis] for block, row in zip(scenes.values(), rows, strict=True)]
-    width = column["stroke"] * DPI / 72 * column["pixel"]
-    each = ("scene", "method")
-    variables = {
-        "scene": ("scene", list(scenes), "scene"),
-        "error": (each, column["error"], "error of the picture in pixels", "pixel"),
-        "missed": (each, column["missed"], "impacts flown past"),
-        "evaluations": (each, column["evaluations"], "evaluations an impact"),
-        "impacts": ("scene", column["impacts"], "impacts computed for the comparison"),
-        "pixel": ("scene", column["pixel"], "a pixel in units of the axis", _AXIS),
-        "line": ("scene", width, "width of a line or dot in units of the axis", _AXIS),
-        "digit": ("scene", list(map(_last_digit, axes)), "last digit of the axis' labels", _AXIS),
-        "limit": ("scene", column["limit"], "error that the picture can hide, in pixels", "pixel"),
-        "good": (each, good.astype(np.int8), "1 where the picture is right"),
-        "cheapest": ("scene", cheapest, "cheapest method within the limit, by its place"),
-    }
-    return dataset("needs", METHODS, variables)
+    rows: list[tuple[Any, ...]] = []
+    for name, block in scenes.items():
+        row = MEASURES[measures[name]](block, **data[name])
+        good = (row.error <= row.limit) & ((row.missed == 0) | (not row.misses_show))
+        cheapest = np.where(good, row.evaluations, np.inf).argmin()
+        line, digit = row.stroke * DPI / 72 * row.pixel, _last_digit(block["axes"][row.axis])
+        sizes = row.pixel, line, digit, row.limit
+        rows.append((name, *row[:4], *sizes, good.astype(np.int8), cheapest))
+    return dataset("needs", METHODS, {}).assign(of_rows(_VARIABLES, rows))
 
 
 def _last_digit(axis: Block) -> float:
@@ -110,7 +112,7 @@ def _last_digit(axis: Block) -> float:
 
 def _portrait(block: Block) -> PictureErrors:
     """Measure the drift of the energy, as a change of the section's radius."""
-    ball, orbits = _orbits(block)
+    ball, orbits, counts = _orbits(block)
     pixel = _pixel_of_box(block)
     _, radius = ball.section(block["energy"])
     error = []
@@ -119,21 +121,19 @@ def _portrait(block: Block) -> PictureErrors:
         drift = max(each[-1] for each in drifts)
         # radius^2 = (2E + g^2/k)/k, so that d radius = dE/(k radius); all orbits have the same E
         error.append(drift * abs(ball.energy(*orbits[-1][0])) / (ball.k * radius) / pixel)
-    counts = _count_misses(ball, *(certified_orbit(ball, *orbit) for orbit in orbits))
-    return PictureErrors(error, *counts, "x", pixel, stroke=0.8)
+    return PictureErrors(np.array(error), *counts, "x", pixel, stroke=0.8)
 
 
 def _exponents(block: Block) -> PictureErrors:
     """Measure the change of the orbits' mean exponent from that of the certified march."""
-    ball, orbits = _orbits(block)
+    ball, orbits, counts = _orbits(block)
     _, pixel = _pixels(exponents.empty_picture(block))
     means = [
         sum(_vector_exponent(method, ball, *orbit) for orbit in orbits) / len(orbits)
         for method in METHODS
     ]
-    error = [abs(mean - means[0]) / pixel for mean in means]
+    error = np.abs(np.array(means) - means[0]) / pixel
     limit = EXPONENT_DEVIATION / math.sqrt(len(orbits)) / pixel
-    counts = _count_misses(ball, *(certified_orbit(ball, *orbit) for orbit in orbits))
     return PictureErrors(error, *counts, "exponent", pixel, 0.8, limit, False)
 
 
@@ -161,8 +161,9 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
         height_error = np.abs(track[0] - truth[0]) / up
         error.append(float(max(time_error.max(), height_error.max())))
         evaluations.append(count / impacts)
-    missed, _, _ = _count_misses(ball, certified_orbit(ball, state, impacts))
-    return PictureErrors(error, missed, evaluations, impacts, "displacement", up, stroke=1.0)
+    missed, *_ = _count_misses(ball, *certified_orbit(ball, state, impacts))
+    counts = missed, np.array(evaluations), impacts
+    return PictureErrors(np.array(error), *counts, "displacement", up, stroke=1.0)
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
@@ -179,13 +180,14 @@ def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> Pict
     columns[2] = np.maximum(columns[2], -columns[1])
     truth = proved_times(ball, columns)
     exact = _next_states(ball, columns, truth)
-    solved = [method.solve(ball, *columns) for method in METHODS]
     error = []
-    for tau, _ in solved:
+    for method in METHODS:
+        tau, _ = method.solve(ball, *columns)
         distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
         largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
         error.append(largest / (1.0 - 1.0 / growth) / pixel)
-    return PictureErrors(error, *_counts(solved, truth), "x", pixel, stroke=0.5)
+    counts = _count_misses(ball, columns, truth)
+    return PictureErrors(np.array(error), *counts, "x", pixel, stroke=0.5)
 
 
 MEASURES: dict[str, Callable[..., PictureErrors]] = {
@@ -210,31 +212,24 @@ def _pixels(plane: Plane) -> tuple[float, float]:
     return (x1 - x0) / (right - left), (y1 - y0) / (top - bottom)
 
 
-def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]]]:
-    """Return the ball of a scene, and each orbit's initial state and number of impacts."""
+def _orbits(block: Block) -> tuple[Ball, list[tuple[State, int]], Counts]:
+    """Return the ball of a scene, each orbit's initial state and impacts, and `_count_misses`."""
     ball, starts, impacts = Ball(**block["ball"]), block["starts"], block["impacts"]
     states = [start_state(ball, block["energy"], start) for start in starts]
     each = impacts if isinstance(impacts, list) else [impacts] * len(starts)
-    return ball, list(zip(states, each, strict=True))
+    orbits = list(zip(states, each, strict=True))
+    flights = zip(*(certified_orbit(ball, *orbit) for orbit in orbits), strict=True)
+    return ball, orbits, _count_misses(ball, *(np.concatenate(part, axis=-1) for part in flights))
 
 
-def _count_misses(
-    ball: Ball, *flights: tuple[np.ndarray, np.ndarray]
-) -> tuple[list[int], list[float], int]:
+def _count_misses(ball: Ball, columns: np.ndarray, truth: np.ndarray) -> Counts:
     """Return each method's wrong roots, its evaluations a flight, and the number of flights.
 
-    `flights` are pairs of states (3, n) and the true times (n,) of the flights from these.
+    `truth` has the flight times (n,) from the states (3, n).
     """
-    columns, truth = (np.concatenate(parts, axis=-1) for parts in zip(*flights, strict=True))
-    return _counts([method.solve(ball, *columns) for method in METHODS], truth)
-
-
-def _counts(
-    solved: list[tuple[np.ndarray, np.ndarray]], truth: np.ndarray
-) -> tuple[list[int], list[float], int]:
-    """Return how many of each method's times are wrong, its mean evaluations, and the flights."""
-    missed = [int(is_wrong(tau, truth).sum()) for tau, _ in solved]
-    return missed, [float(count.mean()) for _, count in solved], truth.size
+    solved = [method.solve(ball, *columns) for method in METHODS]
+    missed = [is_wrong(tau, truth).sum() for tau, _ in solved]
+    return np.array(missed), np.array([count.mean() for _, count in solved]), truth.size
 
 
 def _next_states(ball: Ball, columns: np.ndarray, tau: np.ndarray) -> np.ndarray:

@@ -8,18 +8,16 @@ DRAWN_BY = "study.charts.{}"  # the function of each kind that names no other on
 
 
 class Work(Picture):
-    """error and failures of each method against its cost"""
+    """error and failures of each method against its evaluations"""
 
     stages = ("work",)
 
     states: Literal["uniform", "grazing"]
     """Set of states before the flights: over the whole section, or close to grazing."""
-    cost: Literal["evaluations", "seconds"] = "evaluations"
-    """What is drawn across: evaluations of the gap a flight, or its seconds on this machine."""
 
 
 class MeasuredWork(Work):
-    """error and failures of each method against its cost, measured on this machine"""
+    """error and failures of each method against its seconds, measured on this machine"""
 
     stages = ("work_all",)
     drawn_by = "study.charts.work"

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.variables import described
+from pseudorigid.dynamics.variables import variables
 
 from . import stages
 from .methods import Method, libraries
@@ -42,14 +42,10 @@ def timed_work(methods: Sequence[Method], count: int = 200, repetitions: int = 5
         [[_seconds(method, columns) for columns in sets] for method in methods]
         for _ in range(repetitions)
     ]
-    low, middle, high = np.quantile(seconds, (0.25, 0.5, 0.75), axis=0)
-    dims = data["median"].dims
-    variables = {
-        "seconds_low": (dims, low, "lower quartile of seconds a flight", "s"),
-        "seconds": (dims, middle, "median of seconds a flight", "s"),
-        "seconds_high": (dims, high, "upper quartile of seconds a flight", "s"),
-    }
-    return data.assign(described(variables))
+    quartiles = np.quantile(seconds, (0.25, 0.5, 0.75), axis=0)
+    names = {"seconds_low": "lower quartile", "seconds": "median", "seconds_high": "upper quartile"}
+    texts = {name: (f"{text} of seconds a flight", "s") for name, text in names.items()}
+    return data.assign(variables(data["median"].dims, quartiles, texts))
 
 
 def _seconds(method: Method, columns: np.ndarray) -> float:

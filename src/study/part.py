@@ -28,7 +28,7 @@ PART = Part(
         ),
         "benchmark": Command(
             "measure speeds and print a table of their ratios",
-            module="study.benchmark",
+            module="study.bench",
             packages="study",
             details="Installs the packages of the study first (once).",
         ),

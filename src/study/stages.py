@@ -5,11 +5,12 @@ of a million impacts, and `misses` counts the impacts missed in long runs. A fli
 is missing or another root's (`is_wrong`).
 
 What libraries give differs between machines in the last digits, and takes long. It was computed
-once by `study.record`, with what else takes long, and is read from recorded.json.
+once by tests/study/record.py, with what else takes long, and is read from recorded.json.
 """
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +25,11 @@ from . import states
 from .methods import Method
 from .methods.counted_methods import (
     CAREFUL_SCANS,
+    ENGINES,
     METHODS,
     OURS,
+    SCANS,
     CountedMethod,
-    engine_method,
     scan_method,
 )
 from .states import BALL
@@ -41,21 +43,22 @@ RECORDS = np.array([*(m * 10**e for e in range(6) for m in (1, 2, 5)), MILLION])
 AGREE_IMPACTS = 170  # of each start; by then a rounding error has grown to order one
 AGREE_STARTS = 15  # in the sea; odd, so that the median is the value of one of them
 SEPARATION = 1e-3  # of x, which is visible
-
 SEA_FLIGHTS = 100_000  # on which all methods count their misses
 RECORDED = Path(__file__).with_name("recorded.json")
 
-_FINE_SCANS = tuple(scan_method(step, 1e-12) for step in (0.5, 0.1, 0.01))
-EDGE_METHODS = (OURS, *CAREFUL_SCANS[:2], CAREFUL_SCANS[4], *_FINE_SCANS, engine_method(1e-3))
+_FINE_SCANS = SCANS[3::4]  # steps of 0.5, 0.1 and 0.01, to 1e-12
+EDGE_METHODS = (OURS, *CAREFUL_SCANS[:2], CAREFUL_SCANS[4], *_FINE_SCANS, ENGINES[2])
 ORBIT_METHODS = (
     OURS,
     CAREFUL_SCANS[1],
-    *(scan_method(step, 1e-12) for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)),
-    *(scan_method(0.1, tolerance) for tolerance in (1e-3, 1e-6, 1e-9)),
-    *map(engine_method, (1e-2, 1e-3)),
+    *(
+        replace(scan_method(step, 1e-12), family="scan 0.5 to 0.01")
+        for step in (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+    ),
+    *SCANS[4:7],  # steps of 0.1 with coarser tolerances
+    *ENGINES[1:3],
 )
-
-MISS_METHODS = *(scan_method(step, 1e-12) for step in (0.5, 0.1)), *CAREFUL_SCANS[:5]
+MISS_METHODS = *_FINE_SCANS[:2], *CAREFUL_SCANS[:5]
 
 
 def work() -> xr.Dataset:

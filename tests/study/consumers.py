@@ -1,21 +1,30 @@
-"""Periodic orbits and branches by the methods that most people use, plainly and with care.
+"""What is drawn, by the methods that most people use: exponents, periodic orbits and branches.
 
-The work is the number of impacts computed, which all of these methods spend in the same map. This
-prints the tables of src/study/README.md:
+The work of orbits and branches is the number of impacts computed, which all of these methods spend
+in the same map; that of exponents is evaluations an impact. This prints the tables of
+src/study/README.md, after ./reproduce study has installed the libraries:
 
     PYTHONPATH=src .venv/bin/python tests/study/consumers.py
+
+Its ratios of time are to be taken from an idle machine.
 """
 
 import itertools
 import math
+import time
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
-from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.branch import Branch
+from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import of_type, states_of
+from study import figure_errors
+from study.methods import Method, libraries
+from study.methods.counted_methods import OURS, careful_method
 from study.states import BALL, ENERGY, uniform
 
 PERIODS = 6, 20
@@ -24,6 +33,8 @@ NEWTON_STEPS, HALVINGS = 50, 8
 CLOSED, SAME = 1e-10, 1e-6  # R: gap of an orbit that is found; distance between points of one
 POINTS = 100, 1_000, 10_000  # of an image of the first segment by plain resampling
 LENGTH = 2.8  # of the branch, in section radii
+SEA_STARTS, ISLAND_START = 0.52 + 0.01 * np.arange(10), 0.2  # in section radii
+IMPACTS = 3_000  # of each orbit whose exponent is computed
 METHODS = "symmetry lines", "Newton, as usually written", "Newton with halved steps"
 
 
@@ -111,7 +122,49 @@ def largest_distance(vertices: np.ndarray, polyline: np.ndarray) -> float:
     return math.sqrt(worst) / float(BALL.section(ENERGY)[1])
 
 
+def exponents() -> Iterator[tuple[str, np.ndarray, float, float]]:
+    """Yield methods, with the largest exponent of each orbit, evaluations and seconds an impact.
+
+    The last orbit is regular, the others lie in the sea. All methods but the first two follow an
+    orbit and push a tangent vector along it by the analytic Jacobian.
+    """
+    states = [BALL.start(f, ENERGY) for f in (*SEA_STARTS, ISLAND_START)]
+
+    def spectrum(state: State) -> tuple[float, float]:
+        return lyapunov_spectrum(BALL, state, IMPACTS, 1)["exponent"].values.max(), math.nan
+
+    def pynamicalsys(state: State) -> tuple[float, float]:
+        return libraries.lyapunov_exponents(BALL, state, IMPACTS).max(), math.nan
+
+    def loop(method: Method, state: State) -> tuple[float, float]:
+        columns, work = [np.array(state)[:, None]], 0
+        for _ in range(IMPACTS):
+            tau, count = method.solve(BALL, *columns[-1])
+            x, xdot, udot = figure_errors._next_states(BALL, columns[-1], tau)
+            columns.append(np.array([x, xdot, np.maximum(udot, -xdot)]))
+            work += int(count[0])
+        jacobians = BALL.jacobian(*np.concatenate(columns[:-1], axis=1))
+        return figure_errors._log_stretch(jacobians) / IMPACTS, work / IMPACTS
+
+    loops = (OURS, careful_method(0.5), libraries.ivp_method("DOP853", 1e-9))
+    loops += (libraries.ivp_method("DOP853", 1e-9, False), libraries.cyrk_method("DOP853", 1e-9))
+    ways = {"spectrum of this package": spectrum, "pynamicalsys": pynamicalsys}
+    ways |= {f"loop around {method.name}": partial(loop, method) for method in loops}
+    for name, way in ways.items():
+        way(states[0])  # which compiles
+        start = time.process_time()
+        values, work = zip(*map(way, states), strict=True)
+        seconds = (time.process_time() - start) / (IMPACTS * len(states))
+        yield name, np.array(values), float(np.mean(work)), seconds
+
+
 if __name__ == "__main__":
+    rows = [*exponents()]
+    for name, values, work, seconds in rows:
+        *sea, regular = values
+        error = np.std(sea, ddof=1) / math.sqrt(len(sea))
+        print(f"exponents, {name}: sea {np.mean(sea):.4f} +- {error:.4f}, regular {regular:.9f},")
+        print(f"    {work:.3g} evaluations, {seconds / rows[0][-1]:.3g} times the first")
     for n in PERIODS:
         for index, name in enumerate(METHODS):
             orbits, impacts = found_orbits(n, index)

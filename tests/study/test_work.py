@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from independent_solver import judge
 
-from study import measured, stages, states
+from study import bench, measured, stages, states
 from study.methods.counted_methods import METHODS, OURS, scan_method
 
 COUNT = 60
@@ -56,3 +56,19 @@ def test_seconds_have_their_quartiles():
     data = measured.timed_work([OURS, scan_method(0.1, 1e-12)], count=20, repetitions=3)
     low, middle, high = (data[f"seconds{end}"].values for end in ("_low", "", "_high"))
     assert np.all((low > 0) & (low <= middle) & (middle <= high))
+
+
+def test_slow_calls_of_the_benchmark_are_timed_less_often(monkeypatch):
+    seconds = iter(range(1000))
+    monkeypatch.setattr(bench.time, "process_time", lambda: float(next(seconds)))
+    done = []
+    timed = {
+        "slow": measured.Call(lambda: done.append("slow"), 1),
+        "quick": measured.Call(lambda: done.append("quick"), 4),
+    }
+    monkeypatch.setattr(bench, "SLOW", 1.0)
+    spreads, times = bench._interleaved(timed)
+    assert times == {"slow": 3, "quick": 3} and spreads["quick"] == (0.25, 0.25, 0.25)
+    monkeypatch.setattr(bench, "SLOW", 1.5)
+    assert bench._interleaved(timed)[1] == {"slow": 9, "quick": 9}
+    assert done.count("slow") == 4 + 10  # the first call of each compiles

@@ -1,13 +1,9 @@
 """A scan with care: steps of constant length, a look at each maximum of the gap, a fast landing.
 
-It differs from the scan that most people write in five points, none of which costs much:
-
-- The first step is no longer than a bound of the first root, so that no flight ends within it.
-- Near the impact the gap is computed without the terms that cancel (`pseudorigid.kernel.flight`).
-- The gap's speed comes from the same sine and cosine. Where it falls through 0 between two steps,
-  Newton's method finds the maximum of the gap, which shows a touch that is shorter than a step.
-- That search ends where the parabola through a point well below the floor stays below it.
-- Halley's method, kept inside the bracket, finds the root to the last digits.
+The first step is no longer than a bound of the first root, and near the impact the gap is computed
+without the terms that cancel (`pseudorigid.kernel.flight`). The gap's speed comes from the same
+sine and cosine. Where it falls through 0 between two steps, Newton's method looks for the maximum
+of the gap, unless the parabola through a point well below the floor stays below it.
 
 It has no proof: the gap's speed may rise and fall within one step.
 """

@@ -30,7 +30,6 @@ from .careful_scan import CUBIC, PARABOLA, careful_scan
 MARCH, SCAN, ENGINE, CAREFUL = 0, 1, 2, 3
 Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or bound of a scan
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
-ScalarState = tuple[float, float, float]  # x, xdot and udot just before an impact
 NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations of the gap
 
 
@@ -72,24 +71,15 @@ def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: fl
 
 @jit
 def _flights(
-    settings: Settings, ball: Parameters, states: np.ndarray, tau: np.ndarray, count: np.ndarray
+    settings: Settings, ball: Parameters, states: np.ndarray, out: np.ndarray, count: np.ndarray
 ) -> None:
-    """Write the flight times of states (3, n), and their evaluations."""
-    for i in range(tau.size):
+    """Write x, xdot, udot and tau after a flight from each state (3, n), and its evaluations.
+
+    The states are read one after the other, and may be those that are written.
+    """
+    for i in range(count.size):
         x, v, w = states[0, i], states[1, i], states[2, i]
-        tau[i], _, _, _, count[i] = _next_impact(settings, ball, x, v, w)
-
-
-@jit
-def _orbit(settings: Settings, ball: Parameters, state: ScalarState, out: np.ndarray) -> int:
-    """Write x, xdot, udot and tau of the impacts of an orbit; return its evaluations."""
-    x, v, w = state
-    total = 0
-    for i in range(out.shape[1]):
-        tau, x, v, w, count = _next_impact(settings, ball, x, v, w)
-        out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
-        total += count
-    return total
+        out[3, i], out[0, i], out[1, i], out[2, i], count[i] = _next_impact(settings, ball, x, v, w)
 
 
 @dataclass
@@ -100,9 +90,8 @@ class CountedMethod(Method):
 
     def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
         """Return flight times of states, arrays (n,), and evaluations of the gap."""
-        tau, count = np.empty(x.size), np.empty(x.size, np.int64)
-        _flights(self.settings, _parameters(ball), np.array([x, xdot, udot]), tau, count)
-        return tau, count
+        out = np.empty((4, x.size))
+        return out[3], self._fly(ball, np.array([x, xdot, udot]), out)
 
     def orbit(self, ball: Ball, state: State, impacts: int) -> tuple[np.ndarray, int]:
         """Return the method's own orbit from `state`, and the evaluations of all flights.
@@ -110,14 +99,15 @@ class CountedMethod(Method):
         The rows of the orbit (4, impacts) are x, xdot, udot just before each impact after the
         start, and the time tau of the flight that ends there.
         """
-        track = np.empty((4, impacts))
-        x, xdot, udot = map(float, state)
-        return track, _orbit(self.settings, _parameters(ball), (x, xdot, udot), track)
+        track = np.empty((4, 1 + impacts))
+        track[:3, 0] = state
+        return track[:, 1:], int(self._fly(ball, track[:3, :-1], track[:, 1:]).sum())
 
-
-def _parameters(ball: Ball) -> Parameters:
-    """Return the numbers of a ball that compiled methods take."""
-    return ball.k, ball.g, impact_coefficients(ball.k)
+    def _fly(self, ball: Ball, states: np.ndarray, out: np.ndarray) -> np.ndarray:
+        """Write a flight from each state, and return their evaluations."""
+        count = np.empty(out.shape[1], np.int64)
+        _flights(self.settings, (ball.k, ball.g, impact_coefficients(ball.k)), states, out, count)
+        return count
 
 
 OURS = CountedMethod("certified march", "certified march", (MARCH, 0.0, 0.0))

@@ -1,17 +1,6 @@
 """Methods of scipy, CyRK, heyoka and pynamicalsys, which has Lyapunov exponents.
 
-Each is there as it is usually written, and with care. With care means:
-
-- The gap z and its speed are variables of the system, z'' = g - u, u'' = -u, so that near grazing
-  nothing cancels.
-- A flight starts on the exact flight at a thousandth of its contact speed s (a time that is shorter
-  than any first root), with an absolute tolerance in proportion to s.
-- The first step ends before the first root.
-- A second event, where the gap's speed falls through 0, shows touches that are shorter than a step.
-
-As usually written, (x, u) and their speeds are integrated from 1e-9 after the impact, because event
-detection looks for a change of sign, and the gap is 0 at the impact itself.
-
+Each is there as it is usually written, and with care; src/study/README.md says what that means.
 CyRK, heyoka and pynamicalsys are imported when they are first used, since their packages are
 installed for the study alone.
 """
@@ -35,12 +24,14 @@ from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import Flights, Method
 
-# Time after the impact at which a flight begins as usually written. Above x = -g a flight with
-# xdot + udot below about 1e-10 may be shorter; its end is then wrong or missed.
+# Time after the impact at which a flight begins as usually written: the gap is 0 at the impact, and
+# events are changes of sign. Above x = -g a flight with xdot + udot below about 1e-10 may be
+# shorter; its end is then wrong or missed.
 AFTER = 1e-9
 _START = 1e-3  # the same with care, in units of s: a flight lasts for 2 s/(g + A) or longer
 _ATOL = 1e-3  # absolute tolerance over the relative one, in units of s with care
 _NEAR = 4.0  # first bounds of the root up to which heyoka looks first
+_CHOOSES_FIRST_STEP = ("LSODA",)  # one that suits its order, which starts at one
 
 
 class Flight(NamedTuple):
@@ -53,24 +44,39 @@ class Flight(NamedTuple):
     g: float
     latest: float  # no root of the gap is later
 
-    def exactly(self) -> list[float]:
-        """Return (z, z', u, w) at the time _START * s."""
+    def start(self, careful: bool) -> tuple[float, np.ndarray]:
+        """Return a time shortly after the impact, and (z, z', u, u') or (x, x', u, u') then."""
         x, b, c, s, g, _ = self
-        z, speed, _, p, q = gap(_START * s, x, b, c, s, g, quadrant(_START * s))
-        return [z, speed, -p, q]
+        if careful:
+            z, speed, _, p, q = gap(_START * s, x, b, c, s, g, quadrant(_START * s))
+            return _START * s, np.array([z, speed, -p, q])
+        sine, cosine = math.sin(AFTER), math.cos(AFTER)  # eq. (26)
+        height, strain = x + AFTER * (b + 0.5 * g * AFTER), c * sine - x * cosine
+        return AFTER, np.array([height, b + g * AFTER, strain, c * cosine + x * sine])
 
-    def with_care(self, rtol: float, end: float) -> tuple[Any, np.ndarray, dict[str, Any]]:
+    def integration(
+        self, solver: str, rtol: float, end: float, careful: bool
+    ) -> tuple[Any, np.ndarray, dict[str, Any]]:
         """Return span, start and options of an integration up to `end`."""
-        begin = _START * self.s
-        first = min(0.5 * self.bound(), 0.5 * (end - begin))
-        atol = _ATOL * rtol * min(self.s, 1.0)
-        options = {"rtol": rtol, "atol": atol, "first_step": first, "events": _EVENTS}
-        return (begin, end), np.array(self.exactly()), options
+        begin, start = self.start(careful)
+        options = {"method": solver, "rtol": rtol, "atol": _ATOL * rtol, "events": [_RISING]}
+        if careful:
+            options |= {"atol": _ATOL * rtol * min(self.s, 1.0), "events": _WITH_TOUCHES}
+            if solver not in _CHOOSES_FIRST_STEP:
+                options["first_step"] = min(0.5 * self.bound(), 0.5 * (end - begin))
+        else:  # LSODA may not see a flight that ends within its first step; a tiny one costs little
+            options["first_step"] = min(1e-8 if solver == "LSODA" else 1e-2, 0.5 * end)
+        return (begin, end), start, options
 
     def bound(self) -> float:
         """Return a time at or before the first root."""
         amplitude = amplitude_bound(self.x, self.c)
         return float(first_step(self.x, self.c, self.s, self.g, amplitude))
+
+
+# An integration to a time, which adds its evaluations to a list of one number. It returns dense
+# output if that is asked for, or else the times of both events and the states (n, 4) of the second.
+Integrate = Callable[[Flight, float, bool, list[int]], Any]
 
 
 @dataclass
@@ -94,125 +100,61 @@ class ExternalSolver(Method):
         return np.array(tau, dtype=float), np.array(count, dtype=np.int64)
 
 
-def ivp_method(solver: str, rtol: float) -> ExternalSolver:
-    """Return solve_ivp, atol = rtol/1000, with a terminal event where the gap rises through 0."""
-    tolerances = {"method": solver, "rtol": rtol, "atol": 1e-3 * rtol}
-    rising = _event(lambda y: y[0] + y[1], True, 1)
+def ivp_method(solver: str, rtol: float, careful: bool = True) -> ExternalSolver:
+    """Return solve_ivp, with care or with one terminal event where the gap rises through 0."""
 
-    def flight(a: Flight) -> tuple[float, int]:
-        calls = 0
-
+    def integrate(a: Flight, end: float, dense: bool, calls: list[int]) -> Any:
         def fall(_: float, y: np.ndarray) -> tuple[float, ...]:
-            nonlocal calls
-            calls += 1
-            return y[2], y[3], a.g, -y[1]
+            calls[0] += 1
+            return y[1], a.g - y[2] if careful else a.g, y[3], -y[2]
 
-        # LSODA may not see a flight that ends within its first step; a tiny one costs it nothing.
-        first = min(1e-8 if solver == "LSODA" else 1e-2, 0.5 * a.latest)
-        span, start = (AFTER, a.latest), _just_after(a)
-        try:
-            solved = solve_ivp(fall, span, start, events=rising, first_step=first, **tolerances)
-        except ValueError:  # its event search can end in "f(a) and f(b) must have different signs"
-            return math.nan, calls
-        times = solved.t_events[0]
-        return (float(times[0]) if times.size else math.nan), calls
+        span, start, options = a.integration(solver, rtol, end, careful)
+        solved = solve_ivp(fall, span, start, dense_output=dense, **options)
+        return solved.sol if dense else (*solved.t_events, *solved.y_events[1:])
 
-    return ExternalSolver(f"{solver}, {rtol:.0e}", solver, flight)
+    return _method(solver, rtol, careful, _first_root(integrate))
 
 
-def taylor_method(tolerance: float) -> ExternalSolver:
-    """Return heyoka's Taylor integrator with a terminal event at a zero of the gap.
-
-    Each order of each Taylor step counts as one evaluation of the right-hand side.
-    """
-
-    def flight(a: Flight) -> tuple[float, int]:
-        integrator = _taylor_integrator(a.g, tolerance)
-        integrator.reset_cooldowns()
-        integrator.time = AFTER
-        integrator.state[:] = _just_after(a)
-        outcome, _, _, steps, _, _ = integrator.propagate_until(a.latest)
-        stopped_by_event = int(outcome) == -1  # the terminal event number 0
-        return (integrator.time if stopped_by_event else math.nan), steps * integrator.order
-
-    return ExternalSolver(f"heyoka, {tolerance:.0e}", "heyoka", flight)
-
-
-@cache
-def _taylor_integrator(g: float, tolerance: float) -> Any:
-    """Return a compiled integrator of (x, u, xdot, udot), to be reused for every flight."""
-    import heyoka
-
-    x, u, v, w = heyoka.make_vars("x", "u", "v", "w")
-    return heyoka.taylor_adaptive(
-        [(x, v), (u, w), (v, heyoka.par[0]), (w, -u)],
-        [0.0, 0.0, 0.0, 0.0],
-        pars=[g],
-        tol=tolerance,
-        t_events=[heyoka.t_event(x + u)],
-    )
-
-
-def careful_ivp_method(solver: str, rtol: float) -> ExternalSolver:
-    """Return solve_ivp with care."""
-
-    def integrate(a: Flight, end: float, dense: bool) -> tuple[Any, int]:
-        calls = 0
-
-        def fall(_: float, y: np.ndarray) -> tuple[float, ...]:
-            nonlocal calls
-            calls += 1
-            return y[1], a.g - y[2], y[3], -y[2]
-
-        span, start, options = a.with_care(rtol, end)
-        if solver == "LSODA":  # it chooses one that suits its order, which starts at one
-            options["first_step"] = None
-        solved = solve_ivp(fall, span, start, method=solver, dense_output=dense, **options)
-        return (solved.sol if dense else (solved.t_events, solved.y_events[1])), calls
-
-    name = f"{solver} with care"
-    return ExternalSolver(f"{name}, {rtol:.0e}", name, _with_touches(integrate))
-
-
-def careful_cyrk_method(solver: str, rtol: float) -> ExternalSolver:
+def cyrk_method(solver: str, rtol: float) -> ExternalSolver:
     """Return CyRK's compiled integrator with care, with the system and its events compiled."""
 
-    def integrate(a: Flight, end: float, dense: bool) -> tuple[Any, int]:
+    def integrate(a: Flight, end: float, dense: bool, calls: list[int]) -> Any:
         from CyRK import pysolve_ivp
 
-        calls = np.zeros(1, np.int64)
-        span, start, options = a.with_care(rtol, end)
-        options |= {"method": solver, "args": (a.g, calls), "pass_dy_as_arg": True}
+        count = np.zeros(1, np.int64)
+        span, start, options = a.integration(solver, rtol, end, True)
+        options |= {"args": (a.g, count), "pass_dy_as_arg": True}
         solved = pysolve_ivp(_fall, span, start, dense_output=dense, **options)
+        calls[0] += int(count[0])
         if dense:
-            return (lambda t: solved(t)[:, 0]), int(calls[0])
+            return lambda t: solved(t)[:, 0]
         tops = solved.y_events[1]
-        return (solved.t_events, tops.T if tops.ndim == 2 else tops), int(calls[0])
+        return *solved.t_events, tops.T if tops.ndim == 2 else tops
 
-    name = f"CyRK {solver} with care"
-    return ExternalSolver(f"{name}, {rtol:.0e}", name, _with_touches(integrate))
+    return _method(f"CyRK {solver}", rtol, True, _first_root(integrate))
 
 
-def careful_taylor_method(tolerance: float) -> ExternalSolver:
-    """Return heyoka with care: it finds all zeros in a step, so that it needs no second event.
+def taylor_method(tolerance: float, careful: bool = True) -> ExternalSolver:
+    """Return heyoka's Taylor integrator, with care or with a terminal event at a zero of the gap.
 
-    A root at a tiny part of a step is beyond its root finder, so that a first call ends shortly
-    after the bound of the first root.
+    It finds all zeros in a step, so that it needs no second event. With care a first call ends
+    shortly after the bound of the first root, since a root at a tiny part of a step is beyond its
+    root finder. Each order of each Taylor step counts as one evaluation of the right-hand side.
     """
 
     def flight(a: Flight) -> tuple[float, int]:
-        integrator = _careful_integrator(a.g, tolerance)
+        integrator = _kept_integrator(a.g, tolerance, careful)
         integrator.reset_cooldowns()
-        integrator.time, integrator.state[:] = _START * a.s, a.exactly()
+        integrator.time, integrator.state[:] = a.start(careful)
         near, steps = _NEAR * a.bound(), 0
-        for end in (near, a.latest) if near < 0.1 else (a.latest,):
+        for end in (near, a.latest) if careful and near < 0.1 else (a.latest,):
             outcome, _, _, more, _, _ = integrator.propagate_until(end)
             steps += more
-            if int(outcome) == -1:
+            if int(outcome) == -1:  # the terminal event number 0
                 return integrator.time, steps * integrator.order
         return math.nan, steps * integrator.order
 
-    return ExternalSolver(f"heyoka with care, {tolerance:.0e}", "heyoka with care", flight)
+    return _method("heyoka", tolerance, careful, flight)
 
 
 def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
@@ -235,37 +177,38 @@ def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
         values[0], values[1], values[3] = 0.0, -speed, -of_xdot * xdot - of_udot * udot
         return len(track) < impacts
 
-    integrator = _gap_integrator(g, 1e-15, bounce)
+    integrator = _integrator(g, 1e-15, True, bounce)
     values = integrator.state  # of the integrator itself, no copy
     x, xdot, udot = map(float, state)
     _, c, s = rebound(xdot, udot, k, impact_coefficients(k))
-    values[:] = Flight(x, -s - c, c, s, g, math.inf).exactly()
-    integrator.time = _START * s
+    integrator.time, values[:] = Flight(x, -s - c, c, s, g, math.inf).start(True)
     integrator.propagate_until(1e3 * impacts)
     return np.array(track).T
 
 
-def _with_touches(
-    integrate: Callable[[Flight, float, bool], tuple[Any, int]],
-) -> Callable[[Flight], tuple[float, int]]:
-    """Return the search for a root where z rises, or before a maximum at which z > 0.
+def _method(
+    library: str, setting: float, careful: bool, flight: Callable[[Flight], tuple[float, int]]
+) -> ExternalSolver:
+    """Return a method, named by its library, care and setting."""
+    family = f"{library} with care" if careful else library
+    return ExternalSolver(f"{family}, {setting:.0e}", family, flight)
 
-    `integrate` to a time returns the times of both events and the states (n, 4) of the second one,
-    or dense output, and its evaluations.
-    """
+
+def _first_root(integrate: Integrate) -> Callable[[Flight], tuple[float, int]]:
+    """Return the search for a root where the gap rises, or before a maximum at which z > 0."""
 
     def flight(a: Flight) -> tuple[float, int]:
+        calls = [0]
         try:
-            ((ends, tops), states), calls = integrate(a, a.latest, False)
+            ends, *touches = integrate(a, a.latest, False, calls)
             end, low = ends[0] if len(ends) else math.nan, _START * a.s
-            for top, y in zip(tops, states, strict=True):
+            for top, y in zip(*touches, strict=True):
                 if y[0] > 0.0 and not top > end:
-                    dense, more = integrate(a, top, True)
-                    return _root(dense, low, top), calls + more
+                    return _root(integrate(a, top, True, calls), low, top), calls[0]
                 low = top
         except ValueError:  # of their event search: "f(a) and f(b) must have different signs"
-            return math.nan, 0
-        return float(end), calls
+            return math.nan, calls[0]
+        return float(end), calls[0]
 
     return flight
 
@@ -283,60 +226,50 @@ def _event(value: Callable[[np.ndarray], float], terminal: bool, direction: int)
     return compiled
 
 
-# The gap rises, and its speed falls.
-_EVENTS = [_event(lambda y: y[0], True, 1), _event(lambda y: y[1], False, -1)]
+_RISING = _event(lambda y: y[0] + y[2], True, 1)
+# With care: the gap rises, and its speed falls.
+_WITH_TOUCHES = [_event(lambda y: y[0], True, 1), _event(lambda y: y[1], False, -1)]
 
 
 @numba.njit
-def _fall(dy: np.ndarray, _: float, y: np.ndarray, g: float, calls: np.ndarray) -> None:
-    """Write the derivative of (z, z', u, w), and count the call."""
+def _fall(dy: np.ndarray, _: float, y: np.ndarray, g: float, count: np.ndarray) -> None:
+    """Write the derivative of (z, z', u, u'), and count the call."""
     dy[0], dy[1], dy[2], dy[3] = y[1], g - y[2], y[3], -y[2]
-    calls[0] += 1
+    count[0] += 1
 
 
-@cache
-def _careful_integrator(g: float, tolerance: float) -> Any:
-    return _gap_integrator(g, tolerance)
-
-
-def _gap_integrator(g: float, tolerance: float, callback: Callable[..., bool] | None = None) -> Any:
-    """Return heyoka's integrator of (z, z', u, w) with a terminal event where z rises."""
+def _integrator(
+    g: float, tolerance: float, careful: bool, callback: Callable[..., bool] | None = None
+) -> Any:
+    """Return heyoka's integrator with a terminal event where the gap rises or, usually, is 0."""
     import heyoka
 
-    z, speed, u, w = heyoka.make_vars("z", "speed", "u", "w")
-    rising = {"direction": heyoka.event_direction.positive}
-    event = heyoka.t_event(z, **rising, **({"callback": callback} if callback else {}))
-    return heyoka.taylor_adaptive(
-        [(z, speed), (speed, heyoka.par[0] - u), (u, w), (w, -u)],
-        [0.0, 0.0, 0.0, 0.0],
-        pars=[g],
-        tol=tolerance,
-        t_events=[event],
-    )
+    height, speed, u, w = heyoka.make_vars("height", "speed", "u", "w")
+    weight, event = heyoka.par[0], heyoka.t_event(height + u)
+    if careful:
+        options = {"direction": heyoka.event_direction.positive}
+        options |= {"callback": callback} if callback else {}
+        weight, event = weight - u, heyoka.t_event(height, **options)
+    system = [(height, speed), (speed, weight), (u, w), (w, -u)]
+    return heyoka.taylor_adaptive(system, [0.0] * 4, pars=[g], tol=tolerance, t_events=[event])
 
 
-def _just_after(a: Flight) -> np.ndarray:
-    """Return (x, u, xdot, udot) of the flight at the time AFTER, eq. (26)."""
-    sine, cosine = math.sin(AFTER), math.cos(AFTER)
-    height, strain = a.x + AFTER * (a.b + 0.5 * a.g * AFTER), a.c * sine - a.x * cosine
-    return np.array([height, strain, a.b + a.g * AFTER, a.c * cosine + a.x * sine])
+_kept_integrator = cache(_integrator)  # to be reused for every flight
 
-
-SOLVERS = {
+RTOLS = {
     "RK45": (1e-3, 1e-6, 1e-9),
     "DOP853": (1e-3, 1e-6, 1e-9, 1e-12),
     "LSODA": (1e-3, 1e-6, 1e-9, 1e-12),
 }
-USUAL: list[Method] = [
-    *(ivp_method(solver, rtol) for solver, rtols in SOLVERS.items() for rtol in rtols),
-    *(taylor_method(tolerance) for tolerance in (1e-6, 1e-9, 1e-15)),
-]
-CAREFUL: list[Method] = [
-    *(careful_ivp_method(solver, rtol) for solver, rtols in SOLVERS.items() for rtol in rtols),
-    *(careful_cyrk_method("DOP853", rtol) for rtol in (1e-6, 1e-9, 1e-12)),
-    *(careful_taylor_method(tolerance) for tolerance in (1e-6, 1e-9, 1e-15)),
-]
-METHODS = [*USUAL, *CAREFUL]
+USUAL, CAREFUL = (
+    [
+        *(ivp_method(solver, rtol, careful) for solver in RTOLS for rtol in RTOLS[solver]),
+        *(cyrk_method("DOP853", rtol) for rtol in (1e-6, 1e-9, 1e-12) if careful),
+        *(taylor_method(tolerance, careful) for tolerance in (1e-6, 1e-9, 1e-15)),
+    ]
+    for careful in (False, True)
+)
+METHODS: list[Method] = [*USUAL, *CAREFUL]
 
 
 def lyapunov_exponents(ball: Ball, state: State, impacts: int) -> np.ndarray:
