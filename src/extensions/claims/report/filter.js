@@ -7,7 +7,8 @@ function filter() {
   const words = form.words.value.toLowerCase().split(/\s+/);
   let count = 0;
   for (const row of rows) {
-    const text = row.textContent.toLowerCase();
+    // The dot above a letter is found as it is typed.
+    const text = row.textContent.toLowerCase().normalize("NFD").replaceAll("\u0307", "dot");
     const fits = (!verdict || row.dataset.verdict === verdict) && words.every((w) => text.includes(w));
     row.hidden = !fits;
     count += fits;
