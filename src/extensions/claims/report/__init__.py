@@ -49,9 +49,14 @@ def section(config: Config, root: Path, links: Links) -> Section:
 
 
 def _sentences(row: Verdict) -> list[list[str]]:
-    """Return the sentences of a value, each with the items of its series, if it is one."""
-    sentences = re.split(r"(?<=[^.]\.) (?=[A-Z])", row.value)
-    return [re.split(r"; ", each) if each.count("; ") > 1 else [each] for each in sentences]
+    """Return the sentences of a value; one with a series is its beginning and the items."""
+    sentences = []
+    for sentence in re.split(r"(?<=[^.]\.) (?=[A-Z])", row.value):
+        first, *others = sentence.split("; ")
+        beginning, verb, item = first.rpartition(" are ")
+        series = [beginning + verb, item, *others] if verb else [first, *others]
+        sentences.append(series if len(others) > 1 else [sentence])
+    return sentences
 
 
 def _verdicts(root: Path) -> list[Verdict]:

@@ -19,9 +19,10 @@ function filter() {
 // A link to a statement shows it, whatever the filter is.
 function reveal() {
   const row = document.getElementById(location.hash.slice(1));
-  if (rows.includes(row) && row.hidden) {
+  if (rows.includes(row)) {
     form.reset();
     filter();
+    form.parentElement.open = true;
     row.scrollIntoView();
   }
 }
@@ -35,8 +36,10 @@ if (form) {
     link.addEventListener("click", () => {
       form.reset();
       form.verdict.value = link.dataset.pick;
+      form.parentElement.open = true;
       filter();
     });
   }
   filter();
+  reveal();
 }
