@@ -163,6 +163,7 @@ def test_each_formula_is_valid_and_is_described(page):
     tokens, boxes = {"mi", "mo", "mn", "mtext"}, {"math", "mrow", "msup", "msub", "mfrac", "mover"}
     for formula in map(ElementTree.fromstring, formulas):
         assert re.search(r"\w", formula.get("alttext"))
+        assert formula.get("aria-label") == formula.get("alttext")
         for element in formula.iter():
             assert element.tag in tokens | boxes | {"mspace"}, formula.get("alttext")
             assert len(element) == 2 or element.tag not in ("mover", "msup", "msub", "mfrac")

@@ -30,7 +30,8 @@ def typeset(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
 def web_page(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
     """Return the article as one HTML page, with the figures in it and formulas in MathML."""
     page = _compiled(root, numbers, source, format="html").decode()
-    page = _FORMULA.sub(r'<math alttext="\1"\2', page)
+    # Chromium names a formula by aria-label, other programs by alttext.
+    page = _FORMULA.sub(r'<math aria-label="\1" alttext="\1"\2', page)
     head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
     return page.replace("</head>", head, 1).encode()
 
