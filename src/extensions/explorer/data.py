@@ -11,7 +11,7 @@ import json
 import tomllib
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote_plus
+from urllib.parse import quote
 
 import yaml
 
@@ -72,21 +72,21 @@ def presets(checked: Config) -> list[dict[str, str]]:
 def citation() -> dict[str, Any]:
     """Return how to cite the software and the paper, and links, from CITATION.cff.
 
-    A paper without a DOI there is linked by a search for its title. Without an address of the
-    repository, links lead from the page's folder to files of the tree.
+    The page is copied to places without the tree: a link leads to an address that CITATION.cff
+    has, and that file is in the page itself.
     """
-    facts = yaml.safe_load(read_text(ROOT / "CITATION.cff"))
+    text = read_text(ROOT / "CITATION.cff")
+    facts = yaml.safe_load(text)
     (paper,) = (each for each in facts["references"] if each["type"] == "article")
-    search = f"https://search.crossref.org/search/works?q={quote_plus(paper['title'])}"
     people = [f"{one['given-names']} {one['family-names']}" for one in paper["authors"]]
     names = ", ".join(one["name"] for one in facts["authors"] if "name" in one)
     return {
         "software": f"{names}: {facts['title']}, version {facts['version']}.",
         "paper": f"{' and '.join(people)}: {paper['title']}. {paper['journal']}.",
         "links": {
-            "paper": f"https://doi.org/{paper['doi']}" if "doi" in paper else search,
-            "source": facts.get("repository-code", "../README.md"),
-            "citation": "../CITATION.cff",
+            **({"paper": f"https://doi.org/{paper['doi']}"} if "doi" in paper else {}),
+            **({"source": facts["repository-code"]} if "repository-code" in facts else {}),
+            "citation": f"data:text/plain;charset=utf-8,{quote(text)}",
         },
     }
 

@@ -7,7 +7,10 @@ from markupsafe import Markup, escape
 
 from pipeline.config import MAIN
 
-_PATH = re.compile(r"(?<![\w./])\w[\w.-]*(?:/[\w.-]*\w)+")
+from .mathematics import typeset
+
+# A path has folders and a file with an extension: E/g is none.
+_PATH = re.compile(r"(?<![\w./])\w[\w.-]*(?:/[\w.-]*\w)*/[\w.-]*\.[a-z]\w*")
 
 
 class Links:
@@ -18,12 +21,15 @@ class Links:
         self.pictures: dict[str, str] = {}  # published file -> its place on the page
 
     def of(self, text: str) -> Markup:
-        """Return a text in which paths are links that may be broken after a slash or underscore."""
+        """Return a text with mathematics, in which paths are links.
+
+        Lines may be broken after a slash or an underscore of a path.
+        """
         parts, end = [], 0
         for found in _PATH.finditer(text):
-            parts += [escape(text[end : found.start()]), self._linked(found[0])]
+            parts += [typeset(text[end : found.start()]), self._linked(found[0])]
             end = found.end()
-        return Markup().join([*parts, escape(text[end:])])
+        return Markup().join([*parts, typeset(text[end:])])
 
     def _linked(self, path: str) -> Markup:
         words = Markup(re.sub(r"([/_])", r"\1<wbr>", str(escape(path))))

@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
+import numpy as np
+import numpy.typing as npt
 from PIL import Image
 
 from paper.numbers import printed
@@ -25,8 +27,7 @@ from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.results import drawn
 from pipeline.config.schema import scene as schema
 from pipeline.config.schema.sets import SETS
-from pipeline.declaration import parts
-from pipeline.records.files import read_bytes
+from pipeline.declaration import SceneSet, parts
 from pipeline.records.pictures import pixels
 from pipeline.records.record import read_record, record_path
 
@@ -40,6 +41,7 @@ _TEMPLATES = jinja2.Environment(
     lstrip_blocks=True,
 )
 _THUMBNAIL_STEP = 5  # pixels of a picture per pixel of its thumbnail
+_SHADES = 16  # of each colour in the page: more would double its size
 Picture = dict[str, Any]  # what the template shows of a picture
 
 
@@ -80,12 +82,19 @@ def _policy_source(script: str) -> str:
 
 
 def _image(file: Path) -> Picture:
-    """Return a PNG and a small copy of it as text, and its size in pixels."""
-    image, small = pixels(file), io.BytesIO()
-    Image.fromarray(image).reduce(_THUMBNAIL_STEP).save(small, "png")
-    data, thumbnail = (base64.b64encode(x).decode() for x in (read_bytes(file), small.getvalue()))
+    """Return a picture and a small copy of it as text, and its size in pixels."""
+    image = pixels(file)
+    small = np.asarray(Image.fromarray(image).reduce(_THUMBNAIL_STEP))
     high, wide, _ = image.shape
-    return {"image": {"data": data, "wide": wide, "high": high, "small": thumbnail}}
+    return {"image": {"data": _webp(image), "wide": wide, "high": high, "small": _webp(small)}}
+
+
+def _webp(image: npt.NDArray[np.uint8]) -> str:
+    """Return all pixels, with each colour in its nearest of a few shades, in base64."""
+    step, file = 255 // (_SHADES - 1), io.BytesIO()
+    shaded = (image.astype(np.int16) + step // 2) // step * step
+    Image.fromarray(shaded.astype(np.uint8)).save(file, "webp", lossless=True, method=2)
+    return base64.b64encode(file.getvalue()).decode()
 
 
 class _Page:
@@ -105,7 +114,13 @@ class _Page:
         """Return the caption of a picture and the notes of parts, without an image."""
         full_name = f"{variant}/{name}" if variant in SETS and variant != MAIN else name
         picture: Picture = caption_of(full_name, block.as_mapping(), known)._asdict()
-        picture |= {"id": identifier, "image": None, "rows": [], "headline": None}
+        picture |= {
+            "id": identifier,
+            "image": None,
+            "rows": [],
+            "headline": None,
+            "as_published": False,
+        }
         notes = [each.note(variant, name, block.as_mapping(), published) for each in self.sections]
         return picture | {"published": published, "notes": [*filter(None, notes)]}
 
@@ -130,8 +145,8 @@ class _Page:
             pictures.append(picture)
         return pictures
 
-    def sets_on_request(self) -> list[tuple[str, list[Picture]]]:
-        """Return the command and the pictures of each set that is drawn on request."""
+    def sets_on_request(self) -> list[tuple[SceneSet, list[Picture]]]:
+        """Return each set that is drawn on request, with its pictures."""
         sets = []
         for findings in self.sets[1:]:
             published_set = findings.published_set
@@ -139,7 +154,7 @@ class _Page:
             pictures = [
                 self._picture_on_request(findings, n) for n in (*names, *published_set.measured)
             ]
-            sets.append((published_set.command, [each for each in pictures if each]))
+            sets.append((SETS[published_set.group], [each for each in pictures if each]))
         return sets
 
     def _picture_on_request(self, findings: Findings, name: str) -> Picture | None:
@@ -164,14 +179,14 @@ class _Page:
         if not (self.root / published).is_file():
             return None
         if drawing and committed_state(self.root, published) != IDENTICAL:
-            missing = f"{published} is not the committed one, nor made by this tree"
+            missing = f"{published} is neither the committed one nor a current result"
             return picture | {"missing": missing}
-        origin = "as SHA256SUMS has it" if drawing else "no hash of measurements is kept"
+        origin = "published file" if drawing else "published file, whose hash is not kept"
         if drawing and not as_committed:
             picture |= {"shows": "", "see": ""}  # they have the values of config.yaml
-            origin += "; made from other values than config.yaml's"
-        file = f"{published}: the committed one ({origin}), not made by this tree"
-        return picture | _image(self.root / published) | {"file": file}
+            origin += ", made from other values than those of config.yaml"
+        file = f"{published}: {origin}"
+        return picture | _image(self.root / published) | {"file": file, "as_published": True}
 
     def _shown(self, drawing: str, data: Iterable[str]) -> Picture:
         """Return the image of a current drawing; it and its data are listed as shown."""

@@ -12,7 +12,7 @@ class Links(Protocol):
     in_site: bool  # in the folder of a site, or else in results/report/
 
     def of(self, text: str) -> Markup:
-        """Return a text in which paths are links."""
+        """Return a text with mathematics, in which paths are links."""
 
 
 class Section(NamedTuple):

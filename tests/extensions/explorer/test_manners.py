@@ -2,14 +2,16 @@
 
 import struct
 from itertools import pairwise
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from person import DISK
-from project import wait_for
+from project import ROOT, wait_for
 from selenium.webdriver import Keys
 
+from extensions.explorer.data import citation
 from pseudorigid import Ball
 
 pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
@@ -157,11 +159,14 @@ def test_the_link_and_the_sources_are_there(person):
     person.press("link")
     wait_for(lambda: "link" in person.text("record-note"))
     assert person.value("address") == person.run("return location.href")
-    paper, citation = person.run(
-        "return ['paper', 'citation'].map(n => document.getElementById(n).href)"
+    shown = person.run(
+        "const links = ['paper', 'source', 'citation'].map(n => document.getElementById(n));"
+        "return links.filter(a => a.getClientRects().length || a.href).map(a => [a.id, a.href])"
     )
-    assert "rigid+foundation" in paper or "doi.org" in paper
-    assert citation.endswith("CITATION.cff")
+    assert [name for name, _ in shown] == [*citation()["links"]]
+    kind, _, text = dict(shown)["citation"].partition(",")
+    assert kind == "data:text/plain;charset=utf-8"
+    assert unquote(text) == (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert "Kanso" in person.text("cite") and "version" in person.text("cite")
 
 

@@ -1,12 +1,17 @@
 """./reproduce site and article: what is not as committed is not published, nothing is deleted."""
 
+import json
 import re
 from contextlib import nullcontext
+from pathlib import Path
 
 import pytest
 from archives import DATA, forge
 from project import SHIPPED
+from report_pages import rendered
 
+from extensions.explorer import page as explorer
+from extensions.publication.article import numbers
 from extensions.publication.commands import article, site
 from pipeline import config
 from pipeline.cli import figures
@@ -60,6 +65,27 @@ def test_a_site_that_cannot_be_replaced_stays(tmp_path):
     with pytest.raises(FileNotFoundError):
         site._replace(tmp_path / ".site.part", tmp_path / "site")
     assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/report.html"]
+
+
+def test_the_links_of_the_site_lead_to_its_files_and_the_explorer_may_be_anywhere(reported):
+    """The explorer's page is in results/, in the site, in archives and where people copy it."""
+    explorer_page = explorer.render(config.load(SHIPPED))
+    stored = re.search(r'<script type="application/json" id="data">(.*?)</script>', explorer_page)
+    data = json.loads(stored[1])["citation"]["links"].values()
+    fixed = re.findall(r'<a [^>]*href="?([^">\s]+)', explorer_page.partition("<script")[0])
+    assert all(link.startswith(("#", "https://", "data:")) for link in (*data, *fixed))
+    files = {"report.html", "explorer.html", "article.html", "article.pdf"}
+    with_report = rendered(reported, beside=site._BESIDE)
+    source = (Path(numbers.__file__).parent / "template.typ").read_text()
+    pages = {
+        "index": re.findall('href="([^"]*)"', site._INDEX.read_text()),
+        "explorer": re.findall('href="([^"]*)"', site._LINKS),
+        "report": re.findall(r'<a [^>]*href="([^"]*)"', with_report),
+        "article": re.findall(r'link\("([\w.]+html|[\w.]+pdf)', source),
+    }
+    for links in pages.values():
+        relative = {link.partition("#")[0] for link in links} - {""}
+        assert relative and {x for x in relative if not x.startswith("paper/")} <= files
 
 
 def test_clean_deletes_what_was_published_and_nothing_else(tmp_path, monkeypatch):

@@ -2,13 +2,17 @@
 
 import base64
 import hashlib
+import io
 import json
 import re
 import shutil
+import unicodedata
 from collections import Counter
 from html import unescape
 
+import numpy as np
 import pytest
+from PIL import Image
 from project import ROOT, SHIPPED
 from report_pages import (
     CHROMIUM,
@@ -21,6 +25,7 @@ from report_pages import (
     with_script,
 )
 
+from extensions.report.mathematics import typeset
 from paper.numbers import PAPER_NUMBERS
 from pipeline import config
 from pipeline.checks import captions, quantities
@@ -49,11 +54,28 @@ def text(reported):
     return (reported.path / PAGE).read_text(encoding="utf-8")
 
 
-def test_every_figure_is_in_the_page_byte_for_byte(reported, text):
+def decoded(text):
+    """Return the whole pictures of a page, arrays of shape (height, width, 3), in their order."""
+    images = [image for image in Outline(text).all("img") if image["alt"]]
+    data = [base64.b64decode(image["src"].partition("base64,")[2]) for image in images]
+    return [np.asarray(Image.open(io.BytesIO(each)).convert("RGB")).astype(int) for each in data]
+
+
+def is_shown(path, images):
+    """Whether one of some images is a file's, pixel by pixel, in the shades of the page."""
+    drawn = pixels(path).astype(int)
+    same = [each for each in images if each.shape == drawn.shape]
+    return any(abs(each - drawn).max() <= 8 for each in same)
+
+
+def test_every_figure_is_in_the_page_pixel_by_pixel(reported, text):
     results = reported.path / "results"
     figures = [results / f"paper/figures/{name}.png" for name in ("fig3", "fig6", "fig7")]
     for path in (*figures, results / "low/figures/fig3.png"):
-        assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1
+        assert is_shown(path, decoded(text))
+    assert all((image[0, 0] == 255).all() for image in decoded(text))  # white stays white
+    whole = sum(path.stat().st_size for path in figures)
+    assert len(text) < whole + 50_000
     assert (reported.path / "said").read_text().splitlines()[-1].startswith(f"{PAGE}  ")
 
 
@@ -70,7 +92,7 @@ def test_the_page_needs_no_network_and_its_links_have_targets(reported, text):
     assert outline.all("script") == [{}] * len(scripts)
     assert "@import" not in text and "url(" not in text
     for image in outline.all("img"):
-        assert image["src"].startswith("data:image/png;base64,")
+        assert image["src"].startswith("data:image/webp;base64,")
     whole = [image for image in outline.all("img") if image["alt"]]
     assert all(len(image["alt"]) > 40 and image["width"] and image["height"] for image in whole)
     assert len(outline.all("img")) == len(whole) + 3  # small copies of fig3, fig6 and fig7
@@ -136,7 +158,7 @@ def test_what_is_missing_or_damaged_is_not_shown(reported, tmp_path):
     refusal["output"] = {"sha256": None, "refused": "no hyperbolic orbit"}
     (tree.path / refusal_path(fig6)).write_text(json.dumps(refusal))
     text = rendered(tree)
-    assert "did not make: low" in text and '<h2 id="variants"' not in text
+    assert "Not computed yet: low" in text and '<h2 id="variants"' not in text
     assert "<p>No picture: stale: changed after it was made; made from another results/" in text
     assert "<td>approximately 0.235" not in text
     assert "<p>No picture: cannot exist: no hyperbolic orbit.</p>" in text
@@ -156,15 +178,44 @@ def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
         sums = [f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in files]
         (folder / "SHA256SUMS").write_text("".join(sums))
     text = re.sub(r"<wbr>|</?a\b[^>]*>", "", rendered(tree))
+    images = decoded(text)
     for path in pictures:
-        assert text.count(base64.b64encode(path.read_bytes()).decode()) == 1, path
-        assert f"{path.parent.name}/{path.name}: the committed one (" in text
-    assert "no hash of measurements is kept" in article(text, "study-seconds_grazing")
+        assert is_shown(path, images), path
+        assert f"{path.parent.name}/{path.name}: published file" in text
+    assert text.count("were not computed in this copy") == 1
+    assert "published file, whose hash is not kept" in article(text, "study-seconds_grazing")
     with open(tree.path / "more_figures" / "study" / "edges.png", "ab") as file:
         file.write(b"x")
     edges = article(rendered(tree), "study-edges")
-    assert "<p>No picture: more_figures/study/edges.png is not the" in edges
+    assert "<p>No picture: more_figures/study/edges.png is neither the" in edges
     assert "<img" not in edges
+
+
+@pytest.mark.parametrize(
+    ("plain", "html"),
+    [
+        ("xdot^2/2 + k udot^2/2", "<i>ẋ</i><sup>2</sup>/2 + <i>k</i> <i>u̇</i><sup>2</sup>/2"),
+        ("at E/g^2 <= 6.25", "at <i>E</i>/<i>g</i><sup>2</sup> ≤ 6.25"),
+        ("7e-16 R, 2.5e-03", "7 × 10<sup>−16</sup> <i>R</i>, 2.5 × 10<sup>−3</sup>"),
+        ("1e-13 and h^-0.502", "10<sup>−13</sup> and <i>h</i><sup>−0.502</sup>"),
+        ("dx ^ dxdot, |l2|", "d<i>x</i> ∧ d<i>ẋ</i>, |λ<sub>2</sub>|"),
+        ("-p delta(t - t_i)", "−<i>p</i> δ(<i>t</i> − <i>t</i><sub>i</sub>)"),
+        ("d phi_2/dx at m omega^2", "d φ<sub>2</sub>/d<i>x</i> at <i>m</i> ω<sup>2</sup>"),
+        ("Young's <b>, 3 x 5, fig5.png", "Young’s &lt;b&gt;, 3 × 5, fig5.png"),
+    ],
+)
+def test_mathematics_is_set(plain, html):
+    assert unicodedata.normalize("NFC", str(typeset(plain))) == unicodedata.normalize("NFC", html)
+
+
+def test_sections_have_headings_in_words_and_the_page_a_way_back_up(text):
+    headings = re.findall(r"<h[23][^>]*>(.*?)</h[23]>", text)
+    assert not [heading for heading in headings if "<code>" in heading or "./" in heading]
+    assert text.count('href="#top"') == 1 and '<body id="top">' in text
+    assert "print-color-adjust: exact" in text
+    folded = re.findall(r"<summary><h3>[^<]+</h3> \(\d+\)</summary>\s*<p[^>]*>(.*?)</p>", text)
+    assert len(folded) == text.count("<summary><h3>")
+    assert all(command.startswith("<code>./reproduce ") for command in folded)
 
 
 def test_whole_numbers_have_commas(text):

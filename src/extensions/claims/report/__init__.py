@@ -1,5 +1,6 @@
 """What the verdicts add to the report: a bar, the corrections, and a table with a filter."""
 
+import re
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,7 @@ def section(config: Config, root: Path, links: Links) -> Section:
     verdicts = _verdicts(root)
     values = {
         "linked": links.of,
+        "sentences": _sentences,
         "claims": verdicts,
         "counts": list(Counter(verdict.verdict for verdict in verdicts).items()),
         "corrected": (FALSE, CORRECTED),
@@ -44,6 +46,17 @@ def section(config: Config, root: Path, links: Links) -> Section:
     menu = {"Corrections": "#corrections", "All statements": "#claims"}
     script = _SCRIPT if verdicts else ""
     return Section(menu, html.summary, html.findings, html.tables, script, note)
+
+
+def _sentences(row: Verdict) -> list[list[str]]:
+    """Return the sentences of a value; one with a series is its beginning and the items."""
+    sentences = []
+    for sentence in re.split(r"(?<=[^.]\.) (?=[A-Z])", row.value):
+        first, *others = sentence.split("; ")
+        beginning, verb, item = first.rpartition(" are ")
+        series = [beginning + verb, item, *others] if verb else [first, *others]
+        sentences.append(series if len(others) > 1 else [sentence])
+    return sentences
 
 
 def _verdicts(root: Path) -> list[Verdict]:

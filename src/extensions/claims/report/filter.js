@@ -7,7 +7,8 @@ function filter() {
   const words = form.words.value.toLowerCase().split(/\s+/);
   let count = 0;
   for (const row of rows) {
-    const text = row.textContent.toLowerCase();
+    // The dot above a letter is found as it is typed.
+    const text = row.textContent.toLowerCase().normalize("NFD").replaceAll("\u0307", "dot");
     const fits = (!verdict || row.dataset.verdict === verdict) && words.every((w) => text.includes(w));
     row.hidden = !fits;
     count += fits;
@@ -18,9 +19,10 @@ function filter() {
 // A link to a statement shows it, whatever the filter is.
 function reveal() {
   const row = document.getElementById(location.hash.slice(1));
-  if (rows.includes(row) && row.hidden) {
+  if (rows.includes(row)) {
     form.reset();
     filter();
+    form.parentElement.open = true;
     row.scrollIntoView();
   }
 }
@@ -34,8 +36,10 @@ if (form) {
     link.addEventListener("click", () => {
       form.reset();
       form.verdict.value = link.dataset.pick;
+      form.parentElement.open = true;
       filter();
     });
   }
   filter();
+  reveal();
 }

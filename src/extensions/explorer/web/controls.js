@@ -38,7 +38,7 @@ class Controls {
     const { version, citation } = this.page.data;
     element("version").textContent = version;
     element("cite").textContent = `To cite this page: ${citation.software} To cite the paper: ${citation.paper}`;
-    for (const [id, link] of Object.entries(citation.links)) element(id).href = link;
+    for (const [id, link] of Object.entries(citation.links)) Object.assign(element(id), { href: link, hidden: false });
     this.option = option;
   }
 

@@ -1,5 +1,6 @@
 """Set the article with typst, whose package brings the compiler and the fonts."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -7,6 +8,7 @@ _SOURCE = Path(__file__).with_name("article.typ")
 _STYLE = Path(__file__).with_name("article.css")
 # typst says this of every page: its export may change, but its version is pinned.
 _KNOWN = "html export is under active development and incomplete"
+_FORMULA = re.compile(r'<span data-alt="([^"]*)"><math\b(.*?)</span>', re.DOTALL)
 _HEAD = """\
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; \
 style-src 'unsafe-inline'">
@@ -28,6 +30,8 @@ def typeset(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
 def web_page(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
     """Return the article as one HTML page, with the figures in it and formulas in MathML."""
     page = _compiled(root, numbers, source, format="html").decode()
+    # Chromium names a formula by aria-label, other programs by alttext.
+    page = _FORMULA.sub(r'<math aria-label="\1" alttext="\1"\2', page)
     head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
     return page.replace("</head>", head, 1).encode()
 
