@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from legible import assert_text_is_whole_and_apart
+from legible import assert_legible
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas, raster
@@ -125,7 +125,7 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     long = LINE | {"energy": [0.625 * i for i in range(1, 60)]}
     for sweep in (wide, long):
         figure = atlas.draw(sweep, dataset(sweep, **nothing))
-    assert_text_is_whole_and_apart(figure)  # names of resonances that would touch are moved apart
+    assert_legible(figure)  # names of resonances that would touch are moved apart
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from examples import (
     no_clipping,
 )
 from keys import SCENE, texts
-from legible import assert_text_is_whole_and_apart, frames_of, pixels_in_frames
+from legible import assert_legible, frames_of, pixels_in_frames
 from project import shipped
 from sections import BALL
 
@@ -114,7 +114,7 @@ def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
     (start,) = (a for a in lines if np.ptp(a.get_xdata()) > 2)
     low = frames_of(figure)[0].y0
     assert low + 5 < start.get_ydata()[0] * style.DPI < low + 300
-    assert_text_is_whole_and_apart(figure)
+    assert_legible(figure)
 
 
 def test_the_sets_of_the_committed_horseshoe_lie_on_branches_that_are_drawn():
