@@ -1,6 +1,5 @@
 """Births of chains and their losses of stability, drawn over the regular share of a plane."""
 
-from itertools import cycle
 from typing import Any
 
 import xarray as xr
@@ -26,7 +25,6 @@ _KINDS: dict[str, tuple[dict[str, Any], str]] = {
         "$E/g^2 = 1 + k/2$: above it the map jumps",
     ),
 }
-_HUES = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.SKY)
 
 
 @style.pinned()
@@ -35,7 +33,8 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
     sheet = atlas.sheet_above(BOTTOM, sweep)
     text = "Births of the chains 1/q, and their ends, over the regular share"
     panel = atlas.cells(sheet, BOTTOM, sweep, data["regular"].values, 1.0, raster.GREYS, text)
-    hues = dict(zip(sweep["chains"], cycle(_HUES), strict=False))
+    chains = sorted(sweep["chains"])
+    hues = dict(zip(chains, style.ordered(len(chains)), strict=True))
     for order, kind, part in zip(
         curves["order"].values.tolist(), curves["kind"].values.tolist(), rows(curves), strict=True
     ):

@@ -14,7 +14,7 @@ PLAIN = 9.0  # points: text in a picture of that width
 # Colours for meanings without an order. In grey they differ in lightness, and readers with every
 # kind of colour vision can tell apart those that one picture uses (tests/colours.py).
 BLUE, VERMILION, ORANGE, BLACK = "#123fb0", "#d55e00", "#e69f00", "#000000"
-SKY, GREEN = "#56b4e9", "#009e73"  # as light as others: with marks or dashes of their own
+SKY, GREEN = "#56b4e9", "#00735a"  # SKY is as light as ORANGE: with marks of its own
 # The paper's green and blue for the two kinds of manifold.
 STABLE, UNSTABLE = "#4fa82a", BLUE
 MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
