@@ -74,16 +74,20 @@ def assert_colours_apart(figure):
     """Fail if colours of a picture are too near each other in a vision, or in grey.
 
     Colours of the scale for ordered values are compared with the others alone. Marks of different
-    shapes or fillings need no colours. In grey, lines and marks may also differ in dashes or width.
+    shapes or fillings need no colours, nor do lines through such marks. In grey, lines and marks
+    may also differ in dashes or size.
     """
-    scale = set(style.ordered(256))
-    for one, other in combinations(sorted(looks(figure), key=str), 2):
+    scale, found = set(style.ordered(256)), looks(figure)
+    marks = {look[0]: {other[1:3] for other in found if other[0] == look[0]} for look in found}
+    marks = {hue: {shape for shape in shapes if shape[0]} for hue, shapes in marks.items()}
+    for one, other in combinations(sorted(found, key=str), 2):
         if one[0] == other[0] or {one[0], other[0]} <= scale:
             continue
-        marks_differ = one[1] and other[1] and one[1:3] != other[1:3]
+        shapes = [{look[1:3]} if look[1] else marks[look[0]] for look in (one, other)]
+        by_shape = all(shapes) and not shapes[0] & shapes[1]
         seen = {vision: distance(one[0], other[0], vision) for vision in VISIONS}
-        assert marks_differ or min(seen.values()) >= APART, (one, other, seen)
-        widths = sorted((one[3], other[3]))
-        told_apart = one[1:3] != other[1:3] or widths[1] >= WIDER * widths[0]
+        assert by_shape or min(seen.values()) >= APART, (one, other, seen)
+        sizes = sorted((one[3], other[3]))
+        told_apart = by_shape or one[1:3] != other[1:3] or sizes[1] >= WIDER * sizes[0]
         shades = abs(lightness(one[0]) - lightness(other[0]))
         assert told_apart or shades >= SHADES, (one, other, shades)

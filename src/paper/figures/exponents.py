@@ -60,8 +60,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
-    dashes = (_DASHES[orbit % len(_DASHES)] for orbit in range(orbits))
-    lines = list(zip(style.ordered(orbits), dashes, strict=True))
+    turns = (_DASHES[orbit % len(_DASHES)] for orbit in range(orbits))
+    lines = list(zip(style.ordered(orbits), turns, strict=True))
     if mixed and orbits > _MOST_STARTS:
         raise ValueError(f"starts: {orbits} of them: expected at most {_MOST_STARTS}, with a key")
     names: list[str] = []

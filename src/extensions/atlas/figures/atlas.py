@@ -173,7 +173,8 @@ def _upright_lines(panels: Sequence[Panel], data: xr.Dataset, first: float, unit
     at = zip(data["order"].values, data["resonance_energy"].values[:, 0].tolist(), strict=True)
     energies = [(f"1/{order}", energy * unit) for order, energy in at]
     energies = [(name, energy) for name, energy in energies if first < energy < last]
-    lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7, ls=":") for _, energy in energies]
+    dots = {"color": style.BACKDROP, "lw": 0.7, "ls": ":"}
+    lines = [upright(panels, energy, **dots) for _, energy in energies]
     for (name, _), x in zip(energies, apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)

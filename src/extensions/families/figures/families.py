@@ -1,7 +1,7 @@
 """Families of periodic orbits against the energy or the inertia, below the regular share."""
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -13,16 +13,17 @@ from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import around, inside, linear
 from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.names import name_curves
+from pseudorigid.figures.canvas.names import dense, name_curves
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 _LEFT, _RIGHT = 125, 1000  # pixels
-_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
+_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.45, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^", "grazing": "x"}
 _NAMES = {"doubling": "period doubling", "grazing": "an impact grazes"}  # of marks in the key
 _RESIDUES = -0.6, 1.6
 _NAMED = 6.5  # points: periods beside lines
+_MARK = np.array(list(product((-5, 0, 5), repeat=2)))[:, :, None]  # pixels: steps in a mark
 
 
 @style.pinned()
@@ -72,10 +73,14 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     title(
         sheet, below.frame, "Residue $(2-$trace$)/4$" + "; triangles: beyond the axis" * any(leaves)
     )
-    marks = _events(middle, parameter, families, shown)
+    marks, at = _events(middle, parameter, families, shown)
+    around_marks = np.hstack([np.array(middle.place(*at)) + shift for shift in _MARK])
     stability = {str(kind) for span in shown.values() for kind in types[span]}
     for panel, heights in ((middle, x), (below, residue)):
-        curves = [_dense(panel, values[span], heights[span]) for span in shown.values()]
+        curves = [
+            dense(panel.place(values[span], heights[span]), panel.frame) for span in shown.values()
+        ]
+        curves.append(around_marks if panel is middle else around_marks[:, :0])
         texts = [f"{period[i]}" for i in shown]
         name_curves(sheet, curves, texts, [hues[period[i]] for i in shown], panel.frame, _NAMED)
     _keys(sheet, stability, marks, hues)
@@ -107,22 +112,11 @@ def _exits(panel: Window, across: np.ndarray, residue: np.ndarray, hue: str) -> 
     return count
 
 
-def _dense(panel: Window, across: np.ndarray, up: np.ndarray) -> np.ndarray:
-    """Return the points of a line in pixels that lie in the frame, less than two pixels apart."""
-    places = np.array(panel.place(across, up))
-    steps = np.abs(np.diff(places)).max(axis=0)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    at = np.arange(0.0, along[-1] + 1.0)
-    points = np.array([np.interp(at, along, part) for part in places])
-    (left, bottom, right, top), (x, y) = panel.frame, points
-    return points[:, (left < x) & (x < right) & (bottom < y) & (y < top)]
-
-
 def _events(
     panel: Window, parameter: str, families: xr.Dataset, shown: dict[int, slice]
-) -> set[str]:
-    """Mark events and ends of families; return which kinds there are."""
-    marked = set()
+) -> tuple[set[str], np.ndarray]:
+    """Mark events and ends of families; return which kinds there are, and the points (2, n)."""
+    marked, points = set(), [np.empty((2, 0))]
     number, order = (families[f"event_{name}"].values for name in ("family", "order"))
     across, up, kinds = (families[f"event_{name}"].values for name in (parameter, "x", "kind"))
     few = (order * families["period"].values[number] <= 12) & (order <= 6)
@@ -132,6 +126,7 @@ def _events(
             chosen &= few
         panel.dots(across[chosen], up[chosen], style.BLACK, 2.6, hollow=True, marker=marker)
         marked |= {kind} if chosen.any() else set()
+        points.append(np.array([across[chosen], up[chosen]]))
     for index, span in shown.items():
         for side, last in ((0, span.start), (1, span.stop - 1)):
             end = families["end_kind"].values[index, side]
@@ -140,7 +135,8 @@ def _events(
                 x, y = (families[name].values[last] for name in (parameter, "x"))
                 panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker=_MARKS[kind])
                 marked.add(kind)
-    return marked
+                points.append(np.array([[x], [y]]))
+    return marked, np.hstack(points)
 
 
 def _rim(scene: dict[str, Any]) -> np.ndarray:

@@ -63,6 +63,17 @@ def name_curves(
         taken = np.hstack([taken, box])
 
 
+def dense(line: Sequence[np.ndarray], frame: Frame) -> np.ndarray:
+    """Return points (2, n) of the part of a line (across, up) in a frame, a pixel apart or less."""
+    places = np.array(line)
+    steps = np.abs(np.diff(places)).max(axis=0)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.arange(0.0, along[-1] + 1.0)
+    x, y = points = np.array([np.interp(at, along, part) for part in places])
+    left, bottom, right, top = frame
+    return points[:, (left < x) & (x < right) & (bottom < y) & (y < top)]
+
+
 def _places(
     curve: np.ndarray, half: tuple[float, float], gap: float, frame: Frame, beside: bool
 ) -> np.ndarray:
