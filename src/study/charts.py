@@ -49,7 +49,7 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "scan 0.1, 1e-09": ("#9a4f7c", "o", _USUAL),
     "engine 1e-03": ("#5c3d00", ">", _USUAL),
 }
-LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
+LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
@@ -196,7 +196,7 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
         lower.dots(*end, color, hollow=hollow, marker=marker)
         if entries.count(entries[i]) > 1:
             step = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
-            lower.note(*end, step, shift=(3, 3.5))
+            lower.note(*end, step, shift=(3, 4.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
     method_key(sheet, named, top - 1075)
     return sheet.figure
