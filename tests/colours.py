@@ -77,11 +77,12 @@ def assert_colours_apart(figure):
     shapes or fillings need no colours, nor do lines through such marks. In grey, lines and marks
     may also differ in dashes or size.
     """
-    scale, found = set(style.ordered(256)), looks(figure)
+    found, ordered = looks(figure), style.ordered(256)
+    scales = set(ordered), set(map(style.pale, ordered))
     marks = {look[0]: {other[1:3] for other in found if other[0] == look[0]} for look in found}
     marks = {hue: {shape for shape in shapes if shape[0]} for hue, shapes in marks.items()}
     for one, other in combinations(sorted(found, key=str), 2):
-        if one[0] == other[0] or {one[0], other[0]} <= scale:
+        if one[0] == other[0] or any({one[0], other[0]} <= scale for scale in scales):
             continue
         shapes = [{look[1:3]} if look[1] else marks[look[0]] for look in (one, other)]
         by_shape = all(shapes) and not shapes[0] & shapes[1]

@@ -107,7 +107,7 @@ def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
     data = xr.Dataset({"impact": ("i", impact), "distance": (("e", "i"), distance)})
     scene = {"beside": [1e-4 * i for i in range(count)], "distance": 0.02}
     figure = draw_escape(SCENE | scene, data)
-    for hue in style.HUES[:count]:
+    for hue in style.ordered(count):
         assert pixels_in_frames(figure, hue)[0] > 100
     assert "at the start" in texts(figure)
     lines = (a for a in figure.artists if a.get_color() == style.FRAME and a.get_ls() == "--")

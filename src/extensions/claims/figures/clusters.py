@@ -50,7 +50,7 @@ def draw(scene: Scene, clusters: xr.Dataset) -> Figure:
         (f"cut at {style.number(float(cut))}", hues[i], _MARKS[i % 4])
         for i, cut in enumerate(clusters["cut"].values)
     ]
-    key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
+    key(sheet, entries, 85, 4, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
 
 

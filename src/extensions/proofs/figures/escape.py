@@ -36,5 +36,5 @@ def draw(scene: dict[str, Any], escape: xr.Dataset) -> Figure:
         panel.line(impact, line, color=hue, lw=1.6, ls=(dash, (dash, gap)) if gap else "-")
         text = "at $E$" + (f" + {more:.10f}".rstrip("0") if more else "")
         entries.append((text, hue, "", False, 1.6))
-    key(sheet, entries, room - 25, _COLUMNS, _LEFT, _RIGHT - _LEFT)
+    key(sheet, entries, room - 20, _COLUMNS, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
