@@ -61,7 +61,7 @@ def looks(figure):
     found = set()
     for artist in figure.artists:
         if (marker := artist.get_marker()) not in ("None", None, ""):
-            hollow = artist.get_markerfacecolor() != artist.get_color()
+            hollow = to_hex(artist.get_markerfacecolor()) != to_hex(artist.get_color())
             edge = artist.get_markeredgecolor() if hollow else artist.get_color()
             found.add((to_hex(edge), marker, hollow, artist.get_markersize()))
         else:
