@@ -7,7 +7,7 @@ from unittest.mock import patch
 
 import numpy as np
 import yaml
-from legible import assert_text_is_whole_and_apart
+from legible import assert_legible
 
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, reported
@@ -53,7 +53,7 @@ def made(block, data=None, legible=True):
     kind, data = KINDS[block["picture"]], data or computed(block)
     figure = function(kind.drawn_by)(block, *(data[name] for name in kind.stages))
     if legible:
-        assert_text_is_whole_and_apart(figure, margin=1, slack=5)  # 10^-5 and 10^1 at a corner
+        assert_legible(figure, slack=5)  # 10^-5 and 10^1 at a corner
     caption = caption_of("one", block, facts(block, data))
     return render(figure, "png"), reported(block, data), caption.shows
 

@@ -3,6 +3,7 @@
 from itertools import combinations
 
 import numpy as np
+from colours import assert_colours_apart
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.transforms import Bbox
 
@@ -25,8 +26,13 @@ def pixels_in_frames(figure, color):
     return [int(near[high - y1 : high - y0, x0:x1].sum()) for x0, y0, x1, y1 in boxes]
 
 
-def assert_text_is_whole_and_apart(figure, margin=4, slack=0):
-    """Fail if a text leaves the figure, lies across a frame, or covers another by `slack`."""
+def assert_legible(figure, slack=0):
+    """Fail if colours are too near, or a text crosses a frame, covers another by `slack`,
+
+    or a text or a mark comes nearer than a millimetre to the edge of a picture of a column's width.
+    """
+    assert_colours_apart(figure)
+    margin = 12 * max(figure.bbox.width / style.COLUMN, 1)  # pixels
     with style.pinned():
         renderer = FigureCanvasAgg(figure).get_renderer()
         boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
@@ -41,6 +47,6 @@ def assert_text_is_whole_and_apart(figure, margin=4, slack=0):
             assert inside or not frame.overlaps(extent), f"{text} lies across a frame"
     for (text, extent), (other_text, other) in combinations(boxes, 2):
         assert not other.overlaps(extent.padded(-slack)), (text, other_text)
-    image, rim = pixels(figure), max(margin - 1, 1)
+    image, rim = pixels(figure), int(margin) - 1
     for side in (image[:rim], image[-rim:], image[:, :rim], image[:, -rim:]):
         assert (side == 255).all()

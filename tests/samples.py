@@ -35,10 +35,11 @@ SCENES = {
         }
     },
     "exponents": {
+        "starts": [0.6, 0.62, 0.65],
         "axes": {
             "impact": {"limits": [0, 200000], "ticks": list(range(0, 200001, 20000))},
             "exponent": {"limits": [-0.3, 0.3], "ticks": [-0.2, -0.1, 0, 0.1, 0.2, 0.3]},
-        }
+        },
     },
 }
 for scene in SCENES.values():

@@ -4,7 +4,7 @@ import numpy as np
 from pseudorigid import Ball, Picture, symmetric_orbits
 
 ball = Ball(k=0.2, g=0.04)
-hues = {"elliptic": "royalblue", "hyperbolic": "orangered"}
+hues = {"elliptic": "mediumblue", "hyperbolic": "orangered"}
 title = "The fixed point and orbits of period six"
 picture = Picture([0.007, 0.0095], [-0.14, 0.25], ("$E$", "$x$"), title)
 for energy in np.linspace(0.007, 0.0095, 41):

@@ -10,5 +10,5 @@ for sign, label, hue in ((-1, "stable", "yellowgreen"), (1, "unstable", "royalbl
     for line in lines:
         y = sign * (line["xdot"] - ball.k * line["udot"])
         picture.line(line["x"], y, label, color=hue, lw=0.7)
-picture.dots(six["x"], six["xdot"] - ball.k * six["udot"], "orangered", 3.5, "orbit")
+picture.dots(six["x"], six["xdot"] - ball.k * six["udot"], "black", 3.5, "orbit")
 picture.save("manifold.png")

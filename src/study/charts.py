@@ -20,41 +20,41 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 # Colour and mark of each family of methods, or of a method in charts that draw one family's
 # methods apart; similar methods have similar colours. A third entry means a hollow mark, for
 # methods as they are usually written.
-_GREY, _WINE, _USUAL = "#6b6b6b", "#882255", True
+_GREY, _WINE, _PINK, _USUAL = "#8a8a8a", "#882255", "#cc79a7", True
 STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
-    "careful scan": (_WINE, "o"),
+    "careful scan": (_WINE, "p"),
     "careful scan (simple)": (style.ORANGE, "D"),
     "heyoka with care": (style.GREEN, "s"),
     "CyRK DOP853 with care": ("#8c510a", "^"),
     "DOP853 with care": (style.BLACK, "^"),
     "LSODA with care": (_GREY, "D"),
-    "RK45 with care": (style.PURPLE, "v"),
+    "RK45 with care": (_PINK, "v"),
     "scan 0.5 + bisection": (style.SKY, "o", _USUAL),
     "scan 0.1 + bisection": (style.BLUE, "o", _USUAL),
     "scan 0.01 + bisection": ("#0b2a55", "o", _USUAL),
     "scan 0.5 to 0.01": (style.BLUE, "o", _USUAL),
-    "time stepping": (style.ORANGE, "o", _USUAL),
+    "time stepping": (style.ORANGE, ">", _USUAL),
     "heyoka": (style.GREEN, "s", _USUAL),
     "DOP853": (style.BLACK, "^", _USUAL),
     "LSODA": (_GREY, "D", _USUAL),
-    "RK45": (style.PURPLE, "v", _USUAL),
-    "careful scan 1": (_WINE, "s"),
+    "RK45": (_PINK, "v", _USUAL),
+    "careful scan 1": (_WINE, "<"),
     "careful scan 0.25": (_WINE, "^"),
     "careful scan 1 (simple)": (style.ORANGE, "s"),
     "careful scan 0.5 (simple)": (style.ORANGE, "o"),
     "careful scan 0.25 (simple)": (style.ORANGE, "^"),
     "scan 0.1, 1e-03": ("#ecc3da", "o", _USUAL),
-    "scan 0.1, 1e-06": (style.PURPLE, "o", _USUAL),
-    "scan 0.1, 1e-09": ("#8f4772", "o", _USUAL),
-    "engine 1e-03": ("#a86f00", "o", _USUAL),
+    "scan 0.1, 1e-06": (_PINK, "o", _USUAL),
+    "scan 0.1, 1e-09": ("#9a4f7c", "o", _USUAL),
+    "engine 1e-03": ("#5c3d00", ">", _USUAL),
 }
-LEFT, RIGHT = 150, 1010  # pixels: ends of the frames
+LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
 _COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
 _NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
-_SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "s", -0.14)  # colour, mark and rise in a row
+_SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "D", -0.14)  # colour, mark and rise in a row
 _COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
@@ -105,7 +105,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     families = [family for family in STYLES if family in present]
     entries = _entries(families, families)
     sheet, top = chart_sheet(1280, entries)
-    across = decades(_COSTS[cost], f"{cost.capitalize()} a flight")
+    across = decades(_COSTS[cost], f"{cost.capitalize()} per flight")
     median = _from_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
     worst = replace(median, name="Worst relative error")
     panels = (
@@ -191,12 +191,12 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
     for i, (_, color, marker, hollow) in enumerate(entries):
         drift = data["drift"].values[i]
-        upper.line(data["record"].values, drift, color=color, lw=0.9)
+        upper.line(data["record"].values, drift, color=color, lw=0.9, ls=_dashes(entries[i]))
         end = drift[-1], float(data["missed"].values[i])
         lower.dots(*end, color, hollow=hollow, marker=marker)
         if entries.count(entries[i]) > 1:
             step = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
-            lower.note(*end, step, shift=(3, 3.5))
+            lower.note(*end, step, shift=(3, 4.5))
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
     method_key(sheet, named, top - 1075)
     return sheet.figure
@@ -210,9 +210,10 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     up = _from_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     entries = _entries(data["name"].values, data["family"].values)
-    for (_, color, *_), distance in zip(entries, data["apart"].values, strict=True):
-        panel.line(data["impact"].values, distance, color=color, lw=0.9)
-    method_key(sheet, [entry[:2] for entry in dict.fromkeys(entries)], top - 740)
+    lines = [(*entry[:2], "", _dashes(entry)) for entry in entries]
+    for (_, color, _, dashes), distance in zip(lines, data["apart"].values, strict=True):
+        panel.line(data["impact"].values, distance, color=color, lw=0.9, ls=dashes)
+    method_key(sheet, dict.fromkeys(lines), top - 740)
     return sheet.figure
 
 
@@ -220,7 +221,7 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
 def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the error of each figure by each method in units of the largest invisible error.
 
-    Hollow marks are methods that missed impacts. At the right are the evaluations an impact of the
+    Hollow marks are methods that missed impacts. At the right are the evaluations per impact of the
     two cheapest methods that suffice.
     """
     scenes, families = data.sizes["scene"], data["family"].values
@@ -232,7 +233,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     across = _from_zero(-16, 6, "Error of the picture / what it can hide")
     panel = PanelWithZeros(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
-    heading = "Evaluations an impact, of the two cheapest that suffice"
+    heading = "Evaluations per impact, of the two cheapest that suffice"
     corner(sheet, (LEFT, bottom, sheet.wide - 15, top), heading)
     methods = [text for text, *_ in _entries(data["name"].values, families)]
     for i, middle in enumerate(middles):
@@ -240,7 +241,8 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
         errors = row["error"].values / float(row["limit"])
         missed = row["missed"].values > 0
         for family, error, hollow in zip(families, errors, missed, strict=True):
-            panel.dots(error, middle, STYLES[family][0], hollow=hollow)
+            hue, marker, *_ = STYLES[family]
+            panel.dots(error, middle, hue, hollow=hollow, marker=marker)
         circles = np.where(missed, " \N{WHITE CIRCLE}", "")
         named = list(zip(row["evaluations"].values, methods, circles, strict=True))
         best = int(row["cheapest"])
@@ -322,6 +324,12 @@ def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
     pairs = zip(names, families, strict=True)
     styles = [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
     return [(*entry, False)[:4] for entry in styles]
+
+
+def _dashes(entry: Entry) -> str:
+    """Return the dashes of a line without marks: none for a method used with care."""
+    text, _, _, hollow = entry
+    return ":" if text.startswith("time stepping") else "--" if hollow else "-"
 
 
 def _printed(name: str, family: str) -> str:

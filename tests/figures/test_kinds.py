@@ -31,7 +31,7 @@ def test_all_visible_points_are_drawn_and_the_sea_comes_first():
     dots = dots[-len(data["row_size"]) :]  # the key's come before
     sizes = [np.sum(seen[span]) for span in rows(data)]
     assert [len(line.get_xdata()) for line in dots] == [sizes[2], sizes[0], sizes[1]]
-    assert [line.get_color() for line in dots] == [style.SEA, style.HUES[0], style.HUES[1]]
+    assert [line.get_color() for line in dots] == [style.SEA, *style.ordered(2)]
     assert 0 < np.sum(seen) < seen.size
 
 

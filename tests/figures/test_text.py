@@ -1,7 +1,7 @@
 """Text in pictures is not clipped, does not cover other text, and is large enough to read."""
 
 import pytest
-from legible import assert_text_is_whole_and_apart
+from legible import assert_legible
 from samples import DATA, FLAT, KINDS, SCENES, SPACE, VIEW, drawn, exponents, module
 from slowly import slowly
 
@@ -13,7 +13,7 @@ from pseudorigid.figures.canvas import style
 @pytest.mark.parametrize("kind", KINDS)
 def test_text_is_whole_apart_and_legible_at_a_columns_width(kind):
     figure = drawn(kind)
-    assert_text_is_whole_and_apart(figure)
+    assert_legible(figure)
     shrink = min(1, style.COLUMN / figure.bbox.width)
     assert min(text.get_size() for text in figure.texts) * shrink >= 7
 
@@ -35,14 +35,14 @@ def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
     scene |= {"duration": 15.5, "impacts": 200_000}
     scene |= {"ball": {"k": 0.2, "g": scale * 0.04}, "energy": scale * scale * 0.01}
     data = [with_scaled_lengths(part, scale) for part in DATA[kind]()]
-    assert_text_is_whole_and_apart(module(kind).draw(scene, *data))
+    assert_legible(module(kind).draw(scene, *data))
 
 
 def test_names_of_exponents_that_coincide_are_moved_apart():
     data = exponents()
     data["exponent"] *= 0.0
     figure = module("exponents").draw(SCENES["exponents"], data)
-    assert_text_is_whole_and_apart(figure)
+    assert_legible(figure)
     texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
     names = [text.get_text() for text in texts if "lambda" in text.get_text()]
     assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
@@ -52,7 +52,7 @@ def test_names_of_exponents_that_coincide_are_moved_apart():
 @pytest.mark.parametrize("azimuth", [115, *slowly(25, 205, 295, 340)])
 def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
     scene = SCENES["portrait"] | {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}}
-    assert_text_is_whole_and_apart(module("portrait").draw(scene, *DATA["portrait"]()))
+    assert_legible(module("portrait").draw(scene, *DATA["portrait"]()))
 
 
 @pytest.mark.parametrize("ball, energy", [((1 / 3, 0.01), -0.0001), ((0.05, 0.02), 0.004)])
@@ -60,4 +60,4 @@ def test_a_long_setting_and_short_axes_leave_the_text_of_a_box_apart(ball, energ
     ball = Ball(*ball)
     scene = {"energy": energy, "ball": {"k": ball.k, "g": ball.g}, "view": VIEW}
     data = scene_orbits(ball, energy, [-0.3, 0.2, 0.7], 300)
-    assert_text_is_whole_and_apart(module("portrait").draw(scene, data))
+    assert_legible(module("portrait").draw(scene, data))

@@ -60,7 +60,7 @@ def test_names_of_exponents_stand_at_the_chaotic_lines_and_starts_are_named(othe
     assert np.min(np.abs(np.array([*full]) - ends[1])) < 0.1  # beside the end of a line
 
 
-def test_exponents_of_one_sort_have_no_key_and_hidden_ones_no_name():
+def test_one_orbit_has_no_key_and_hidden_exponents_no_name():
     data = scene_exponents(BALL, 0.01, [0.6], 2000, 40)
     narrow = {"exponent": {"limits": [-0.1, 0.1], "ticks": [0]}}
     scene = SCENE | {"starts": [0.6], "impacts": 2000, "axes": narrow}
@@ -68,6 +68,21 @@ def test_exponents_of_one_sort_have_no_key_and_hidden_ones_no_name():
     names = [text for text in texts(figure) if "lambda" in text or ":" in text]
     assert names == [r"$\lambda_2$"]
     assert len([text for text in texts(figure) if text == "0"]) == 2  # of two axes, no inset
+
+
+def test_orbits_of_one_type_are_named_by_their_starts_and_coinciding_lines_are_said():
+    starts = [0.6, 0.62, 0.65]
+    data = scene_exponents(BALL, 0.01, starts, 20_000, 40)
+    exponent = {"limits": [-0.3, 0.3], "ticks": [0]}
+    scene = SCENE | {"starts": starts, "impacts": 20_000, "axes": {"exponent": exponent}}
+    found = texts(module("exponents").draw(scene, data))
+    assert [text for text in found if "start" in text] == [f"start {at}" for at in starts]
+    assert found.count("3 lines lie on one another") == 1  # those of lambda_2
+    exponent["limits"] = [-0.3, 0.003]  # they are apart on this axis
+    assert "3 lines lie on one another" not in texts(module("exponents").draw(scene, data))
+    many = scene_exponents(BALL, 0.01, [0.6] * 13, 300, 3)
+    figure = module("exponents").draw(scene | {"starts": [0.6] * 13, "axes": {}}, many)
+    assert not [text for text in texts(figure) if "start" in text]
 
 
 def test_no_mark_of_a_chart_lies_outside_its_frame():

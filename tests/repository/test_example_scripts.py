@@ -7,6 +7,7 @@ import runpy
 import matplotlib
 import numpy as np
 import pytest
+from colours import assert_colours_apart
 from project import ROOT
 from slowly import slowly
 
@@ -38,7 +39,7 @@ def test_a_script_makes_its_picture(name, tmp_path, monkeypatch):
     if name == "dataset":
         save_orbits_of_figure_2(tmp_path)
     monkeypatch.chdir(tmp_path)
-    runpy.run_path(str(script))
+    assert_colours_apart(runpy.run_path(str(script))["picture"].figure)
     made = (tmp_path / f"{name}.png").read_bytes()
     assert made == (FOLDER / f"{name}.png").read_bytes()
 

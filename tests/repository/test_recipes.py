@@ -77,7 +77,7 @@ def draw(scene, orbits, flights):
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
     picture = Plane(scene, ("x", "next"), ("$x$", "$x'$"))
-    picture.dots(x[:-1], x[1:], style.HUES[0], 1.5)
+    picture.dots(x[:-1], x[1:], style.BLUE, 1.5)
     return picture.figure
 ''',
     "figures/reports.py": '''

@@ -39,9 +39,9 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
         picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
-    picture.dots(*saddle, style.VERMILION, _DOT, mew=0.5, mec="white")
+    picture.dots(*saddle, style.BLACK, _DOT, mew=0.5, mec="white")
     picture.legend(
-        picture.shows(*saddle) and ("saddle", 32, {"color": style.VERMILION, "dots": _DOT}),
+        picture.shows(*saddle) and ("saddle", 32, {"color": style.BLACK, "dots": _DOT}),
         ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
         ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
     )

@@ -13,12 +13,15 @@ from pseudorigid.figures.axes import panel
 from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
 from pseudorigid.figures.axes.plane import Plane, thousands
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT
+from pseudorigid.figures.canvas.sheet import POINT, width
 
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
+_MOST_NAMED = 12  # starts of orbits of one type in a key
+_NARROW = 240  # pixels: names of starts up to this width stand in three columns
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
-_DASHES = "-", "--", "-.", ":"  # after each round of hues, orbits have the next of these
+_DASHES = "-", "--", "-.", ":"  # of orbits in turn
+_WIDTH = 0.8  # points
 _NAMES = "Number of impacts", "Lyapunov exponents"
 empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
@@ -26,9 +29,9 @@ empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=
 def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
 
-    If some orbits are regular and others chaotic, the inset and the names lambda_1, lambda_2, ...
-    at the lines' ends are for the chaotic ones, and a key names each start. Raises ValueError if
-    the axes show nothing.
+    A key names the starts, if there are several. If some orbits are regular and others chaotic,
+    the inset and the names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones, and
+    the key says which is which. Raises ValueError if the axes show nothing.
     """
     return drawn(scene, lyapunov)[0]
 
@@ -57,23 +60,26 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
-    turns = [divmod(i, len(style.HUES)) for i in range(orbits)]
-    lines = [(style.HUES[place], _DASHES[turn % len(_DASHES)]) for turn, place in turns]
+    turns = (_DASHES[orbit % len(_DASHES)] for orbit in range(orbits))
+    lines = list(zip(style.ordered(orbits), turns, strict=True))
     if mixed and orbits > _MOST_STARTS:
         raise ValueError(f"starts: {orbits} of them: expected at most {_MOST_STARTS}, with a key")
-    # A key of two starts a row takes 48 pixels a row, rounded up to quarter inches (75 pixels).
-    picture = empty_picture(scene, room=75 * -(-48 * -(-orbits // 2) // 75) if mixed else 0)
-    if mixed:
-        names = zip(scene["starts"], lyapunov["type"].values, lines, strict=True)
-        entries = [(_key_text(start, kind), hue, "", dash) for start, kind, (hue, dash) in names]
-        panel.key(picture.sheet, entries, picture.sheet.high - 85, 2, left=190, width=850)
+    names: list[str] = []
+    if mixed or 1 < orbits <= _MOST_NAMED:
+        types = lyapunov["type"].values if mixed else [""] * orbits
+        names = [_key_text(*each) for each in zip(scene["starts"], types, strict=True)]
+    columns = 3 if max((width(name, 8.0) for name in names), default=0.0) < _NARROW else 2
+    # A key takes 48 pixels a row, rounded up to quarter inches (75 pixels).
+    picture = empty_picture(scene, room=75 * -(-48 * -(-len(names) // columns) // 75))
+    entries = [(name, hue, "", dash) for name, (hue, dash) in zip(names, lines, strict=False)]
+    panel.key(picture.sheet, entries, picture.sheet.high - 85, columns, left=190, width=850)
     ends = np.median(final[in_inset], axis=0)
     inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
     largest = largest[impact >= inset.across.limits[0]] if inset else largest[:0]
     if inset:
         refuse_empty(scene["axes"], {"largest": largest})
     for orbit, (hue, dashes) in enumerate(lines):
-        line_style = {"color": hue, "lw": 0.8, "ls": dashes}
+        line_style = {"color": hue, "lw": _WIDTH, "ls": dashes}
         # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
@@ -81,6 +87,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
         if inset and in_inset[orbit]:
             inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
     picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
+    if orbits > 1 and not mixed:
+        _coincide(picture, ends, exponent, int(inset is not None))
     return picture.figure, largest
 
 
@@ -94,7 +102,22 @@ def _key_text(start: Any, kind: str) -> str:
     """Return the key's text for a start: its coordinates, and the type of its orbit."""
     points = start.items() if isinstance(start, dict) else [("start", start)]
     text = ", ".join(f"{style.NAMES.get(name, name)} {style.number(at)}" for name, at in points)
-    return f"{text}: {kind}"
+    return f"{text}: {kind}" if kind else text
+
+
+def _coincide(picture: Plane, ends: np.ndarray, exponent: np.ndarray, first: int) -> None:
+    """Write below lines from the `first` on that lie on one another that they do, if it fits."""
+    known = exponent[~np.isnan(exponent).any(axis=(1, 2))]
+    if not (len(known) and inside([picture.up.limits] * len(ends), ends).all()):
+        return
+    spread = np.median(np.ptp(known, axis=1), axis=0)
+    (_, heights), (_, tops) = (picture.place(0.0, values) for values in (ends, ends + spread))
+    room = -np.diff([*heights, picture.frame[1]])
+    for height, top, below in np.transpose([heights, tops, room])[first:].tolist():
+        if top - height < _WIDTH * POINT and below > 2.0 * style.PLAIN * POINT:
+            text = f"{exponent.shape[1]} lines lie on one another"
+            across = picture.frame[2] - 3 * POINT
+            picture.sheet.text(across, height - 3 * POINT, text, 7.0, "right", "top")
 
 
 class _Inset(panel.Window):

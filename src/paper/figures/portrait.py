@@ -19,17 +19,21 @@ _CURVE, _SEA = 0.8, 0.4  # points
 def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
     """Draw orbits in (x, xdot, udot) on the opaque energy surface, chaotic ones in grey.
 
-    Raises ValueError if nothing can be seen.
+    Regular ones have colours from dark to light, and, if there are some, the numbers of their
+    starts. Raises ValueError if nothing can be seen.
     """
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     is_regular = orbits["type"].values == "regular"
     chaotic, regular = (np.flatnonzero(is_regular == each).tolist() for each in (False, True))
     name = style.plural("chaotic orbit", len(chaotic))
     box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
-    hues = {index: style.HUES[place % len(style.HUES)] for place, index in enumerate(regular)}
+    hues = dict(zip(regular, style.ordered(len(regular)), strict=True))
     for index in chaotic + regular:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
+    if len(regular) > 1:
+        curves = [states[:, spans[index]] for index in regular]
+        box.names(curves, [f"{index + 1}" for index in regular], [*hues.values()])
     return box.figure
 
 

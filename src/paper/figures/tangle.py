@@ -17,6 +17,9 @@ from pseudorigid.figures.canvas.sheet import POINT, unbroken_runs
 _BACKDROP, _SADDLE, _END, _TIP = 0.5, 3.6, 2.6, 2.0  # points
 _REACH = 2.5  # points along a line, to either side of a fold's tip
 _SHARP = 0.5  # of the reach: the largest distance there between the two sides of a sharp fold
+# Of the key: a mark's name, and what it means.
+_CUT_OFF, _FOLD = "cut off: the line goes on", "fold: the line turns back"
+_JUMP = "jump: the map interrupts the line"
 # Stable branches first and broader: both show where they all but coincide.
 _BRANCHES = (("stable", 1, style.STABLE, 1.0), ("unstable", 0, style.UNSTABLE, 0.5))
 
@@ -46,11 +49,11 @@ def drawn(
     spans, pixels = rows(manifolds), np.array(trial.view(branches))
     tips = [span.start + tip for span in spans for tip in _tips(pixels[:, span], pixels)]
     for points, *entry in (
-        (saddles, "saddles", style.VERMILION, "o"),
+        (saddles, "saddles", style.BLACK, "o"),
         (states_of(orbits), "orbits", style.BACKDROP, "o"),
-        (branches[:, [span.stop - 1 for span in spans]], "cut off", style.FRAME, "o", True, None),
-        (branches[:, jumps], "jump", style.FRAME, "s", True, None),
-        (branches[:, tips], "fold", style.FRAME, "o", False, _TIP),
+        (branches[:, [span.stop - 1 for span in spans]], _CUT_OFF, style.FRAME, "o", True, None),
+        (branches[:, jumps], _JUMP, style.FRAME, "s", True, None),
+        (branches[:, tips], _FOLD, style.FRAME, "o", False, _TIP),
     ):
         if trial.seen(points).any():
             entries.append(tuple(entry))
@@ -58,8 +61,8 @@ def drawn(
     box.points(states_of(orbits), style.BACKDROP, _BACKDROP)
     _branches(box, manifolds, branches, jumps, tips)
     box.points(saddles, "white", _SADDLE + 1.2)
-    box.points(saddles, style.VERMILION, _SADDLE)
-    return box.figure, [name for name, *_ in entries]
+    box.points(saddles, style.BLACK, _SADDLE)
+    return box.figure, [name.partition(":")[0] for name, *_ in entries]
 
 
 def hidden(scene: dict[str, Any], _: Any, manifolds: xr.Dataset, __: Any) -> Iterator[str]:

@@ -61,7 +61,7 @@ def test_flux_without_regions_and_lobes_says_why():
     figure = flux_figure.draw(SCENE, data)
     assert "neither region has an edge that can be drawn" in texts(figure)
     assert "no lobe: a jump of the\nmap cuts it" in texts(figure)
-    assert not {style.ORANGE, style.PURPLE} & colors(figure)
+    assert not {style.SKY, style.VERMILION} & colors(figure)
 
 
 def test_the_difference_of_inner_branches_has_no_steps():

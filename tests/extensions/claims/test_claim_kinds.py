@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from legible import assert_text_is_whole_and_apart, frames_of
+from legible import assert_legible, frames_of
 from samples import module
 from sections import BALL
 from slowly import slowly
@@ -152,7 +152,7 @@ def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
     along_k = families_along("k", [0.18, 0.22], 4, 0.01, 20, 500)
     other = draw("families", along_k, parameter="k", span=[0.18, 0.22], step=0.01)
     for figure in (draw("families", data("families")), other):
-        assert_text_is_whole_and_apart(figure, margin=1, slack=5)
+        assert_legible(figure, slack=5)
 
 
 def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
@@ -198,7 +198,7 @@ def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
     order = held["event_order"].values[held["event_family"].values == 0]
     names = [text for text in figure.texts if len(text.get_text()) == 3 and "/" in text.get_text()]
     assert len(names) == np.sum((order > 2) & (order <= 8)) > 1
-    assert_text_is_whole_and_apart(figure, margin=1, slack=5)
+    assert_legible(figure, slack=5)
     dots = [a for a in figure.artists if a.get_color() == style.BLUE and a.get_marker() == "o"]
     (dots,) = (a for a in dots if len(a.get_xdata()) == regular.sizes["value"])
     assert np.unique(dots.get_ydata()).size == regular.sizes["value"]

@@ -112,7 +112,7 @@ def test_the_symmetry_line_is_whole(sides):
     orbits = scene_orbits(BALL, ENERGY, [0.1], 50)
     scene = {"ball": {"k": 0.2, "g": 0.04}, "energy": ENERGY}
     data = jumps(BALL, ENERGY, [], sides).assign_attrs(k=0.2, g=0.04)
-    lines = [a for a in draw(scene, data, orbits).artists if a.get_color() == style.PURPLE]
+    lines = [a for a in draw(scene, data, orbits).artists if a.get_ls() == "--"]
     lines = [a.get_xydata() * style.DPI for a in lines if np.ptp(a.get_ydata()) > 0.0]
     assert sum(map(len, lines)) > 30
     ends = np.concatenate([line[[0, -1]] for line in lines])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from legible import assert_text_is_whole_and_apart
+from legible import assert_legible
 
 from extensions.atlas.figures import atlas, raster
 from extensions.families.figures import chains
@@ -38,7 +38,7 @@ def drawn(share=0.4):
 
 
 def test_text_is_whole_and_apart():
-    assert_text_is_whole_and_apart(drawn()[0])
+    assert_legible(drawn()[0])
 
 
 def test_each_curve_is_drawn_where_its_data_are():

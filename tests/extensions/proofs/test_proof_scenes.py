@@ -13,7 +13,7 @@ from examples import (
     no_clipping,
 )
 from keys import SCENE, texts
-from legible import assert_text_is_whole_and_apart, frames_of, pixels_in_frames
+from legible import assert_legible, frames_of, pixels_in_frames
 from project import shipped
 from sections import BALL
 
@@ -107,14 +107,14 @@ def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
     data = xr.Dataset({"impact": ("i", impact), "distance": (("e", "i"), distance)})
     scene = {"beside": [1e-4 * i for i in range(count)], "distance": 0.02}
     figure = draw_escape(SCENE | scene, data)
-    for hue in style.HUES[:count]:
+    for hue in style.ordered(count):
         assert pixels_in_frames(figure, hue)[0] > 100
     assert "at the start" in texts(figure)
     lines = (a for a in figure.artists if a.get_color() == style.FRAME and a.get_ls() == "--")
     (start,) = (a for a in lines if np.ptp(a.get_xdata()) > 2)
     low = frames_of(figure)[0].y0
     assert low + 5 < start.get_ydata()[0] * style.DPI < low + 300
-    assert_text_is_whole_and_apart(figure)
+    assert_legible(figure)
 
 
 def test_the_sets_of_the_committed_horseshoe_lie_on_branches_that_are_drawn():

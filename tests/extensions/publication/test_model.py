@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from examples import PAPER, checked, computed
-from legible import assert_text_is_whole_and_apart
+from legible import assert_legible
 
 from extensions.publication.figures import model
 from pipeline.checks.captions import caption_of
@@ -24,7 +24,7 @@ def test_each_ball_is_stretched_and_placed_as_its_state_says(fields):
     block = checked("model", **fields)
     motion = computed(block)["motion"]
     figure = model.draw(block, motion)
-    assert_text_is_whole_and_apart(figure)
+    assert_legible(figure)
     balls = [line for line in figure.artists if line.get_linewidth() == 1.2]
     assert len(balls) == 3 and all(line.get_color() == style.BLACK for line in balls)
     reference, between, impact = (np.array(line.get_data()) * style.DPI for line in balls)

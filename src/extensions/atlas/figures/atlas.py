@@ -154,8 +154,8 @@ def line(sweep: Sweep, data: xr.Dataset) -> Figure:
     mean, low, high = (data[f"exponent{end}"].values[0] for end in ("", "_low", "_high"))
     regular, least, most = (data[f"regular{end}"].values[0] for end in ("", "_low", "_high"))
     above.estimates(energy, regular, least, most, style.BLUE)
-    below.estimates(energy, np.full(energy.size, np.nan), low, high, style.pale(style.VERMILION))
-    below.estimates(energy, mean, mean - error, mean + error, style.VERMILION)
+    below.estimates(energy, np.full(energy.size, np.nan), low, high, style.pale(style.BLUE))
+    below.estimates(energy, mean, mean - error, mean + error, style.BLUE)
     for i, text in enumerate(QUOTATION if "g" in sweep else ()):
         sheet.text(1000, above.frame[3] - 25 - i * 34, text, ha="right", va="top", size=_SIZE)
     for name, scaled in PAPER_ENERGIES.items():
@@ -173,13 +173,14 @@ def _upright_lines(panels: Sequence[Panel], data: xr.Dataset, first: float, unit
     at = zip(data["order"].values, data["resonance_energy"].values[:, 0].tolist(), strict=True)
     energies = [(f"1/{order}", energy * unit) for order, energy in at]
     energies = [(name, energy) for name, energy in energies if first < energy < last]
-    lines = [upright(panels, energy, color=style.BACKDROP, lw=0.7) for _, energy in energies]
+    dots = {"color": style.BACKDROP, "lw": 0.7, "ls": ":"}
+    lines = [upright(panels, energy, **dots) for _, energy in energies]
     for (name, _), x in zip(energies, apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         sheet.text(x, up, name, ha="center", va="bottom", size=_SIZE)
     onset = (1.0 + 0.5 * float(data["k"].values[0])) * unit
     if first < onset < last:
-        x = upright(panels, onset, color=style.PURPLE, lw=0.9, ls=(0, _DASHES))
+        x = upright(panels, onset, color=style.BLACK, lw=0.9, ls=(0, _DASHES))
         up = panels[1].frame[3] - 8
         sheet.text(x + 6, up, "jumps begin", ha="left", va="top", size=_SIZE)
 

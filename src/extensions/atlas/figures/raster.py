@@ -16,7 +16,7 @@ from ..grid import edges
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
 GREYS = "greys"
-_LIGHTEST, _DARKEST = 250, 130  # of GREYS
+_LIGHTEST, _DARKEST = 252, 190  # of GREYS
 
 
 def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -> None:

@@ -26,7 +26,7 @@ def draw(scene: dict[str, Any], data: xr.Dataset) -> Figure:
     sheet, top = Sheet(style.COLUMN, 1275), 1205
     ticks = log10(data["length"].values).tolist()
     names = [f"{length:,}" for length in data["length"].values.tolist()]
-    across = Axis((2.3, 4.0), ticks, "Impacts an orbit, mean", True, names)
+    across = Axis((2.3, 4.0), ticks, "Impacts per orbit, mean", True, names)
     up = Axis((-2.75, -0.75), (-2, -1), "", True, ("1 %", "10 %"))
     orbits, frames = data.attrs["orbits"] * data.sizes["cell"], []
     for row, axis in enumerate((across.blank(), across)):

@@ -45,11 +45,12 @@ def draw(scene: Scene, clusters: xr.Dataset) -> Figure:
         up = linear(min(0.0, _ROOM * float(np.min(shares))), most, 5, name)
         panel = _panel_by_lag(sheet, frames[3 + column], clusters, up)
         _marks(panel, clusters, [values[..., i] for values in shares])
+    hues = style.ordered(clusters.sizes["cut"])
     entries = [
-        (f"cut at {style.number(float(cut))}", style.HUES[i], _MARKS[i % 4])
+        (f"cut at {style.number(float(cut))}", hues[i], _MARKS[i % 4])
         for i, cut in enumerate(clusters["cut"].values)
     ]
-    key(sheet, entries, 75, 4, _LEFT, _RIGHT - _LEFT)
+    key(sheet, entries, 85, 4, _LEFT, _RIGHT - _LEFT)
     return sheet.figure
 
 
@@ -64,9 +65,10 @@ def _flights(sheet: Sheet, frame: Frame, clusters: xr.Dataset) -> None:
     corners = np.repeat(edges, 2)[1:-1]
     panel.line(corners, np.repeat(share, 2), color=style.FRAME, lw=0.8)
     cuts = clusters["cut"].values
+    hues = style.ordered(cuts.size)
     ends = np.array([0.0, *cuts, last])  # of the room for labels
     for i, cut in enumerate(cuts):
-        panel.line([cut, cut], [0.0, highest], color=style.HUES[i], lw=0.8, ls="--")
+        panel.line([cut, cut], [0.0, highest], color=hues[i], lw=0.8, ls="--")
         period = f"{float(clusters['period'].values[i]):.1f}"
         left, right = cut - ends[ends < cut].max(), ends[ends > cut].min() - cut
         crowded = right < min(left, _LABEL * last)
@@ -91,9 +93,9 @@ def _marks(panel: Panel, clusters: xr.Dataset, estimates: list[np.ndarray]) -> N
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     steps = min(0.2, 0.8 / cuts.size) * (np.arange(cuts.size) - 0.5 * (cuts.size - 1))
     places = np.add.outer(steps, lags)
-    for i, at in enumerate(places):
-        panel.bars(at, low[i], high[i], color=style.HUES[i], lw=0.7)
-        panel.dots(at, value[i], style.HUES[i], size=3.2, marker=_MARKS[i % 4])
+    for i, (at, hue) in enumerate(zip(places, style.ordered(cuts.size), strict=True)):
+        panel.bars(at, low[i], high[i], color=hue, lw=0.7)
+        panel.dots(at, value[i], hue, size=3.2, marker=_MARKS[i % 4])
     widest = 0.5 * float((high - low).max())
     _, bottom, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"

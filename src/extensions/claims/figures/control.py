@@ -17,13 +17,13 @@ from . import Figure, Frame, Scene
 _LEFT, _RIGHT, _HALF = 120, 1010, 375  # pixels: left, right, and the width of a chart
 _CLASSES = (("regular", style.BLUE), ("spiral", style.VERMILION), ("chaotic", style.BACKDROP))
 _UNCHANGED = "the impact map"
-# What a changed map keeps, the colour, and whether marks are hollow. All but the first have a
-# column of portraits, in this order.
+# What a changed map keeps, the colour, whether marks are hollow, and dashes between them. All but
+# the first have a column of portraits, in this order.
 _KEPT = {
-    "both": ("area, reversor", style.BLACK, False),
-    "area": ("area alone", style.PURPLE, True),
-    "reversor": ("reversor alone", style.GREEN, False),
-    "neither": ("neither", style.ORANGE, True),
+    "both": ("area, reversor", style.BLACK, False, "-"),
+    "area": ("area alone", style.SKY, True, "--"),
+    "reversor": ("reversor alone", style.GREEN, False, "-."),
+    "neither": ("neither", style.BLACK, True, ":"),
 }
 _FORMS = {"twist": "o", "stir": "s", "shift": "^"}  # in the order of the portraits' rows
 _ROWS = 750, 350  # pixels: the bottoms of the charts' rows
@@ -44,8 +44,8 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
     text += rf"changed maps: strength $\epsilon$ = {style.number(control.attrs['shown'])}"
     sheet.text(_LEFT, _ROWS[0] + _HIGH + 110, text, size=7.0)
     letters(sheet, _portraits(sheet, control), *_charts(sheet, control))
-    entries = [(text, hue, "o", hollow, 3.4) for text, hue, hollow in _KEPT.values()]
-    entries += [(form, style.SEA, mark, False, 3.4) for form, mark in _FORMS.items()]
+    entries = [(text, hue, "o", hollow, 3.4) for text, hue, hollow, _ in _KEPT.values()]
+    entries += [(form, style.FRAME, mark, False, 3.4) for form, mark in _FORMS.items()]
     entries.append((_UNCHANGED, style.BACKDROP, "", True, 1.2))
     key(sheet, entries, 185, 4, _LEFT - 90, 990, 7.0)
     text = "colour and filling: what is kept; shape: form of the change; bars: 95 %\n"
@@ -174,11 +174,11 @@ def _maps(
     apart = min(apart, 1.0 + 0.08 * float((at[1:] / at[:-1] - 1.0).min(initial=1.0)))
     for i, name in enumerate(control["map"].values.tolist()):
         form, _, kept = name.partition(" ")
-        _, hue, hollow = _KEPT[kept]
+        _, hue, hollow, dashes = _KEPT[kept]
         beside = at * apart ** (i - 4.5)
         value, low, high = estimates[:, i]
         if joined:
-            panel.line(beside, value, color=style.pale(hue), lw=0.8)
-        panel.bars(beside, low, high, color=hue, lw=0.7)
+            panel.line(beside, value, color=hue, lw=0.5, ls=dashes)
+        panel.bars(beside, low, high, color=style.FRAME, lw=0.6)
         shown = np.isfinite(value)
         panel.dots(beside[shown], value[shown], hue, 3.0, hollow=hollow, marker=_FORMS[form])

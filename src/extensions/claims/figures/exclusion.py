@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 from . import Figure, Scene
 
 _TABLE = "YlGnBu"
-_HIGH, _LOWER = 1800, (section.LEFT, 105, section.LEFT + section.SIDE, 480)  # pixels
+_HIGH, _LOWER = 1800, (section.LEFT, 112, section.LEFT + section.SIDE, 480)  # pixels
 _SCALE = 640  # pixels: bottom of the colour scale
 
 

@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
 
 from . import Figure, Frame, Scene
 
-_SIDES = (1, style.ORANGE, 0.9), (0, style.PURPLE, 1.8)  # index of the side, colour, points
+_SIDES = (1, style.SKY, 1.5), (0, style.VERMILION, 2.2)  # index of the side, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
@@ -34,7 +34,7 @@ def draw(scene: Scene, flux: xr.Dataset) -> Figure:
     key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
     entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
     key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
-    lobes = (section.LEFT, 105, 505, 405), (680, 105, 1005, 405)
+    lobes = (section.LEFT, 112, 505, 405), (680, 112, 1005, 405)
     letters(sheet, frame, *lobes)
     for side, frame in zip((1, 0), lobes, strict=True):
         title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18)

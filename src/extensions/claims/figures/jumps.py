@@ -18,7 +18,7 @@ MAP, INVERSE = style.VERMILION, style.BLUE
 def draw(scene: Scene, jumps: xr.Dataset, orbits: xr.Dataset) -> Figure:
     """Draw the section with the jumps of the map and its inverse, and further energies below."""
     panel, regular, chaotic = section.over_orbits(scene, orbits, high=1500)
-    dashes = {"color": style.PURPLE, "lw": 0.7, "ls": "--", "zorder": 4.6}
+    dashes = {"color": style.BLACK, "lw": 0.6, "ls": "--", "zorder": 4.6}
     panel.line([panel.centre - panel.radius, panel.centre + panel.radius], [0.0, 0.0], **dashes)
     line_x, line_y = jumps["flight_x"].values, jumps["flight_y"].values
     for x, y in zip(line_x.T, line_y.T, strict=True):
@@ -35,7 +35,7 @@ def draw(scene: Scene, jumps: xr.Dataset, orbits: xr.Dataset) -> Figure:
         ("its inverse jumps", INVERSE) if jumping else None,
         regular,
         ("grazing rim", style.BLACK),
-        ("symmetry lines", style.PURPLE, "", True),
+        ("symmetry lines", style.BLACK, "", True),
         chaotic,
     ]
     entries = [*filter(None, entries)]

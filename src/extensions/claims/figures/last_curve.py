@@ -23,16 +23,17 @@ def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
     rows = -(-last_curve.sizes["noble"] // 2)  # of a key
     extra = 75 * -(-48 * (rows - 1) // 75)
     sheet = Sheet(style.COLUMN, 1575 + 2 * extra)
-    above, below = (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), (_LEFT, 105, _RIGHT, 760)
+    above, below = (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), (_LEFT, 112, _RIGHT, 760)
     letters(sheet, above, below)
-    _residues(sheet, above, last_curve)
     # An orbit above the critical residue fills much of the plane.
     wide = np.abs(last_curve["residue"].values[:, -1]) > _CRITICAL
-    hues = [style.pale(c) if fills else c for c, fills in zip(style.MANY_HUES, wide, strict=False)]
+    full = style.ordered(wide.size)
+    hues = [style.pale(hue) if fills else hue for hue, fills in zip(full, wide, strict=True)]
+    _residues(sheet, above, last_curve, full)
     _orbits(sheet, below, last_curve, hues)
     corner(sheet, below, style.setting(scene))
     names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
-    _key(sheet, names, sheet.high - 29, style.MANY_HUES)
+    _key(sheet, names, sheet.high - 29, full)
     periods = last_curve["period"].values[:, -1]
     names = [f"orbit from period {period:.0f}" for period in periods]
     _key(sheet, names, 850 + 48 * (rows - 1), hues)
@@ -41,11 +42,11 @@ def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
 
 def _key(sheet: Sheet, names: list[str], top: float, hues: Sequence[str]) -> None:
     """Draw a key of dots in two columns from `top` down."""
-    entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=False)]
+    entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=True)]
     key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
 
 
-def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset) -> None:
+def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str]) -> None:
     """Draw the modulus of the residues of each number's convergents against their period."""
     periods, residues = last_curve["period"].values, last_curve["residue"].values
     size = np.abs(residues)
@@ -56,8 +57,7 @@ def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset) -> None:
     panel = Panel(sheet, frame, decades(ends.tolist(), "Period"), up)
     panel.minor()
     panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
-    for i in range(len(periods)):
-        hue = style.MANY_HUES[i]
+    for i, hue in enumerate(hues):
         panel.line(periods[i], size[i], color=hue, lw=0.9)
         above = residues[i] > 0.0
         panel.dots(periods[i][above], size[i][above], hue)

@@ -12,6 +12,7 @@ from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _STARTS = "Start on $y=0$, section radii from the centre"
+_DASHES = "-", "--", "-.", ":"  # of energies in turn
 _FAR = 4.0  # a curve longer than this times the median does not set the lowest axis
 
 
@@ -26,11 +27,11 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
         entries.append(("regular", style.BLUE, "o"))
     if not good.all():
         entries.append(("chaotic", style.SEA, "o"))
-    entries.append(("fixed point", style.VERMILION, "o"))
+    entries.append(("fixed point", style.BLACK, "o"))
     if rotation.sizes["plateau"]:
-        entries.append(("islands", style.VERMILION, "", False, 1.6))
+        entries.append(("islands", style.BLACK, "", False, 1.6))
     key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
-    spans = (1640, 1950), (1265, 1465), (715, 1065), (105, 515)
+    spans = (1640, 1950), (1265, 1465), (715, 1065), (112, 515)
     frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in spans]
     letters(sheet, *frames)
     _first_energy(sheet, frames[:2], scene, rotation)
@@ -58,7 +59,7 @@ def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.
     shown = ~good & inside((across.limits, up.limits), (start, turns))
     panel.dots(start[shown], turns[shown], style.SEA, size=1.6)
     panel.dots(start[good], turns[good], style.BLUE, size=1.6)
-    panel.dots([at], [fixed], style.VERMILION, size=3.4)
+    panel.dots([at], [fixed], style.BLACK, size=3.4)
     corner(sheet, frames[0], style.setting(scene))
     top = max(np.ceil(10.0 * growth.max()), 1.0) / 10.0
     up = linear(min(-top / 15.0, growth.min()), top, 5, "Exponent")
@@ -86,7 +87,7 @@ def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     panel.dots(start, turns, style.BLUE, size=1.6)
     columns = (rotation[f"plateau_{name}"].values for name in ("turns", "islands", "first", "last"))
     for p, q, first, last in zip(*columns, strict=True):
-        panel.line([first, last], [p / q] * 2, color=style.VERMILION, lw=1.6, zorder=5)
+        panel.line([first, last], [p / q] * 2, color=style.BLACK, lw=1.6, zorder=5)
         middle, name = 0.5 * (first + last), f"{p}/{q}"
         if first > place[0] + 0.8 * (place[-1] - place[0]):
             panel.note(middle, p / q, name, (-2, 3), "right", "bottom")
@@ -113,17 +114,17 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
     panel = Panel(sheet, frame, across, up)
     entries, drawn = [], []
+    hues = style.ordered(len(curves))
     for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
-        turn, place = divmod(number, len(style.MANY_HUES))
-        hue, dashed = style.MANY_HUES[place], (place + turn) % 2 == 1
+        hue, dashes = hues[number], _DASHES[number % len(_DASHES)]
         last = np.logical_and.accumulate(shown).sum()
-        panel.line(start[:last], change[:last], color=hue, lw=1.0, ls="--" if dashed else "-")
+        panel.line(start[:last], change[:last], color=hue, lw=1.0, ls=dashes)
         if 0 < last < start.size:
             marker = "v" if change[last] < up.limits[0] else "^"
             panel.dots(start[last - 1], change[last - 1], hue, marker=marker)
         drawn.append(np.array(panel.place(start[:last], change[:last])))
         if last > 1:
-            entries.append((f"$E$ = {style.number(energy)}", hue, "", dashed))
+            entries.append((f"$E$ = {style.number(energy)}", hue, "", dashes))
     if not np.concatenate(within).all():
         corner(sheet, frame, "triangles: beyond the axis")
     high = 39 * -(-len(entries) // 2)

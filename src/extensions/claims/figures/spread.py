@@ -24,7 +24,7 @@ def draw(scene: Scene, spread: xr.Dataset, lyapunov: xr.Dataset) -> Figure:
     sheet = Sheet(style.COLUMN, 1575)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     frames: list[Frame] = [
-        (_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (105, 435))
+        (_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (112, 435))
     ]
     letters(sheet, *frames)
     _lengths(sheet, frames[0], spread)
@@ -107,9 +107,8 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
         positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
-        hue = style.SEA if chaotic[island] else style.HUES[island % len(style.HUES)]
+        hue = style.SEA if chaotic[island] else style.BLUE
         panel.line(n, positive, color=hue, lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
-    grey = " grey: chaotic;" if chaotic.any() else ""
-    hues = "one colour an orbit;" if chaotic.size <= len(style.HUES) else ""
-    corner(sheet, frame, f"{hues}{grey} dashes: $\\ln\\,n/n$")
+    grey = "grey: chaotic; " if chaotic.any() else ""
+    corner(sheet, frame, f"{grey}dashes: $\\ln\\,n/n$")

@@ -1,8 +1,8 @@
 """Births of chains and their losses of stability, drawn over the regular share of a plane."""
 
-from itertools import cycle
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -10,9 +10,11 @@ from extensions.atlas.figures import atlas, raster
 from extensions.atlas.figures.atlas import LEFT
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.names import dense, name_curves
 from pseudorigid.figures.canvas.sheet import Sheet
 
 _SIZE = 6.0  # points: text beside lines
+_SMALL = 5.5  # points: q beside curves other than the full ones
 BOTTOM = 395  # pixels below the frame
 _DASHES, _DOTS = (4.0, 1.6), (1.2, 1.6)  # in widths of a line
 # The kinds of curve: their style and meaning.
@@ -26,7 +28,6 @@ _KINDS: dict[str, tuple[dict[str, Any], str]] = {
         "$E/g^2 = 1 + k/2$: above it the map jumps",
     ),
 }
-_HUES = (style.VERMILION, style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.SKY)
 
 
 @style.pinned()
@@ -35,7 +36,10 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
     sheet = atlas.sheet_above(BOTTOM, sweep)
     text = "Births of the chains 1/q, and their ends, over the regular share"
     panel = atlas.cells(sheet, BOTTOM, sweep, data["regular"].values, 1.0, raster.GREYS, text)
-    hues = dict(zip(sweep["chains"], cycle(_HUES), strict=False))
+    chains = sorted(sweep["chains"])
+    hues = dict(zip(chains, style.ordered(len(chains)), strict=True))
+    lines: list[tuple[Any, ...]] = []
+    named: list[int] = []
     for order, kind, part in zip(
         curves["order"].values.tolist(), curves["kind"].values.tolist(), rows(curves), strict=True
     ):
@@ -44,6 +48,18 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
         panel.line(energy, k, color=color, zorder=2.0, **_KINDS[kind][0])
         if kind == "resonance":
             atlas.name_curve(panel, panel.within(energy, k), energy, k, f"1/{order}")
+        named += [len(lines)] if kind not in ("resonance", "jumps") else []
+        lines.append((dense(panel.place(energy, k), panel.frame), f"{order}", color))
+    others = [line for i, (line, *_) in enumerate(lines) if i not in named]
+    places = [np.array(panel.place(at, atlas.PAPER_K)) for at in atlas.PAPER_ENERGIES.values()]
+    name_curves(
+        sheet,
+        [*(lines[i][0] for i in named), *others, *places],
+        [lines[i][1] for i in named],
+        [lines[i][2] for i in named],
+        panel.frame,
+        _SMALL,
+    )
     for drawn in atlas.PAPER_ENERGIES.values():
         panel.dots([drawn], [atlas.PAPER_K], "white", size=5.0)
         panel.dots([drawn], [atlas.PAPER_K], style.BLACK, size=2.5)

@@ -1,7 +1,7 @@
 """Families of periodic orbits against the energy or the inertia, below the regular share."""
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -13,14 +13,17 @@ from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import around, inside, linear
 from pseudorigid.figures.axes.panel import Window, key, letters, title, upright
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.names import dense, name_curves
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 _LEFT, _RIGHT = 125, 1000  # pixels
-_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.5, "inverse hyperbolic": 0.6}
+_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.45, "inverse hyperbolic": 0.6}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^", "grazing": "x"}
 _NAMES = {"doubling": "period doubling", "grazing": "an impact grazes"}  # of marks in the key
 _RESIDUES = -0.6, 1.6
+_NAMED = 6.5  # points: periods beside lines
+_MARK = np.array(list(product((-5, 0, 5), repeat=2)))[:, :, None]  # pixels: steps in a mark
 
 
 @style.pinned()
@@ -57,20 +60,30 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     period, spans = families["period"].values.tolist(), rows(families)
     shown = {i: spans[i] for i, n in enumerate(period) if n <= scene["drawn"]}
     values, types = families[parameter].values, families["type"].values
+    periods = sorted({period[i] for i in shown})
+    hues = dict(zip(periods, style.ordered(len(periods)), strict=True))
     # Near grazing the residue grows without bound.
     residue = np.clip(0.25 * (2.0 - families["trace"].values), -50.0, 50.0)
     for level in (0.0, 1.0):
         below.line([low, high], [level, level], color=style.FRAME, lw=0.5)
     for i, span in shown.items():
         for panel, heights in ((middle, x), (below, residue)):
-            _family(panel, values[span], heights[span], types[span], _hue(period[i]))
-    leaves = [_exits(below, values[s], residue[s], _hue(period[i])) for i, s in shown.items()]
+            _family(panel, values[span], heights[span], types[span], hues[period[i]])
+    leaves = [_exits(below, values[s], residue[s], hues[period[i]]) for i, s in shown.items()]
     title(
         sheet, below.frame, "Residue $(2-$trace$)/4$" + "; triangles: beyond the axis" * any(leaves)
     )
-    marks = _events(middle, parameter, families, shown)
+    marks, at = _events(middle, parameter, families, shown)
+    around_marks = np.hstack([np.array(middle.place(*at)) + shift for shift in _MARK])
     stability = {str(kind) for span in shown.values() for kind in types[span]}
-    _keys(sheet, stability, marks, sorted({period[i] for i in shown}))
+    for panel, heights in ((middle, x), (below, residue)):
+        curves = [
+            dense(panel.place(values[span], heights[span]), panel.frame) for span in shown.values()
+        ]
+        curves.append(around_marks if panel is middle else around_marks[:, :0])
+        texts = [f"{period[i]}" for i in shown]
+        name_curves(sheet, curves, texts, [hues[period[i]] for i in shown], panel.frame, _NAMED)
+    _keys(sheet, stability, marks, hues)
     fixed = {name: scene["ball"][name] for name in "kg" if name != parameter}
     setting = style.setting(scene | {"ball": fixed}, energy=parameter == "k")
     sheet.text(_RIGHT, 2360, setting, ha="right", va="center", size=7.0)
@@ -99,16 +112,11 @@ def _exits(panel: Window, across: np.ndarray, residue: np.ndarray, hue: str) -> 
     return count
 
 
-def _hue(period: int) -> str:
-    """Return the colour of a period; there are fewer colours than periods."""
-    return style.MANY_HUES[(period - 1) % len(style.MANY_HUES)]
-
-
 def _events(
     panel: Window, parameter: str, families: xr.Dataset, shown: dict[int, slice]
-) -> set[str]:
-    """Mark events and ends of families; return which kinds there are."""
-    marked = set()
+) -> tuple[set[str], np.ndarray]:
+    """Mark events and ends of families; return which kinds there are, and the points (2, n)."""
+    marked, points = set(), [np.empty((2, 0))]
     number, order = (families[f"event_{name}"].values for name in ("family", "order"))
     across, up, kinds = (families[f"event_{name}"].values for name in (parameter, "x", "kind"))
     few = (order * families["period"].values[number] <= 12) & (order <= 6)
@@ -118,6 +126,7 @@ def _events(
             chosen &= few
         panel.dots(across[chosen], up[chosen], style.BLACK, 2.6, hollow=True, marker=marker)
         marked |= {kind} if chosen.any() else set()
+        points.append(np.array([across[chosen], up[chosen]]))
     for index, span in shown.items():
         for side, last in ((0, span.start), (1, span.stop - 1)):
             end = families["end_kind"].values[index, side]
@@ -126,7 +135,8 @@ def _events(
                 x, y = (families[name].values[last] for name in (parameter, "x"))
                 panel.dots([x], [y], style.BLACK, 2.6, hollow=True, marker=_MARKS[kind])
                 marked.add(kind)
-    return marked
+                points.append(np.array([[x], [y]]))
+    return marked, np.hstack(points)
 
 
 def _rim(scene: dict[str, Any]) -> np.ndarray:
@@ -146,13 +156,13 @@ def _resonances(panels: Sequence[Window], parameter: str, families: xr.Dataset) 
     names = f"event_{parameter}", "event_turns", "event_order"
     resonances = zip(*(families[name].values[chosen].tolist() for name in names), strict=True)
     drawn = sorted(resonances)
-    lines = [upright(panels, value, color=style.BACKDROP, lw=0.5) for value, *_ in drawn]
+    lines = [upright(panels, value, color=style.BACKDROP, lw=0.7, ls=":") for value, *_ in drawn]
     for (_, p, q), x in zip(drawn, apart(lines), strict=True):
         up = panels[0].frame[3] + 3 * POINT
         panels[0].sheet.text(x, up, f"{p}/{q}", ha="center", va="bottom", size=6.0)
 
 
-def _keys(sheet: Sheet, types: set[str], marks: set[str], periods: list[int]) -> None:
+def _keys(sheet: Sheet, types: set[str], marks: set[str], hues: dict[int, str]) -> None:
     """Explain the widths, marks and colours that are drawn."""
     widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)
     entries = [
@@ -161,6 +171,6 @@ def _keys(sheet: Sheet, types: set[str], marks: set[str], periods: list[int]) ->
         *((_NAMES.get(k, k), style.BLACK, mark, True) for k, mark in _MARKS.items() if k in marks),
     ]
     key(sheet, entries, 215, 3, _LEFT - 10, 900, 7.0)
-    entries = [(f"{n}", _hue(n), "", False, 1.7) for n in periods]
+    entries = [(f"{period}", hue, "", False, 1.7) for period, hue in hues.items()]
     sheet.text(_LEFT - 30, 65, "period", size=7.0)
     key(sheet, entries, 65, 10, _LEFT + 80, 820, 7.0)

@@ -29,11 +29,11 @@ def draw(scene: dict[str, Any], curves: xr.Dataset, orbits: xr.Dataset) -> Figur
     for polygon in polygons:
         panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
     saddles = curves["saddle_x"].values, curves["saddle_y"].values
-    panel.dots(*saddles, style.BLUE, size=2.6)
+    panel.dots(*saddles, style.BLACK, size=2.8)
     entries = [
         ("proved curve", style.VERMILION),
         ("no orbit enters or leaves", _SHADE, "s", False, 5.0),
-        ("inside no invariant circle", style.BLUE, "o") if saddles[0].size else None,
+        ("inside no invariant circle", style.BLACK, "o") if saddles[0].size else None,
         regular,
         chaotic,
     ]

@@ -28,13 +28,13 @@ def draw(scene: dict[str, Any], escape: xr.Dataset) -> Figure:
     panel = Panel(sheet, (_LEFT, 105 + room, _RIGHT, 705 + room), across, up)
     panel.line(impact[[0, -1]], [start] * 2, color=style.FRAME, lw=0.9, ls="--")
     entries = [("at the start", style.FRAME, "", True, 0.9)]
-    for i, (line, more) in enumerate(zip(distance, scene["beside"], strict=True)):
-        hue = style.HUES[i % len(style.HUES)]
+    hues = style.ordered(len(distance))
+    for i, (line, more, hue) in enumerate(zip(distance, scene["beside"], hues, strict=True)):
         gap = 4.0 * i  # line widths; colours take turns where lines coincide
         dash = 4.0 * len(distance) - gap
         panel.line(impact, line, color=hue, lw=0.5, zorder=1)
         panel.line(impact, line, color=hue, lw=1.6, ls=(dash, (dash, gap)) if gap else "-")
         text = "at $E$" + (f" + {more:.10f}".rstrip("0") if more else "")
         entries.append((text, hue, "", False, 1.6))
-    key(sheet, entries, room - 25, _COLUMNS, _LEFT, _RIGHT - _LEFT)
+    key(sheet, entries, room - 20, _COLUMNS, _LEFT, _RIGHT - _LEFT)
     return sheet.figure

@@ -22,13 +22,13 @@ def draw(scene: dict[str, Any], graph: xr.Dataset, orbits: xr.Dataset) -> Figure
     for link in zip(graph["source"].values, graph["target"].values, strict=True):
         panel.line(*centres[list(link)].T, color=_LINK, lw=0.5, zorder=5)
     chain = graph["connection"].values >= 0
-    for sets, hue, wide in ((chain, style.BLUE, 0.4), (~chain, style.VERMILION, 1.0)):
+    for sets, hue, wide in ((chain, style.VERMILION, 0.5), (~chain, style.BLACK, 0.9)):
         for outline in corners[sets]:
             panel.line(*np.hstack([outline, outline[:, :1]]), color=hue, lw=wide, zorder=6)
     entries = [
-        ("sets at the saddles", style.VERMILION, "D", True),
+        ("sets at the saddles", style.BLACK, "D", True),
         ("connections", _LINK),
-        ("sets on the way", style.BLUE, "D", True, 2.2),
+        ("sets on the way", style.VERMILION, "D", True, 2.2),
         *filter(None, (regular, chaotic)),
     ]
     key(panel.sheet, entries, panel.frame[1] - 128, 2, section.LEFT, section.SIDE)

@@ -42,8 +42,8 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
     x, y, p, q = (Axis(**scene["axes"][axis], name=name) for axis, name in names.items())
     panel = Window(sheet, _ABOVE, x, y)
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
-        hue = style.pale(style.MANIFOLDS[stable])
-        panel.line(line_x[span], line_y[span], color=hue, lw=0.4)
+        hue, wide = style.pale(style.MANIFOLDS[stable]), (0.4, 0.8)[stable]
+        panel.line(line_x[span], line_y[span], color=hue, lw=wide)
     _sets(panel, horseshoe)
     _relation(Window(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
@@ -68,20 +68,22 @@ def _sets(panel: Window, horseshoe: xr.Dataset) -> None:
     on the way back, and NaN for the sets at the saddles.
     """
     x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
-    for sets, hue, size in (
-        (chain < 0.0, style.BLUE, 2.0),
-        (chain > 0.0, style.GREEN, 2.0),
-        (np.isnan(chain), style.VERMILION, 3.6),
-        (chain == 0.0, style.BLACK, 3.6),
+    out, back = (style.BLUE, "o", False, 2.2), (style.ORANGE, "^", False, 2.8)
+    saddles, middle = (style.BLACK, "o", False, 3.6), (style.VERMILION, "D", False, 3.6)
+    for sets, (hue, mark, _, size) in (
+        (chain < 0.0, out),
+        (chain > 0.0, back),
+        (np.isnan(chain), saddles),
+        (chain == 0.0, middle),
     ):
-        panel.dots(x[sets], y[sets], hue, size=size)
+        panel.dots(x[sets], y[sets], hue, size=size, marker=mark)
     entries = (
-        ("at the saddles", style.VERMILION, "o", False, 3.6),
-        ("middle set", style.BLACK, "o", False, 3.6),
-        ("stable", style.pale(style.STABLE)),
-        ("on the way out", style.BLUE, "o", False, 2.6),
-        ("on the way back", style.GREEN, "o", False, 2.6),
-        ("unstable", style.pale(style.UNSTABLE)),
+        ("at the saddles", *saddles),
+        ("middle set", *middle),
+        ("stable", style.pale(style.STABLE), "", False, 0.8),
+        ("on the way out", *out),
+        ("on the way back", *back),
+        ("unstable", style.pale(style.UNSTABLE), "", False, 0.4),
     )
     left, _, right, _ = panel.frame
     key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)
@@ -95,7 +97,7 @@ def _relation(panel: Window, horseshoe: xr.Dataset) -> None:
     """
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
-    panel.line(*square, color=style.BLACK, lw=1.0)
+    panel.line(*square, color=style.VERMILION, lw=1.0)
     for edge, wide in ((2, 0.8), (3, 0.8), (0, 2.0), (1, 2.0)):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=wide)
     texts = (

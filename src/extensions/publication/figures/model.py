@@ -10,7 +10,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 _HIGH, _FLOOR, _ROOM = 600, 165, 350  # pixels; the last is the height that the balls may take
-_CENTRES = 187, 525, 863  # pixels: the middles of the three parts
+_CENTRES = 187, 519, 851  # pixels: the middles of the three parts
 _LARGEST = 122.0  # pixels: radius of the ball
 _NAMES = "reference configuration", "between impacts", "impact"
 _SIZE, _SMALL = 9.0, 7.5  # points

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.transforms import Bbox
 
 from ..canvas import style
+from ..canvas.names import name_curves
 from ..canvas.sheet import LONGEST, POINT, Sheet, pieces, width
 from .direction import disproportion
 from .limits import inside
@@ -28,6 +29,7 @@ class _Label(NamedTuple):
 
 _WIDE = 1500  # pixels: five inches, shown at the width of a column
 _SIZE, _NAME = 11.0, 13.0  # points: labels, names
+_NAMED = 10.0  # points: names of curves
 _TICK, _GAP = 4.0, 3.0  # points: a tick's length, and from there to its label
 _APART = 0.25  # of a label's size: space on its left and its right
 _MARGIN = 1.2  # points: from there to the ends of the sheet
@@ -80,6 +82,14 @@ class Box:
         for piece in pieces(np.where(self.seen(points), across, np.nan), up):
             self.sheet.draw(*piece, lw=width, color=color)
 
+    def names(
+        self, curves: Sequence[np.ndarray], names: Sequence[str], colors: Sequence[str]
+    ) -> None:
+        """Write the name of each curve beside it, as far as there is room."""
+        curves = [*curves, self.surface.outline(self.view), self.surface.rim()]
+        pixels = [np.array(self.view(points[:, self.seen(points)])) for points in curves]
+        name_curves(self.sheet, pixels, names, colors, (0, 0, _WIDE, self.sheet.high), _NAMED)
+
     def seen(self, points: np.ndarray) -> np.ndarray:
         """Return whether each point lies in the box and the surface in the box does not hide it."""
         visible = inside(self.spans, points)
@@ -88,19 +98,21 @@ class Box:
         return visible
 
     def _lay_out(self, setting: str, entries: Sequence[Entry]) -> None:
-        """Make a sheet that fits the box, and write the setting and a key of one row above it."""
-        widths = [7 * POINT + width(name, _SIZE) + _BETWEEN for name, *_ in entries]
-        left, row = _LEFT + width(setting, _SIZE) + _BETWEEN, 0
-        if left + sum(widths) > _WIDE:
-            left, row = _LEFT, 1
+        """Make a sheet that fits the box, and write the setting and the key above it."""
+        places, left, row = [], _LEFT + width(setting, _SIZE) + _BETWEEN, 0
+        for name, *_ in entries:
+            wide = 7 * POINT + width(name, _SIZE) + _BETWEEN
+            if left + wide > _WIDE:
+                left, row = _LEFT, row + 1
+            places.append((left, row))
+            left += wide
         self.sheet = self._fit(1 + row)
         self.figure = self.sheet.figure
         self._thin_out()
         top = self.sheet.high - (4 + _ROW / 2) * POINT
         self.sheet.text(_LEFT - 8, top, setting, size=_SIZE)
-        for entry, space in zip(entries, widths, strict=True):
+        for entry, (left, row) in zip(entries, places, strict=True):
             key(self.sheet, [entry], top - row * _ROW * POINT, 1, left, size=_SIZE)
-            left += space
 
     def _fit(self, rows: int) -> Sheet:
         """Place the box on a sheet with room for labels and `rows` of the key; return the sheet."""

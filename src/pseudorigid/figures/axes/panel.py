@@ -107,7 +107,7 @@ class Panel:
             self._frame_line([left, left - tick], [y, y])
             self._text(left - reach, y, text, "right", self.baseline)
         if across.name:
-            y = bottom - (self.tick + self.gap + 1.5 * self.size) * POINT
+            y = bottom - (self.tick + self.gap + 1.25 * self.size) * POINT
             self._text((left + right) / 2, y, across.name, "center", "top")
         if up.name:
             self._text(left, top + 4 * POINT, up.name, "left", "bottom")

@@ -15,7 +15,7 @@ from .limits import linear
 from .panel import Entry, Frame, Panel, corner
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
-SEA = "#d4d4d4"  # of chaotic orbits beside regular ones
+SEA = "#d8d8d8"  # of chaotic orbits beside regular ones
 LEFT, SIDE = 150, 825  # pixels: left and width of a large panel
 _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 

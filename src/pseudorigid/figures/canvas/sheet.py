@@ -73,12 +73,13 @@ class Sheet:
         self.draw(across, up, ls="none", ms=size, color=color, **line_style)
 
     def text(
-        self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center"
-    ) -> None:
+        self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center",
+        color: str = style.BLACK,
+    ) -> None:  # fmt: skip
         """Write horizontal text at (x, y); `ha` and `va` are its alignment, as in matplotlib."""
         x, y = (float(snap_to_pixels(value)) / style.DPI for value in (x, y))
         inches = self.figure.dpi_scale_trans
-        self.figure.text(x, y, text, ha=ha, va=va, size=size, transform=inches)
+        self.figure.text(x, y, text, ha=ha, va=va, size=size, color=color, transform=inches)
 
 
 def width(text: str, size: float) -> float:

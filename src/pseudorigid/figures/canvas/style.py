@@ -11,16 +11,15 @@ DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
 PLAIN = 9.0  # points: text in a picture of that width
 
-# The hues of Okabe and Ito, which can be told apart with every kind of colour blindness.
-BLUE, VERMILION, GREEN, ORANGE = "#0072b2", "#d55e00", "#009e73", "#e69f00"
-PURPLE, SKY, BLACK = "#cc79a7", "#56b4e9", "#000000"
-HUES = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, BLACK)
-# The paper's green and blue for the two kinds of manifold. One is light and yellowish and the other
-# dark, so that they can be told apart too.
-STABLE, UNSTABLE = "#4fa82a", "#123fb0"
+# Colours for meanings without an order. In grey they differ in lightness, and readers with every
+# kind of colour vision can tell apart those that one picture uses (tests/colours.py).
+BLUE, VERMILION, ORANGE, BLACK = "#123fb0", "#d55e00", "#e69f00", "#000000"
+SKY, GREEN = "#56b4e9", "#00735a"  # SKY is as light as ORANGE: with marks of its own
+# The paper's green and blue for the two kinds of manifold.
+STABLE, UNSTABLE = "#4fa82a", BLUE
 MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
-MANY_HUES = (*HUES, SEA)
+_SCALE = "inferno", 36, 184  # matplotlib's table, and its darkest and lightest rows for lines
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = BLACK
 
@@ -64,6 +63,14 @@ def pinned() -> Iterator[None]:
         finally:
             manager.ttflist = all_fonts
             manager._findfont_cached.cache_clear()
+
+
+def ordered(count: int) -> list[str]:
+    """Return `count` colours from dark to light, for values that have an order."""
+    name, first, last = _SCALE
+    table = matplotlib.colormaps[name]
+    rows = table([first + (last - first) * i // max(count - 1, 1) for i in range(count)])
+    return ["#" + bytes(row).hex() for row in (rows[:, :3] * 255 + 0.5).astype("uint8")]
 
 
 def pale(color: str) -> str:

@@ -1,0 +1,94 @@
+"""Names of curves, written on them or beside them where the most room is."""
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+
+from .sheet import POINT, Sheet, width
+
+Frame = tuple[float, float, float, float]
+
+_GAP = 1.8  # points from a curve to its name
+_CELL = 4  # pixels: points of curves that share a cell of this size count once
+_LEAST = 0.4  # of this gap: least distance to other curves and names
+_HIDDEN = 0.3  # largest share of the nearby part of a curve that its name may hide
+_TRIED = 60  # points of a curve beside which its name is tried
+_HIGH = 0.68  # height of digits and capitals, in sizes of the text
+
+
+def name_curves(
+    sheet: Sheet,
+    curves: Sequence[np.ndarray],
+    names: Sequence[str],
+    colors: Sequence[str],
+    frame: Frame,
+    size: float,
+) -> None:
+    """Write the name of each curve where the other curves are farthest, on a white ground.
+
+    It interrupts its curve, or stands beside it if it would hide a large share of the curve.
+    Curves are points (2, n) in pixels, so dense that a name does not fit between two of them; one
+    beyond the last name has none. A name that would lie on a curve or another name, or beyond the
+    frame (left, bottom, right, top), is left out.
+    """
+    cells = [(np.unique(np.floor(c / _CELL), axis=1) + 0.5) * _CELL for c in curves]
+    gap, places = _GAP * POINT, []
+    for i, name in enumerate(names):
+        half = 0.5 * width(name, size), 0.5 * _HIGH * size * POINT
+        others = np.hstack([cell for j, cell in enumerate(cells) if j != i])
+        for beside in (False, True):
+            centres = _places(cells[i], half, gap, frame, beside)
+            own, room = (_room(centres, half, points) for points in (cells[i], others))
+            room = room.min(axis=1, initial=np.inf)
+            if beside:
+                free = own.min(axis=1, initial=np.inf) > _LEAST * gap
+            else:
+                hidden, near = (np.sum(own < reach, axis=1) for reach in (gap, 5.0 * half[1]))
+                free = hidden < _HIDDEN * near
+            free &= room > _LEAST * gap
+            if free.any():
+                break
+        places.append((i, half, centres[:, free], room[free]))
+    taken = np.empty((2, 0))
+    for i, half, centres, to_curves in sorted(places, key=lambda place: place[3].size):
+        room = np.minimum(to_curves, _room(centres, half, taken).min(axis=1, initial=np.inf))
+        if room.max(initial=0.0) <= _LEAST * gap:
+            continue
+        x, y = centres[:, int(np.argmax(room))].tolist()
+        sheet.draw([x - half[0], x + half[0]], [y, y], color="white", lw=2.0 * half[1] / POINT)
+        sheet.text(x, y, names[i], ha="center", va="center_baseline", size=size, color=colors[i])
+        across, up = np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
+        box = np.array([x + half[0] * across.ravel(), y + half[1] * up.ravel()])
+        taken = np.hstack([taken, box])
+
+
+def dense(line: Sequence[np.ndarray], frame: Frame) -> np.ndarray:
+    """Return points (2, n) of the part of a line (across, up) in a frame, a pixel apart or less."""
+    places = np.array(line)
+    steps = np.abs(np.diff(places)).max(axis=0)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.arange(0.0, along[-1] + 1.0)
+    x, y = points = np.array([np.interp(at, along, part) for part in places])
+    left, bottom, right, top = frame
+    return points[:, (left < x) & (x < right) & (bottom < y) & (y < top)]
+
+
+def _places(
+    curve: np.ndarray, half: tuple[float, float], gap: float, frame: Frame, beside: bool
+) -> np.ndarray:
+    """Return centres of a text, half as wide and high, on a curve or all around its points."""
+    steps = np.array([s for s in product((-1.0, 0.0, 1.0), repeat=2) if any(s) == beside]).T
+    shifts = steps * (np.array(half)[:, None] + gap)
+    tried = curve[:, :: max(curve.shape[1] // _TRIED, 1)]
+    x, y = (tried[:, :, None] + shifts[:, None]).reshape(2, -1)
+    left, bottom, right, top = frame
+    inside = (x > left + half[0] + gap) & (x < right - half[0] - gap)
+    inside &= (y > bottom + half[1] + gap) & (y < top - half[1] - gap)
+    return np.array([x, y])[:, inside]
+
+
+def _room(centres: np.ndarray, half: tuple[float, float], points: np.ndarray) -> np.ndarray:
+    """Return how far each point is from a text around each centre, (centre, point), in pixels."""
+    apart = np.abs(centres[:, :, None] - points[:, None])
+    return np.maximum(apart[0] - half[0], apart[1] - half[1])
