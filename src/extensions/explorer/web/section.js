@@ -331,7 +331,7 @@ class SectionView {
       if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
       strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
       const shift = axis ? 0 : this.centre;
-      const { offsets, labels } = ticksAround(half + shift, to - from, length / 32);
+      const { offsets, labels } = ticksAround(half + shift, to - from, Math.max(length / 44, 4));
       const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
       offsets.forEach((offset, i) => {
         const tick = at(half + offset, edge);
