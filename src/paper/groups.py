@@ -162,8 +162,8 @@ class OfRecords(OfOrbits):
     """A scene of exponents along orbits."""
 
     records: int = whole(2, 10_000)
-    """Number of points of each exponent's line: the exponents so far are kept after this many
-    equal stretches of impacts. 400 points make a smooth line."""
+    """Number of points of each exponent's line: exponents are kept after this many equal stretches
+    of impacts. 400 make a smooth line."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that there are no more records than impacts."""

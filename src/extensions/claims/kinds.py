@@ -24,19 +24,18 @@ class Spread(OfRecords):
     """Number of long orbits, which start uniformly over the whole section. Their exponents decide
     which of them are chaotic. A run says if none is."""
     length: int = whole(100, 100_000_000)
-    """Number of impacts of each long orbit, a multiple of `blocks`. The error of the long-run
-    exponent falls as its square root grows."""
+    """Number of impacts of each long orbit, a multiple of `blocks`."""
     blocks: int = whole(2, 10_000)
     """Number of equal blocks of a long orbit. Exponents are averaged over each block, the shortest
     run whose distribution can be drawn."""
     regular: list[Fraction] = allowed("a list of fractions", min_length=1)
-    """Starts of regular orbits, as fractions of the section's radius along y = 0. Their exponents
-    are drawn beside ln n/n. An orbit that is chaotic is drawn in grey."""
+    """Starts of regular orbits, as fractions of the section's radius along y = 0, whose exponents
+    are drawn beside ln n/n. A chaotic one is grey."""
     regular_impacts: int = whole(16, 10_000_000)
     """Number of impacts of each regular orbit."""
     cells: int = whole(2, 1000)
-    """The rectangle around the section is divided into this many cells to a side, to count which of
-    them chaotic orbits enter."""
+    """Number of cells to a side, in the rectangle around the section, of which those are counted
+    that chaotic orbits enter."""
     visits: int = whole(2, 100_000_000)
     """Number of impacts of each chaotic orbit whose cells are counted."""
 
@@ -59,7 +58,7 @@ class Clusters(OfSea):
     """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. A run
     refuses a cut that leaves no orbit lags + 2 clusters, and names the largest that does not."""
     lags: int = whole(1, 100)
-    """A cluster is compared with this many later ones: the next, the next but one, and so on."""
+    """A cluster is compared with this many later ones."""
     resamples: int = whole(10, 100_000)
     """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
     seed: int = whole(0, 2**31)
@@ -95,7 +94,7 @@ class Rotation(Scene):
     """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
     rim. More starts resolve narrower plateaus."""
     impacts: int = whole(100, 10_000_000)
-    """Number of impacts of each orbit. Longer orbits give the rotation number more digits."""
+    """Number of impacts of each orbit."""
     detail: Between
     """Part of the symmetry line y = 0 that is drawn at higher resolution, in section radii from the
     section's centre: `starts` further orbits start evenly in it, at `energy`."""
@@ -132,11 +131,10 @@ class Flux(OfSea):
     """Period of the hyperbolic orbit whose branches enclose the regions. A run says if there is
     none, or if its branches enclose nothing."""
     distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
-    """Largest distance between neighbouring points of the traced branches, in section radii. It
-    decides how well areas of polygons agree with the exact areas of the lobes."""
+    """Largest distance between neighbouring points of the traced branches, in section radii."""
     grid: int = whole(10, 3000)
     """The flux is counted along the orbits, and over a grid of this many points to a side, in the
-    rectangle around the section. The work grows with its square."""
+    rectangle around the section."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all impacts fit into memory."""
@@ -159,15 +157,14 @@ class LastCurve(Scene):
     fraction: [0, 5, 1, 15] is 1/(5 + 1/(1 + 1/(15 + ...))), with ones from there on. Without this
     field one number on either side of the last curve within `between` is chosen."""
     convergents: int = whole(2, 20)
-    """Number of convergents of each rotation number whose periodic orbits are found. Each further
-    convergent has a period about 1.6 times as long."""
+    """Number of convergents of each rotation number whose periodic orbits are found. Each has a
+    period about 1.6 times as long as the one before."""
     between: Between
     """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
     section's centre. The end nearer to the fixed point comes first. A run says if an orbit is not
     found there."""
     impacts: int = whole(100, LARGEST)
-    """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
-    whether a curve confines the orbit."""
+    """Number of impacts of the orbit from the last convergent's periodic point."""
     drawn: int = whole(100, LARGEST)
     """Number of these impacts that are drawn."""
 
@@ -198,11 +195,11 @@ class Exclusion(Curves):
     headline = "excluded share"
 
     grid: int = whole(10, 4000, 2)
-    """Number of points across the section; they are as far apart in the other direction, where the
-    section is drawn as a disk. 1128 make a million points."""
+    """Number of points across the section, drawn as a disk, and in the other direction. 1128 make a
+    million points."""
     followed: int = whole(1, 10_000)
     """Number of impacts forwards and backwards after which a point that is not excluded is given
-    up. Where most motion is regular, more impacts exclude more points."""
+    up."""
 
 
 class Control(Scene):
@@ -218,7 +215,7 @@ class Control(Scene):
         Predicate(rising),
     ]
     """Strengths eps of the changes of the map: about the largest displacement of a point, in
-    section radii. Each costs ten runs of all orbits."""
+    section radii."""
     orbits: int = whole(10, 100_000)
     """Number of orbits of each map, which start evenly over the whole section."""
     impacts: int = whole(64, 10_000_000)

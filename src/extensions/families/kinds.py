@@ -35,7 +35,7 @@ class Families(Scene):
     """Distance in the parameter between two values of the regular share; these are multiples of
     it."""
     starts: int = whole(1, 1_000_000)
-    """Number of orbits behind each value of the regular share, evenly over half of the section."""
+    """Number of orbits behind each value of the regular share."""
     impacts: int = whole(100, 10_000_000)
     """Largest number of impacts of these orbits."""
 

@@ -111,10 +111,10 @@ class Curves(OfChaoticOrbits):
         list[Annotated[Number, allowed("above 0, below 1", gt=0, lt=1)]],
         allowed("a list of numbers between 0 and 1", min_length=1, max_length=10),
     ]
-    """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. Each
-    curve has a number close to the given one, which must not be too close to a fraction of small
-    integers. A run says if it finds or proves no such curve, and names the nearest that it found.
-    Proved curves around longer orbits at the scene's energy are added."""
+    """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. A
+    curve's number is close to the given one, which must not be too close to a fraction of small
+    integers. A run says if it finds or proves no such curve, and names the nearest found. Proved
+    curves around longer orbits at the scene's energy are added."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point is elliptic, and that its curves can be sought."""
