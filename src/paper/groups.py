@@ -49,7 +49,7 @@ class Branch(Block):
 
     length: float = allowed("a positive number, in radii of the section", gt=0)
     """Arc length along which each of these branches is traced from its periodic point, in section
-    radii. Longer branches fold more often, and need more points and more time."""
+    radii. Longer branches need more points and time."""
 
 
 class BothBranches(Block):
@@ -68,8 +68,7 @@ class Resolution(Block):
     """Largest distance between neighbouring points of a traced line, in section radii. Use 0.01
     for a picture of the whole section. Points are inserted until it holds."""
     bend: float = allowed("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
-    """Largest angle between neighbouring pieces of a traced line, in degrees. A smaller angle
-    resolves folds better. 10 looks smooth."""
+    """Largest angle between neighbouring pieces of a traced line, in degrees. 10 looks smooth."""
 
 
 class Window(Block):
@@ -117,9 +116,8 @@ class OfOrbits(Scene):
     y = 0, from the section's centre: -1 and 1 are the rim, where impacts graze. A mapping is a
     point of the section. Fractions carry over to another ball or energy, points do not."""
     impacts: Impacts
-    """Number of impacts of each orbit. Where each impact is drawn as a dot, a few thousand fill a
-    closed curve and some ten thousand the chaotic sea. Exponents converge slowly: the paper takes
-    200000."""
+    """Number of impacts of each orbit. A few thousand dots fill a closed curve, some ten thousand
+    the chaotic sea. Exponents converge slowly: the paper takes 200000."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that starts lie on the section, and that impacts fit them and are not too many."""
@@ -149,7 +147,7 @@ class OfChaoticOrbits(OfOrbits):
     ] = []
     """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. It changes no
     picture: those whose tangent vectors grow exponentially are called chaotic, whatever stands
-    here. They are drawn first and in a grey of their own, so that regular orbits stand out."""
+    here. They are drawn first, in grey."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that places in `sea` are places in `starts`."""
@@ -164,8 +162,8 @@ class OfRecords(OfOrbits):
     """A scene of exponents along orbits."""
 
     records: int = whole(2, 10_000)
-    """Number of points of each exponent's line: the exponents so far are kept after this many
-    equal stretches of impacts. 400 points make a smooth line."""
+    """Number of points of each exponent's line: exponents are kept after this many equal stretches
+    of impacts. 400 make a smooth line."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that there are no more records than impacts."""
@@ -182,19 +180,18 @@ class OfPeriodicOrbit(Scene):
     """Number of impacts after which the periodic orbit closes; 1 is the fixed point. Only orbits
     that are symmetric under the reversor are found. A run says if there is none."""
     type: OrbitType
-    """Stability of the periodic orbit: an elliptic orbit is surrounded by islands, a hyperbolic or
-    inverse hyperbolic one is a saddle with manifolds. It selects among the orbits of the period."""
+    """Stability of the periodic orbit, among those of the period: an elliptic orbit is surrounded
+    by islands, others are saddles with manifolds."""
 
 
 class OfManifolds(OfPeriodicOrbit):
     """A scene of the manifolds of a hyperbolic orbit."""
 
     type: Saddle
-    """Stability of the periodic orbit, which must be a saddle to have manifolds. It selects among
-    the orbits of the period."""
+    """Stability of the periodic orbit, a saddle, among those of the period."""
     resolution: Resolution
-    """How finely the manifolds are traced. A finer resolution takes more time and more memory. A
-    run says if the branches would have too many points."""
+    """How finely the manifolds are traced. A run says if the branches would have too many
+    points."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the tolerance of a scan, and that no branch needs too many points."""

@@ -32,8 +32,8 @@ class Motion(OfPeriodicOrbit):
     headline = "orbit"
 
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
-    """Length of time that is drawn, in 1/omega, from an impact on. The orbit repeats as needed. A
-    run says if this makes too many flights."""
+    """Length of time that is drawn, in 1/omega, from an impact on. A run says if this makes too
+    many flights."""
     axes: dict[Literal["t", "displacement"], Axis] = ABSENT
     """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
     An axis that is left out has limits that hold its data."""

@@ -37,7 +37,7 @@ def test_a_key_has_no_orbits_that_are_not_there():
     data = scene_orbits(BALL, 0.01, REGULAR, 200)
     portrait = module("portrait").draw(SCENE | {"view": VIEW, "sea": [0, 1]}, data)
     assert not any("chaotic" in text for text in texts(portrait))
-    curve = scene_orbits(BALL, 0.001, [0.5], 1000)  # of the example of `curves` in docs/config.md
+    curve = scene_orbits(BALL, 0.001, [0.5], 1000)  # of the example of `curves`
     _, regular, chaotic = section.over_orbits(SCENE | {"energy": 0.001, "sea": [0]}, curve)
     assert regular[0] == "regular orbit" and chaotic is None
     few = scene_orbits(BALL, 0.01, [CHAOTIC], 5)

@@ -21,22 +21,21 @@ class Spread(OfRecords):
     headline = "long-run exponent"
 
     orbits: int = whole(2, 1000)
-    """Number of long orbits. They start uniformly over the whole section, in islands as well as in
-    the chaotic sea; their exponents decide which of them are chaotic. A run says if none is."""
+    """Number of long orbits, which start uniformly over the whole section. Their exponents decide
+    which of them are chaotic. A run says if none is."""
     length: int = whole(100, 100_000_000)
-    """Number of impacts of each long orbit, a multiple of `blocks`. The error of the long-run
-    exponent falls as its square root grows."""
+    """Number of impacts of each long orbit, a multiple of `blocks`."""
     blocks: int = whole(2, 10_000)
-    """Number of equal blocks into which a long orbit is divided. Exponents are averaged over each
-    block, so that one block is the shortest run whose distribution can be drawn."""
+    """Number of equal blocks of a long orbit. Exponents are averaged over each block, the shortest
+    run whose distribution can be drawn."""
     regular: list[Fraction] = allowed("a list of fractions", min_length=1)
-    """Starts of regular orbits, as fractions of the section's radius along y = 0. Their exponents
-    tend to zero and are drawn beside ln n/n. An orbit that is chaotic is drawn in grey."""
+    """Starts of regular orbits, as fractions of the section's radius along y = 0, whose exponents
+    are drawn beside ln n/n. A chaotic one is grey."""
     regular_impacts: int = whole(16, 10_000_000)
     """Number of impacts of each regular orbit."""
     cells: int = whole(2, 1000)
-    """The rectangle around the section is divided into this many cells to a side, to count which of
-    them chaotic orbits enter."""
+    """Number of cells to a side, in the rectangle around the section, of which those are counted
+    that chaotic orbits enter."""
     visits: int = whole(2, 100_000_000)
     """Number of impacts of each chaotic orbit whose cells are counted."""
 
@@ -56,16 +55,15 @@ class Clusters(OfSea):
     cuts: list[Annotated[float, allowed("a time above 0", gt=0)]] = allowed(
         "a list of 1 to 7 times", min_length=1, max_length=7
     )
-    """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. The analysis
-    is repeated for each cut, to show what depends on the choice. A run refuses a cut that leaves no
-    orbit lags + 2 clusters, and names the largest that does not."""
+    """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. A run
+    refuses a cut that leaves no orbit lags + 2 clusters, and names the largest that does not."""
     lags: int = whole(1, 100)
-    """A cluster is compared with this many later ones: the next, the next but one, and so on."""
+    """A cluster is compared with this many later ones."""
     resamples: int = whole(10, 100_000)
     """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
     seed: int = whole(0, 2**31)
-    """Random seed of the bootstrap. The same seed gives the same confidence intervals; another one
-    shifts their ends a little, and nothing else. Any number will do."""
+    """Random seed of the bootstrap, which decides the ends of the confidence intervals and nothing
+    else."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all fits into memory, and that cuts are below the longest flight."""
@@ -94,9 +92,9 @@ class Rotation(Scene):
     """Energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of `energy`."""
     starts: int = whole(2, 100_000)
     """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
-    rim of the section. More starts resolve narrower plateaus."""
+    rim. More starts resolve narrower plateaus."""
     impacts: int = whole(100, 10_000_000)
-    """Number of impacts of each orbit. Longer orbits give the rotation number more digits."""
+    """Number of impacts of each orbit."""
     detail: Between
     """Part of the symmetry line y = 0 that is drawn at higher resolution, in section radii from the
     section's centre: `starts` further orbits start evenly in it, at `energy`."""
@@ -120,8 +118,7 @@ class Jumps(OfChaoticOrbits):
     """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
     sides: int = whole(4, 100_000, 4)
     """Number of straight sides of which each curve is drawn, without those that a jump of the map
-    breaks. Its length is measured with this number, half of it and a quarter of it, which gives the
-    error of the length."""
+    breaks. Its length with this number, half and a quarter of it gives the error of the length."""
 
 
 class Flux(OfSea):
@@ -131,14 +128,13 @@ class Flux(OfSea):
     headline = "lobes"
 
     period: int = whole(2, 12, 2)
-    """Period of the hyperbolic orbit whose branches enclose the regions. It must be even. A run
-    says if there is no such orbit, or if its branches enclose nothing."""
+    """Period of the hyperbolic orbit whose branches enclose the regions. A run says if there is
+    none, or if its branches enclose nothing."""
     distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
-    """Largest distance between neighbouring points of the traced branches, in section radii. It
-    decides how well areas of polygons agree with the exact areas of the lobes."""
+    """Largest distance between neighbouring points of the traced branches, in section radii."""
     grid: int = whole(10, 3000)
     """The flux is counted along the orbits, and over a grid of this many points to a side, in the
-    rectangle around the section. The work grows with its square."""
+    rectangle around the section."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all impacts fit into memory."""
@@ -161,15 +157,14 @@ class LastCurve(Scene):
     fraction: [0, 5, 1, 15] is 1/(5 + 1/(1 + 1/(15 + ...))), with ones from there on. Without this
     field one number on either side of the last curve within `between` is chosen."""
     convergents: int = whole(2, 20)
-    """Number of convergents of each rotation number whose periodic orbits are found. Each further
-    convergent has a period about 1.6 times as long."""
+    """Number of convergents of each rotation number whose periodic orbits are found. Each has a
+    period about 1.6 times as long as the one before."""
     between: Between
     """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
     section's centre. The end nearer to the fixed point comes first. A run says if an orbit is not
     found there."""
     impacts: int = whole(100, LARGEST)
-    """Number of impacts of the orbit that starts at the last convergent's periodic point. It shows
-    whether a curve confines the orbit."""
+    """Number of impacts of the orbit from the last convergent's periodic point."""
     drawn: int = whole(100, LARGEST)
     """Number of these impacts that are drawn."""
 
@@ -200,11 +195,11 @@ class Exclusion(Curves):
     headline = "excluded share"
 
     grid: int = whole(10, 4000, 2)
-    """Number of points across the section; they are as far apart in the other direction, where the
-    section is drawn as a disk. 1128 make a million points."""
+    """Number of points across the section, drawn as a disk, and in the other direction. 1128 make a
+    million points."""
     followed: int = whole(1, 10_000)
     """Number of impacts forwards and backwards after which a point that is not excluded is given
-    up. Where most motion is regular, more impacts exclude more points."""
+    up."""
 
 
 class Control(Scene):
@@ -220,10 +215,9 @@ class Control(Scene):
         Predicate(rising),
     ]
     """Strengths eps of the changes of the map: about the largest displacement of a point, in
-    section radii. Each costs ten runs of all orbits."""
+    section radii."""
     orbits: int = whole(10, 100_000)
-    """Number of orbits of each map. They start evenly over the whole section. More orbits narrow
-    the intervals of the shares."""
+    """Number of orbits of each map, which start evenly over the whole section."""
     impacts: int = whole(64, 10_000_000)
     """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
     is told from a curve after about 4.4/eps impacts. Shares are kept after an eighth, a quarter and
@@ -239,8 +233,8 @@ class Control(Scene):
     resamples: int = whole(10, 100_000)
     """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
     seed: int = whole(0, 2**31)
-    """Random seed of the bootstrap. It decides the ends of the confidence intervals of means, and
-    nothing else."""
+    """Random seed of the bootstrap, which decides the ends of the confidence intervals and nothing
+    else."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the strength shown is computed, and that all impacts fit into memory."""

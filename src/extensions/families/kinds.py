@@ -25,20 +25,17 @@ class Families(Scene):
     span: Range
     """Least and largest value of the parameter. Families are followed between them."""
     period: int = whole(1, 24)
-    """Largest period of the orbits. There are about twice as many orbits for each further
-    period."""
+    """Largest period of the orbits. Each further period has about twice as many orbits."""
     levels: int = whole(1, 10_000)
     """Number of values of the parameter, evenly in the radius of the section, at which brute force
-    seeks orbits that no family holds yet. A family that lives between two of them is found if it
-    branches off from another one."""
+    seeks orbits that no family holds yet."""
     drawn: int = whole(1, 24)
-    """Largest period that is drawn. More than a hundred families in one panel cannot be told
-    apart."""
+    """Largest period that is drawn."""
     step: float = allowed("a positive number", gt=0)
     """Distance in the parameter between two values of the regular share; these are multiples of
     it."""
     starts: int = whole(1, 1_000_000)
-    """Number of orbits behind each value of the regular share, evenly over half of the section."""
+    """Number of orbits behind each value of the regular share."""
     impacts: int = whole(100, 10_000_000)
     """Largest number of impacts of these orbits."""
 

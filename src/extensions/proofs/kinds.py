@@ -36,12 +36,11 @@ class Horseshoe(OfBranches):
     headline = "sets"
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
-    """Side of the branches along which the orbit is connected with itself, and along which the sets
-    of the horseshoe lie. It is the side at the orbit's first point. The map carries that branch to
-    the other points, where it may be the other side, so give `branches` both. A run says if no
-    horseshoe is found or proved along it."""
+    """Side, at the orbit's first point, of the branches along which the sets of the horseshoe lie.
+    At other points it may be the other side, so give `branches` both. A run says if no horseshoe is
+    found or proved along it."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
-    """Stability of the periodic orbit. Horseshoes are proved on hyperbolic orbits only."""
+    """Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
     """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
     of `p` and `q`, the coordinates of the middle set, below. An axis that is left out has limits
@@ -60,9 +59,9 @@ class Twist(Scene):
         allowed("a list of energies in rising order", min_length=2, max_length=1000),
         Predicate(rising),
     ]
-    """Energies at which the twist coefficient is computed, in m omega^2 R^2. Straight lines join
-    the values. A run names an energy at which no twist is proved, such as one at which the third or
-    fourth power of the fixed point's multiplier is 1."""
+    """Energies at which the twist coefficient is computed, in m omega^2 R^2. A run names an energy
+    at which no twist is proved, such as one at which the third or fourth power of the fixed point's
+    multiplier is 1."""
     marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
     """Energies, among `energies`, whose values are marked with a dot."""
     axes: dict[Literal["energy", "twist"], Axis] = ABSENT
@@ -112,10 +111,10 @@ class Curves(OfChaoticOrbits):
         list[Annotated[Number, allowed("above 0, below 1", gt=0, lt=1)]],
         allowed("a list of numbers between 0 and 1", min_length=1, max_length=10),
     ]
-    """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. Each
-    curve has a number close to the given one, which must not be too close to a fraction of small
-    integers. A run says if it finds or proves no such curve, and names the nearest that it found.
-    Proved curves around longer orbits at the scene's energy are added."""
+    """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. A
+    curve's number is close to the given one, which must not be too close to a fraction of small
+    integers. A run says if it finds or proves no such curve, and names the nearest found. Proved
+    curves around longer orbits at the scene's energy are added."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point is elliptic, and that its curves can be sought."""

@@ -17,5 +17,5 @@ class Exact(Block):
     """a mapping with the key exact"""
 
     exact: Annotated[Literal[True], allowed("true, or no method at all")]
-    """Compute the true orbit of each start, so that every number is a rounded true value. This
-    takes effect in portraits and in backdrops of other pictures; other stages compute as usual."""
+    """Compute the true orbit of each start, so that every number is a rounded true value, in
+    portraits and in backdrops of other pictures."""

@@ -184,7 +184,7 @@ def _rendered(template: str, part: str) -> str:
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
     )
-    used: tuple[Any, ...] = (Scene, Variant, Scan, example, key_of, listed, nested, listed_of_kind)
+    used: tuple[Any, ...] = (Scene, Variant, Scan, key_of, listed, nested, listed_of_kind)
     used += (own_fields, upstream, others, kinds_of, blocks_of, parts)
     environment.globals |= {each.__name__: each for each in used} | {"fields": fields}
     text = environment.get_template(f"{template}.md").render(part=part)

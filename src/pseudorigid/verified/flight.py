@@ -78,8 +78,8 @@ class Flight:
         """Enclose the time of the next impact: the smallest t > 0 with f(t) = 0.
 
         The ball contains the first root, which is simple, for every choice of parameters in the
-        balls (arb). Raises UndecidedError where an earlier touch of the floor cannot be excluded, s
-        may be zero, or g is not positive.
+        balls (arb). Raises UndecidedError where an earlier touch of the floor cannot be excluded, g
+        may not be positive, or s may be zero, except s = 0 with x < -g, or with x = -g and c > 0.
         """
         return _refine(self, *_isolate(self))
 

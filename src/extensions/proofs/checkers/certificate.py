@@ -194,7 +194,7 @@ def holds_throughout(holds: Callable[[arb], bool], low: arb, high: arb, width: a
 
 
 def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
-    """Enclose the box of all points within a radius of a centre, per coordinate."""
+    """Enclose the box of all points within a radius, above 0, of a centre, per coordinate."""
     if not radius > 0:
         raise NotProvedError(f"a radius of {float(radius):g} is no size of a box")
     half = ball_of(Fraction(radius)).upper()

@@ -31,7 +31,7 @@ _REACH = arb(2) ** -30  # of theta, on both sides of the band: there the trace f
 
 
 def energy_at(k: arb, g: arb, theta: arb) -> arb:
-    """Enclose the energy E at theta, which rises with theta."""
+    """Enclose the energy E at theta, from 0 to pi, with which it rises."""
     _check(theta)
     one_minus_theta_cot = 1 - theta * theta.cot()
     square = one_minus_theta_cot * one_minus_theta_cot
@@ -39,7 +39,7 @@ def energy_at(k: arb, g: arb, theta: arb) -> arb:
 
 
 def trace_at(k: arb, theta: Real) -> Real:
-    """Enclose the trace at theta, or its Taylor series if theta is a Jet."""
+    """Enclose the trace at theta, from 0 to pi, or its Taylor series if theta is a Jet."""
     _check(theta.constant if isinstance(theta, Jet) else theta)
     sine, cosine = theta.sin_cos()
     double_sine, double_cosine = (2 * theta).sin_cos()
@@ -172,10 +172,10 @@ def check_unstable(
     """Prove that lambda^4 = 1 at one energy between `energies`, and the fixed point unstable there.
 
     There P z = lambda (z + A |z|^2 z + B conj(z)^3) + ..., and |B| > |A| makes the point unstable.
-    The certificate's two theta are the ends of a band. Checked: the trace falls over all of
-    `energies`, and through zero between the two theta; over the band's energies there is a fixed
-    point, elliptic, whose flights have simple first roots; |A| and |B| are those stated there, and
-    |B| - |A| is above the certificate's margin, which is at least the given one.
+    The certificate's two theta, 0 < theta < 3, are the ends of a band. Checked: the trace falls
+    over all of `energies`, and through zero between the two theta; over the band's energies there
+    is a fixed point, elliptic, whose flights have simple first roots; |A| and |B| are those stated
+    there, and |B| - |A| is above the certificate's margin, which is at least the given one.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "instability", ball=(k, g))
