@@ -232,8 +232,8 @@ class OnSurface(Scene):
     """Direction from which the surface is seen. The surface is opaque and hides its far side."""
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
-    rate, omega). An axis that is left out has limits that hold its data. Limits that cut the energy
-    surface are widened to hold it, and a run says so."""
+    rate, omega). An axis that is left out holds its data. Limits that cut the energy surface are
+    widened to hold it, and a run says so."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the box, if all axes are given, is neither too high nor too flat."""

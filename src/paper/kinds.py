@@ -36,7 +36,7 @@ class Motion(OfPeriodicOrbit):
     many flights."""
     axes: dict[Literal["t", "displacement"], Axis] = ABSENT
     """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
-    An axis that is left out has limits that hold its data."""
+    An axis that is left out holds its data."""
 
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
@@ -85,4 +85,4 @@ class Exponents(OfRecords):
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
-    `largest` (exponents of the inset). An axis that is left out has limits that hold its data."""
+    `largest` (exponents of the inset). An axis that is left out holds its data."""
