@@ -31,7 +31,7 @@ from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
 REPETITIONS = 9  # of a call
-FEW, SLOW = 3, 0.5  # repetitions of one that takes more than so many seconds
+SLOW_REPETITIONS, SLOW_SECONDS = 3, 0.5  # of a call that takes longer
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
 WEAK_SADDLE_ENERGY = 0.001  # of a saddle of period 10 with a small multiplier
@@ -131,7 +131,7 @@ def _interleaved(timed: dict[str, Call]) -> tuple[dict[str, Triple], dict[str, i
     seconds: dict[str, list[float]] = {name: [] for name in timed}
     for turn in range(REPETITIONS):
         for name, call in timed.items():
-            if turn < FEW or seconds[name][0] * call.units < SLOW:
+            if turn < SLOW_REPETITIONS or seconds[name][0] * call.units < SLOW_SECONDS:
                 start = time.process_time()
                 call.function()
                 seconds[name].append((time.process_time() - start) / call.units)
