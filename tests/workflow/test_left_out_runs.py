@@ -20,7 +20,7 @@ def test_a_scene_that_a_variant_cannot_have_is_named_and_its_old_picture_goes(va
     tree.write(document)
     old = tree.path / "results/low/figures/small.png"
     old.write_bytes(b"from another config")
-    assert f"low      {REASON}" in tree.succeed("list")
+    assert f"low: small: {REASON}" in tree.succeed("list")
     lines = tree.succeed("variant", "low", "small").splitlines()
     assert any(line.startswith(f"results/low/figures/small.png: {REASON}") for line in lines)
     assert not old.exists()

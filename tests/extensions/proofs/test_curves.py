@@ -366,7 +366,7 @@ def test_cells_enclose_a_polynomial():
 @pytest.mark.slow
 def test_the_curve_of_docs_api_is_proved_and_within_the_bounds_of_the_energy():
     page = (ROOT / "docs/api.md").read_text(encoding="utf-8")
-    of, encloses = r"at k = (\S+), g = (\S+) and E = (\S+) ", r"the curve .* (\S+) encloses (\S+) "
+    of, encloses = r"At k = (\S+), g = (\S+) and E = (\S+) ", r"the curve .* (\S+) encloses (\S+) "
     page = " ".join(page.split())
     k, g, energy, rotation, share = map(float, re.search(of + encloses, page).groups())
     ball = Ball(k, g)
