@@ -66,9 +66,9 @@ def test_slow_calls_of_the_benchmark_are_timed_less_often(monkeypatch):
         "slow": measured.Call(lambda: done.append("slow"), 1),
         "quick": measured.Call(lambda: done.append("quick"), 4),
     }
-    monkeypatch.setattr(bench, "SLOW", 1.0)
+    monkeypatch.setattr(bench, "SLOW_SECONDS", 1.0)
     spreads, times = bench._interleaved(timed)
     assert times == {"slow": 3, "quick": 3} and spreads["quick"] == (0.25, 0.25, 0.25)
-    monkeypatch.setattr(bench, "SLOW", 1.5)
+    monkeypatch.setattr(bench, "SLOW_SECONDS", 1.5)
     assert bench._interleaved(timed)[1] == {"slow": 9, "quick": 9}
     assert done.count("slow") == 4 + 10  # the first call of each compiles
