@@ -46,7 +46,7 @@ def test_every_published_set_fits_into_80_columns(capsys):
         rows = [(path, "99,999 kB", ("not published", "not committed")) for path in paths]
         print_files("", rows, HEADER)
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) > 20 and max(map(len, lines)) <= 80
+    assert len(lines) >= 9 and max(map(len, lines)) <= 80
 
 
 @pytest.mark.parametrize(
