@@ -36,6 +36,12 @@ def test_the_help_of_each_command_names_its_arguments(capsys):
         assert ("goes to snakemake" in " ".join(out.split())) == command.runs_snakemake
 
 
+def test_help_needs_no_config(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(arguments, "ROOT", tmp_path)
+    status, _, err = answer(capsys, "fig3", "--help")
+    assert (status, err) == (2, "reproduce: no command or figure fig3\n")
+
+
 FIGURES = "fig2, fig3, fig4, fig5, fig6, fig7 or fig8"
 MISTAKES = {
     "verfy": ": no command or figure verfy: did you mean verify?",

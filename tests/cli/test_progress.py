@@ -5,7 +5,7 @@ import types
 from itertools import pairwise
 
 import pytest
-from project import ROOT
+from project import ROOT, wait_for
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
@@ -131,3 +131,10 @@ def test_parts_of_a_dataset_are_counted(handler, capsys, monkeypatch):
     monkeypatch.setattr(steps, "plan", lambda: Plan({}, fresh, {ORBITS}))
     emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
     assert capsys.readouterr().err == "fig2: 1 of 1 blocks\n"
+
+
+def test_a_line_after_a_silence_has_the_time_since_the_command(capsys):
+    said = ["searching"]
+    beat = heartbeat.Heartbeat(lambda: said.pop() if said else "", waited=60.0)
+    wait_for(lambda: beat.due > beat.began + 60.0)
+    assert capsys.readouterr().err == "searching; 60 s so far\n"

@@ -77,7 +77,8 @@ def read(arguments: list[str]) -> Arguments:
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
     if not word and first[:1] not in ("", "-") and not {"-h", "--help"}.isdisjoint(rest):
-        scenes = (ROOT / "config.yaml").read_text(encoding="utf-8", errors="replace")
+        file = ROOT / "config.yaml"
+        scenes = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
         if not re.search(f"^ +{re.escape(first)}:", scenes, re.MULTILINE):  # help has no packages
             _refuse(f"no command or figure {first}{hint(first, commands)}")
     own, options = rest if word else arguments, list[str]()

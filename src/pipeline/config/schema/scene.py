@@ -78,8 +78,8 @@ class Scene(Picture):
     there is no motion, above the upper one the ball could flatten to nothing, eq. (31). Islands of
     regular motion mostly shrink as the energy rises."""
     method: Method = ABSENT
-    """How the next impact is found. Without it, the first impact is found and none missed; leave it
-    out unless you want to compare methods."""
+    """How the next impact is found. Without it, the first impact is found with a certificate that
+    none was missed; leave it out unless you want to compare methods."""
 
     def along_energy(self) -> bool:
         """Return whether the scene follows something over energies, from end to end of `span`."""
