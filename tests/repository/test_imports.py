@@ -31,8 +31,8 @@ PACKAGES_OF_PARTS = {
 LAYERS = {
     "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
-        *("cli", "renew", "jobs", "checks", "config", "commands", "records"),
-        *("loading", "declaration"),
+        *("cli", "renew", "jobs", "checks", "config", "commands", "processors"),
+        *("records", "loading", "declaration"),
     ),
 }
 LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(LAYERS[package])}
@@ -211,12 +211,13 @@ def test_the_engine_has_no_name_of_a_part():
 
 # Where packages that are not in the lock are imported, and the file in requirements/ that has them.
 ADDED = {
+    "src/extensions/atlas/gpu/card.py": "gpu",
     "src/study/methods/libraries.py": "study",
     "src/extensions/publication/article/typesetting.py": "article",
 }
 # Modules whose package has another name.
 PACKAGES = {"PIL": "pillow", "flint": "python-flint", "minify": "tdewolff-minify"}
-PACKAGES |= {"yaml": "pyyaml", "annotated_types": "annotated-types"}
+PACKAGES |= {"yaml": "pyyaml", "annotated_types": "annotated-types", "cuda": "cuda-core"}
 for _kind in ("logger", "executor"):
     PACKAGES[f"snakemake_interface_{_kind}_plugins"] = f"snakemake-interface-{_kind}-plugins"
 

@@ -14,14 +14,19 @@ from pathlib import Path
 from typing import Any
 
 from pipeline import config
+from pipeline.processors.build import CompiledFile
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 
 from . import data
-from .compiled import build
 
 COPY = "src/extensions/explorer/explorer.html"
 WEB = Path(__file__).with_name("web")
+KERNEL = CompiledFile(
+    Path(__file__).parent / "compiled" / "kernel.wasm",
+    "extensions.explorer.compiled.entry_points",
+    "wasm",
+)
 PRESETS = "presets.js of parts"
 # Scripts of both, those of the worker, and of the page, in their order.
 BOTH = ("kernel_api.js", "geometry.js")
@@ -69,7 +74,7 @@ def render(checked: config.Config, root: Path = ROOT) -> str:
 
 def kernel_scripts() -> str:
     """Return the script that computes, in the page and in its worker."""
-    module = base64.b64encode(build.current_module()).decode()
+    module = base64.b64encode(KERNEL.content()).decode()
     return "\n".join([f'const KERNEL = "{module}";', *map(script, BOTH)])
 
 
@@ -101,6 +106,5 @@ def _json(value: Any) -> str:
 
 def committed() -> dict[str, str]:
     """Return the committed copy by its path; compile the kernel for it first if it was edited."""
-    if not build.is_current():
-        build.main()
+    KERNEL.renew()
     return {COPY: render(config.load(ROOT / "config.yaml"))}

@@ -5,8 +5,8 @@ import pytest
 from project import SHIPPED, wait_for
 
 from extensions.explorer import page
-from extensions.explorer.compiled import build
 from pipeline import config
+from pipeline.processors.build import CompiledFile
 from pseudorigid.kernel import arithmetic
 
 SAME = (
@@ -49,15 +49,15 @@ def test_the_page_names_where_a_changed_kernel_begins_to_differ(opened, monkeypa
     """One constant of the module has another last digit."""
     constant = np.array(arithmetic._S1)
     changed = np.nextafter(constant, 9.0).tobytes()
-    module = build.MODULE.read_bytes().replace(constant.tobytes(), changed)
-    monkeypatch.setattr(build, "current_module", lambda: module)
+    module = page.KERNEL.path.read_bytes().replace(constant.tobytes(), changed)
+    monkeypatch.setattr(CompiledFile, "content", lambda _: module)
     note = checked(opened())
     assert "the same bits here" not in note
     assert note.count("other bits here, in x of orbit ") == 2
 
 
 def test_a_browser_without_the_kernel_says_so(opened, monkeypatch):
-    monkeypatch.setattr(build, "current_module", lambda: b"no module")
+    monkeypatch.setattr(CompiledFile, "content", lambda _: b"no module")
     text = opened().run("return document.body.innerText")
     assert text.startswith("This page needs WebAssembly with SIMD") and text.count("\n") == 0
 

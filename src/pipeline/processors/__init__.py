@@ -1,0 +1,1 @@
+"""Compilation for other processors than this one, with the same bits."""
