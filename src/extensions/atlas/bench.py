@@ -9,7 +9,8 @@ from pseudorigid.dynamics.verdict import windows
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 from study.measured import Call
 
-from .cell import cells_of_k, sunflower_points
+from .cell import numbers_of_cells
+from .starts import sunflower_points
 from .verdicts import random_cells
 
 CELLS = 3, 6  # values of k, and energies of each
@@ -19,8 +20,7 @@ CELL = "a cell here"
 def calls() -> dict[str, Call]:
     """Return the calls that compute cells, by name."""
     rows = np.reshape(random_cells(math.prod(CELLS), 2), (*CELLS, 2)).tolist()
-    plane = [(row[0][0], [e for _, e in row]) for row in rows]
-    drawn = [(k, e) for k, energies in plane for e in energies]
+    drawn = [(row[0][0], e) for row in rows for _, e in row]
     turning, growing = windows((4000,))
 
     def each_to_the_end() -> None:
@@ -32,7 +32,7 @@ def calls() -> dict[str, Call]:
                 propagate_with_tangent(one, k, 0, 4000, turning, growing, *sums)
 
     return {
-        CELL: Call(lambda: [cells_of_k(k, e, 200, 8000) for k, e in plane], len(drawn)),
+        CELL: Call(lambda: numbers_of_cells(drawn, 200, 8000), len(drawn)),
         "a cell, each orbit alone and to its end": Call(
             each_to_the_end, len(drawn), CELL, "at least 8"
         ),

@@ -6,7 +6,7 @@ are computed in blocks; the dataset of a sweep does not depend on the blocks.
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -16,14 +16,17 @@ import xarray as xr
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import described
 from pseudorigid.dynamics.verdict import classify_orbits
-from pseudorigid.kernel.arithmetic import sincos
-from pseudorigid.kernel.compiled import jit
+
+from .starts import sunflower_points
 
 MAX_ISLANDS = 24  # of a chain; longer chains count as curves around the fixed point
 WINDING_TOLERANCE = 1e-5  # turns an impact; a winding number as near to a fraction counts as equal
 NORMAL_95 = 1.959964  # standard deviations on either side of the mean that hold 95 %
 BATCH_SIZE = 40_000  # orbits followed together: SIMD lanes stay full, and memory small
-_GOLDEN_RATIO = 0.6180339887498949  # the smaller one
+
+Cell = tuple[float, float]  # k and E/g^2
+# Numbers (n, 3) of the fixed points of cells, and verdicts (n starts,) on their orbits.
+Judged = tuple[np.ndarray, np.recarray]
 
 AXES = {"k": ("Euler inertia", "m R^2"), "energy": ("energy over g^2", "m (gravity/omega)^2")}
 # Variable -> long name. A cell has one number of each, and one of `chains` per number of islands.
@@ -48,12 +51,13 @@ VARIABLES = {
 
 
 def block_of_cells_of_a_sweep(
-    cells: list[tuple[float, float]], starts: int, impacts: int
+    cells: list[Cell], starts: int, impacts: int, judged: Judged | None = None
 ) -> xr.Dataset:
-    """Compute regular and chaotic motion in cells [k, E/g^2], as from `kinds.parts`."""
-    rows: list[dict[str, Any]] = []
-    for k, row in groupby(cells, key=lambda pair: pair[0]):
-        rows += cells_of_k(k, [e for _, e in row], starts, impacts)
+    """Compute regular and chaotic motion in cells [k, E/g^2], as from `kinds.blocks`.
+
+    They may have been `judged` already, by another processor.
+    """
+    rows = numbers_of_cells(cells, starts, impacts, judged)
     table: dict[str, tuple[Any, ...]] = {}
     for name, text in VARIABLES.items():
         values = np.array([row[name] for row in rows])
@@ -97,24 +101,35 @@ def cell(k: float, e: float, starts: int, impacts: int) -> dict[str, Any]:
     curve; in islands it does not. Chains inside the main island and islands around islands are
     counted, too, and chains of the same p/q count as one.
     """
-    return cells_of_k(k, [e], starts, impacts)[0]
+    return numbers_of_cells([(k, e)], starts, impacts)[0]
 
 
-def cells_of_k(
-    k: float, energies: Sequence[float], starts: int, impacts: int
+def numbers_of_cells(
+    cells: Sequence[Cell], starts: int, impacts: int, judged: Judged | None = None
 ) -> list[dict[str, Any]]:
-    """Compute several cells with one k, bit for bit as `cell` does but in less time."""
-    cells = []
+    """Compute several cells, bit for bit as `cell` does but in less time."""
+    each = _judged(cells, starts, impacts)
+    if judged:
+        each = zip(judged[0].tolist(), np.split(judged[1], len(cells)), strict=True)
+    return [
+        {"trace": trace, "rotation": rotation} | _summary(orbits, rotation)
+        for (_, trace, rotation), orbits in each
+    ]
+
+
+def _judged(
+    cells: Sequence[Cell], starts: int, impacts: int
+) -> Iterable[tuple[Sequence[float], Any]]:
+    """Yield the fixed point's numbers of each cell, and the verdicts on its orbits."""
     step = max(1, BATCH_SIZE // starts)
-    for batch in (energies[first : first + step] for first in range(0, len(energies), step)):
-        fixed_x, traces, rotations = zip(*(fixed_point.numbers(k, e) for e in batch), strict=True)
-        states = np.concatenate([sunflower_points(k, e, starts) for e in batch], axis=1)
-        centre, expected = np.repeat(fixed_x, starts), np.repeat(rotations, starts)
-        verdicts = classify_orbits(k, states, centre, expected, impacts)
-        for i, (trace, rotation) in enumerate(zip(traces, rotations, strict=True)):
-            orbits = verdicts[i * starts : (i + 1) * starts]
-            cells.append({"trace": trace, "rotation": rotation} | _summary(orbits, rotation))
-    return cells
+    for k, row in groupby(cells, key=lambda pair: pair[0]):
+        energies = [e for _, e in row]
+        for batch in (energies[first : first + step] for first in range(0, len(energies), step)):
+            fixed = [fixed_point.numbers(k, e) for e in batch]
+            x, _, rotation = np.repeat(np.transpose(fixed), starts, axis=1)
+            states = np.concatenate([sunflower_points(k, e, starts) for e in batch], axis=1)
+            verdicts = classify_orbits(k, states, x, rotation, impacts)
+            yield from zip(fixed, np.split(verdicts, len(batch)), strict=True)
 
 
 def _summary(orbits: Any, rotation: float) -> dict[str, Any]:
@@ -168,26 +183,3 @@ def nearest_fractions(winding: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         equal = (islands == 0) & (np.abs(winding - nearest / q) < WINDING_TOLERANCE)
         turns[equal], islands[equal] = nearest[equal], q
     return turns, islands
-
-
-@jit
-def sunflower_points(k: float, e: float, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return states (x, v, w), lengths in g R, evenly over the half y >= 0 of the section.
-
-    They lie on a golden spiral. v is xdot, w is udot, and s = v + w the contact speed.
-    """
-    energy = 2.0 * e + 1.0 / k  # twice the energy above that of the ball at rest
-    radius_x = math.sqrt(energy / k)
-    radius_y = math.sqrt((1.0 + k) * energy)
-    largest_s = math.sqrt((1.0 + k) * energy / k)
-    x, v, w = np.empty(count), np.empty(count), np.empty(count)
-    for i in range(count):
-        area = (i + 0.5) / count  # share of the half disk that is nearer to the centre
-        sine, cosine = sincos(math.pi * (i * _GOLDEN_RATIO - int(i * _GOLDEN_RATIO)))
-        radius = math.sqrt(area)
-        y = radius_y * radius * sine
-        s = largest_s * math.sqrt(1.0 - area)
-        x[i] = 1.0 / k + radius_x * radius * cosine
-        v[i] = (y + k * s) / (1.0 + k)
-        w[i] = (s - y) / (1.0 + k)
-    return x, v, w

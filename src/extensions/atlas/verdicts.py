@@ -25,12 +25,13 @@ import xarray as xr
 
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.ensemble import threads
-from pseudorigid.dynamics.regularity import GROWTH_THRESHOLD
 from pseudorigid.dynamics.variables import described, of_rows
 from pseudorigid.dynamics.verdict import classify_orbits, means, windows
 from pseudorigid.kernel.tangents import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
+from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
-from .cell import AXES, sunflower_points
+from .cell import AXES
+from .starts import sunflower_points
 
 LONG, EARLY = 400_000, 20_000  # impacts
 SURELY_CHAOTIC = 10 * GROWTH_THRESHOLD  # a regular orbit's growth is about 0.85 at any length

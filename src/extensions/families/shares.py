@@ -18,7 +18,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from extensions.atlas.cell import sunflower_points, wilson
+from extensions.atlas.cell import wilson
+from extensions.atlas.starts import sunflower_points
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import ENERGY, variables

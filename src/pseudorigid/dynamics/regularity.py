@@ -16,20 +16,10 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.arithmetic import log
+from ..kernel.verdict import GROWTH_THRESHOLD
 from .ball import Ball
 from .variables import states_of
 
-# Half the threshold still exceeds a regular orbit's 0.85.
-GROWTH_THRESHOLD = 2.2
-# `verdict` decides on an orbit before its end only if the verdict holds with the threshold divided
-# and multiplied by this factor; `regular_strict` and `regular_lenient` are shares with these two.
-MARGIN_FACTOR = 2.0
-# Before its end an orbit is called regular only if the winding numbers of its halves differ by
-# less (turns an impact): weighted Birkhoff averages converge fast on quasi-periodic orbits only.
-WINDING_TOLERANCE = 1e-7
-# Before its end an orbit is called chaotic only if G is larger than this: on a regular orbit G is
-# about ln n after n impacts, 9.7 after 16,000.
-MIN_CHAOTIC_G = 15.0
 _LEAST_IMPACTS = 2000  # behind a verdict on an orbit of a scene
 _STRIDE = 10  # impacts
 _BLOCK = 2000  # strides whose states are in memory at once

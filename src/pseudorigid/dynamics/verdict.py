@@ -18,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from ..kernel.tangents import SIZE, begin, propagate_with_tangent, weight
-from .regularity import GROWTH_THRESHOLD, MARGIN_FACTOR, MIN_CHAOTIC_G, WINDING_TOLERANCE
+from ..kernel.verdict import judge_each
 
 FIRST_LENGTH = 500  # impacts of every orbit; exponents are taken from these
+JUDGED = "winding", "growth", "regular", "strict", "lenient"  # by `judge_each`, in this order
 # Verdict on an orbit and what it rests on. `strict` and `lenient` are the verdicts with half and
 # with twice the threshold.
 VERDICT = [
@@ -52,9 +53,7 @@ def classify_orbits(
     NaN.
     """
     lengths = lengths_to_decide(impacts)
-    turning, growing = windows(lengths)
-    shared = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]  # ends of the exponent's impacts
-    growing = np.concatenate([growing, shared])
+    turning, growing = all_windows(lengths)
     orbits = begin(k, states, centre, expected)
     turned, growth = (np.zeros((len(rows), len(centre))) for rows in (turning, growing))
     verdicts = np.zeros(len(centre), VERDICT).view(np.recarray)
@@ -62,29 +61,30 @@ def classify_orbits(
     start = 0
     for level, length in enumerate(lengths):
         propagate_with_tangent(orbits, k, start, length, turning, growing, turned, growth)
-        turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
-        (winding,), (grown,) = means(turning[turns], growing[grows], turned[turns], growth[grows])
         if not start:
             verdicts.exponent[:] = (growth[-1] - growth[-2]) / (length - length // 4)
-        strict = grown < GROWTH_THRESHOLD / MARGIN_FACTOR
-        if length < impacts:
-            strict &= np.abs(winding[1] - winding[2]) < WINDING_TOLERANCE
-            regular = lenient = strict
-            chaotic = (grown > MARGIN_FACTOR * GROWTH_THRESHOLD) & (orbits[SIZE] > MIN_CHAOTIC_G)
-            decided = regular | chaotic | np.isnan(grown)
-        else:
-            regular, lenient = grown < GROWTH_THRESHOLD, grown < MARGIN_FACTOR * GROWTH_THRESHOLD
-            decided = np.ones(undecided.size, bool)
-        values = {"regular": regular, "strict": strict, "lenient": lenient}
-        values |= {"winding": winding[0], "growth": grown, "followed": length}
-        for name, value in values.items():
+        turns, grows = slice(3 * level, 3 * level + 3), slice(2 * level, 2 * level + 2)
+        weights = tuple(weight(length) for _, length in turning[turns])
+        numbers, flags = np.empty((2, undecided.size)), np.empty((undecided.size, 4), bool)
+        judged = weights, growth[grows], length // 4, orbits[SIZE], length == impacts
+        judge_each(turned[turns], *judged, *numbers, flags)
+        values = dict(zip(JUDGED, (*numbers, *flags.T), strict=False))
+        for name, value in (values | {"followed": length}).items():
             verdicts[name][undecided] = value
-        start, undecided = length, undecided[~decided]
+        start, going_on = length, ~flags[:, 3]
+        undecided = undecided[going_on]
         if not undecided.size:
             break
         # Indexing by a mask changes the order in memory, for which all kernels compile again.
-        orbits, turned, growth = (np.compress(~decided, a, 1) for a in (orbits, turned, growth))
+        orbits, turned, growth = (np.compress(going_on, a, 1) for a in (orbits, turned, growth))
     return verdicts
+
+
+def all_windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Return `windows`, and with those of growth the ends of the exponent's impacts."""
+    turning, growing = windows(lengths)
+    shared = [(lengths[0] // 4 - 1, 1), (lengths[0] - 1, 1)]
+    return turning, np.concatenate([growing, shared])
 
 
 def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:

@@ -46,7 +46,7 @@ _GROWN, _SIZE, _CENTRE, _EXPECTED = (i * GROUP for i in (GROWN, SIZE, CENTRE, EX
 _P, _Q, _TURN = ((KEPT + i) * GROUP for i in range(3))
 _ROWS = (KEPT + 3) * GROUP
 # A tangent vector with a length beyond these limits is normalized, so that it cannot overflow.
-_SHORTEST, _LONGEST = 1e-50, 1e50
+SHORTEST, LONGEST = 1e-50, 1e50
 
 
 @jit
@@ -123,6 +123,15 @@ def angle(across, up):
     return turn if large > 0.0 else 0.0
 
 
+@jit
+def turn_between(p, q, r, s, expected):
+    """Return the turn from (p, q) to (r, s), clockwise, within half a turn of the expected one."""
+    turn = angle(p * r + q * s, q * r - p * s) / (2.0 * math.pi)
+    shift = 1.0 if turn < expected - 0.5 else 0.0
+    shift = -1.0 if turn > expected + 0.5 else shift
+    return turn + shift
+
+
 def begin(k, states, centre, expected):
     """Return orbits (KEPT, n) for `propagate_with_tangent`, with tangents of the energy surface.
 
@@ -137,19 +146,19 @@ def begin(k, states, centre, expected):
     return orbits
 
 
-def _bump(impact, length):
+def bump(impact, length):
     """Return the weight (t (1 - t))^3 of one impact of a window, of which t is its middle."""
     t = (impact + 0.5) / length
     product = t * (1.0 - t)
     return product * product * product
 
 
-_compiled_bump = jit(_bump)
+_compiled_bump = jit(bump)
 
 
 def weight(length):
     """Return the sum of the weights of turns over a window of `length` impacts."""
-    return np.sum(_bump(np.arange(length), length))
+    return np.sum(bump(np.arange(length), length))
 
 
 @jit
@@ -163,16 +172,14 @@ def _observe(rows, n, k, round_y, coefficients, states, flights, row):
         size = (abs(dx) + abs(dv)) + abs(dw)
         grown = rows[_GROWN + i] + narrow_log(size)
         rows[_DX + i], rows[_DV + i], rows[_DW + i], rows[_SIZE + i] = dx, dv, dw, grown
-        extreme += 0 if (size > _SHORTEST) & (size < _LONGEST) else 1
+        extreme += 0 if (size > SHORTEST) & (size < LONGEST) else 1
     for i in range(n):
         at = GROUP + row + i
         expected, p, q = rows[_EXPECTED + i], rows[_P + i], rows[_Q + i]
         r = states[X + at] - rows[_CENTRE + i]
         s = round_y * (states[V + at] - k * states[W + at])
-        turn = angle(p * r + q * s, q * r - p * s) / (2.0 * math.pi)
-        shift = 1.0 if turn < expected - 0.5 else 0.0
-        shift = -1.0 if turn > expected + 0.5 else shift
-        rows[_TURN + i], rows[_P + i], rows[_Q + i] = turn + shift, r, s
+        rows[_TURN + i] = turn_between(p, q, r, s, expected)
+        rows[_P + i], rows[_Q + i] = r, s
     return extreme > 0
 
 
@@ -182,7 +189,7 @@ def _rescale(rows, n):
     for i in range(n):
         dx, dv, dw = rows[_DX + i], rows[_DV + i], rows[_DW + i]
         size = (abs(dx) + abs(dv)) + abs(dw)
-        if not _SHORTEST < size < _LONGEST:
+        if not SHORTEST < size < LONGEST:
             rows[_GROWN + i] += log(size)
             rows[_SIZE + i] = rows[_GROWN + i]
             rows[_DX + i], rows[_DV + i], rows[_DW + i] = dx / size, dv / size, dw / size

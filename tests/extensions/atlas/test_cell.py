@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from dataset_hash import content_hash
 
-from extensions.atlas import cell, kinds
+from extensions.atlas import cell, kinds, starts
 from extensions.atlas.sweep import dataset_of_a_sweep
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point
@@ -47,7 +47,7 @@ def test_the_angle_is_that_of_atan2():
 
 def test_starts_are_even_in_area_and_have_the_energy():
     k, e, count = 0.2, 6.25, 4000
-    x, v, w = cell.sunflower_points(k, e, count)
+    x, v, w = starts.sunflower_points(k, e, count)
     assert Ball(k=k, g=1.0).energy(x, v, w) == pytest.approx(np.full(count, e))
     y = (v - k * w) / math.sqrt((1 + k) * (2 * e + 1 / k))
     x = (x - 1 / k) / math.sqrt((2 * e + 1 / k) / k)

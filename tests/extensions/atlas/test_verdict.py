@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from extensions.atlas import cell, verdicts
+from extensions.atlas import cell, starts, verdicts
 from pseudorigid import Ball
 from pseudorigid.dynamics import fixed_point, verdict
 
@@ -18,7 +18,7 @@ def classify(states, impacts):
 
 
 def test_an_early_verdict_is_that_of_a_longer_run():
-    states = cell.sunflower_points(K, E, 300)
+    states = starts.sunflower_points(K, E, 300)
     short, long = classify(states, 2000), classify(states, 8000)
     early = short.followed < 2000
     assert 0.8 < early.mean() < 1.0
@@ -30,7 +30,7 @@ def test_an_early_verdict_is_that_of_a_longer_run():
 
 def test_growth_is_that_of_a_product_of_jacobians():
     impacts = 400
-    states = np.array(cell.sunflower_points(K, E, 6))
+    states = np.array(starts.sunflower_points(K, E, 6))
     found = classify(states, impacts)
     ball = Ball(k=K, g=1.0)
     for i, start in enumerate(states.T):

@@ -9,7 +9,7 @@ from extensions.atlas.cell import wilson
 from extensions.claims.analyses import control, perturbed_map
 from extensions.claims.analyses.perturbed_map import MAPS, apply, change
 from pseudorigid import Ball
-from pseudorigid.dynamics.regularity import GROWTH_THRESHOLD
+from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
 BALL, ENERGY, EPS = Ball(0.2, 0.04), 0.01, 0.1
 CHANGES = sorted({(form, keeps) for form, keeps, _ in MAPS.values()})

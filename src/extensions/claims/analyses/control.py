@@ -25,7 +25,6 @@ import xarray as xr
 from extensions.atlas.cell import NORMAL_95
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.periodic import symmetric_orbits
-from pseudorigid.dynamics.regularity import GROWTH_THRESHOLD
 from pseudorigid.dynamics.variables import (
     RADIUS,
     NoOrbitError,
@@ -36,6 +35,7 @@ from pseudorigid.dynamics.variables import (
 )
 from pseudorigid.kernel.arithmetic import log, sincos
 from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
 from .perturbed_map import (
     MAPS,
