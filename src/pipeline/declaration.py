@@ -27,6 +27,7 @@ from typing import Any, NamedTuple
 
 SRC = Path(__file__).resolve().parents[1]
 SCHEMA = "config.schema.json"
+ONLY_SET = "PSEUDORIGID_SET"
 RENEW = ".venv/bin/python -m pipeline.renew"  # writes every generated file
 
 
@@ -79,6 +80,7 @@ class SceneSet(NamedTuple):
     scenes: str = ""  # this function: module.function
     kind: str = ""  # of a scene that does not say its kind
     texts: tuple[str, ...] = ()  # other files that the command writes
+    apart: bool = False  # large: loaded only in processes whose variable ONLY_SET names it
 
 
 class Command:

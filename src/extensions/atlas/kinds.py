@@ -24,7 +24,7 @@ from pseudorigid.kernel.closed_forms import energy_bounds
 # Bounds of a sweep.
 LARGEST_IMPACTS = 10_000_000_000_000  # a larger number is a slip
 MOST_CELLS = 1_000_000  # each start of ./reproduce looks at all of them
-MOST_COLUMNS, MOST_ROWS = 800, 1600  # of a plane, for which a picture has room
+MOST_COLUMNS, MOST_ROWS = 1000, 1600  # of a plane, for which a picture has room
 MOST_JOBS = 5000  # with more, snakemake is busier with its list than with the jobs
 HIGHEST_ENERGY = 1e9  # E/g^2
 _FORTY_DIGITS = Context(prec=40)

@@ -46,7 +46,7 @@ def test_axes_are_the_decimals_they_are_meant_to_be():
         ({"g": 0.04}, "energy: 6.25", "below (k/2 - g)/g^2 = 6.25"),
         ({"starts": 10**6, "impacts": 10**7}, "impacts: 10000000", "in a sweep"),
         ({"energy": {"from": 1, "to": 9, "count": 10_000}}, "block: 2", "at least 4 cells"),
-        ({"energy": {"from": 1, "to": 9, "count": 801}}, "energy: [1.0,", "at most 800 energies"),
+        ({"energy": {"from": 1, "to": 9, "count": 1001}}, "energy: [1.0,", "at most 1000 energies"),
         ({"k": {"from": 0.1, "to": 0.9, "count": 1601}}, "energy: [0.3,", "1600 values of k"),
     ],
 )

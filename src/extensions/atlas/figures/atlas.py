@@ -33,7 +33,8 @@ QUOTATION = (
     "“appear to be progressively destroyed",
     "as the total energy increases”",
 )
-LEFT, WIDE, HIGH = 115, 800, 640  # pixels: the left of a plane's frame, and its largest size
+# Pixels: the left of a plane's frame, and its largest size where cells have more than one.
+LEFT, WIDE, HIGH = 115, 800, 640
 _SIZE = 6.0  # points: text beside lines
 _NAME_WIDTH = 46  # pixels: the room that the name of a resonance needs
 _DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
@@ -80,7 +81,9 @@ def pixels(sweep: Sweep) -> tuple[int, int]:
 
 def sheet_above(bottom: int, sweep: Sweep) -> Sheet:
     """Return a sheet whose upper panel is a plane that begins at the height `bottom`."""
-    return Sheet(style.COLUMN, 75 * -(-(bottom + pixels(sweep)[1] + 105) // 75))
+    wide, high = pixels(sweep)
+    wider = 75 * -(-max(0, wide - WIDE) // 75)  # whole quarters of an inch, as of the height
+    return Sheet(style.COLUMN + wider, 75 * -(-(bottom + high + 105) // 75))
 
 
 def cells(
