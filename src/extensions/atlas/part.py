@@ -3,8 +3,9 @@
 from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage, names, switch
 
 _ARGUMENTS = (
-    names("sweep", "sweeps of config.yaml; without a name, all"),
+    names("sweep", "sweeps of config.yaml; without a name, all; or finer, a million cells"),
     switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
+    switch("--gpu", "compute blocks of cells on an NVIDIA card, with the same bytes"),
 )
 _MODULE = "extensions.atlas.command"
 PART = Part(
@@ -20,7 +21,15 @@ PART = Part(
     sets={
         "atlas": SceneSet(
             "more_figures/atlas", "./reproduce atlas", "The atlas", key="sweeps", kind="atlas"
-        )
+        ),
+        "finer": SceneSet(
+            "more_figures/finer",
+            "./reproduce atlas --gpu finer",
+            "The finer atlas",
+            scenes="extensions.atlas.finer.scenes",
+            kind="atlas",
+            apart=True,
+        ),
     },
     commands={
         "sweep": SnakemakeCommand(
@@ -31,6 +40,7 @@ PART = Part(
         ),
     },
     benchmark="extensions.atlas.bench",
+    committed="extensions.atlas.gpu.run.renewed",
     seconds={
         "results/atlas/verdicts.nc": 190,
     },

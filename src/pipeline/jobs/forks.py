@@ -10,11 +10,13 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Mapping
 from contextlib import suppress
 from multiprocessing import forkserver
 from multiprocessing.connection import wait
 from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
+from typing import Any
 
 from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
@@ -30,10 +32,18 @@ THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THRE
 _lock = threading.Lock()
 
 
-def run(context: ForkServerContext | SpawnContext, spec: BuildSpec) -> bool:
-    """Make a result in a process of its own, and return whether it is current afterwards."""
+def run(
+    context: ForkServerContext | SpawnContext,
+    spec: BuildSpec,
+    known: Mapping[str, Any] | None = None,
+    about: Mapping[str, Any] | None = None,
+) -> bool:
+    """Make a result in a process of its own, and return whether it is current afterwards.
+
+    `known` and `about` are those of `job.make`.
+    """
     receiver, answer = context.Pipe(duplex=False)
-    process = context.Process(target=job.make, args=(spec, answer))
+    process = context.Process(target=job.make, args=(spec, answer, known, about))
     made, reason = False, "it could not start"
     with receiver, suppress(OSError, EOFError):
         with _lock:

@@ -2,11 +2,13 @@
 
 import sys
 import traceback
+from collections.abc import Mapping
 from contextlib import suppress
 from importlib import import_module
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from ..records.build_spec import BuildSpec
 from ..records.files import memory_is_short, write_whole
@@ -21,11 +23,17 @@ def _excepthook(
         sys.__excepthook__(kind, error, trace)
 
 
-def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
+def make(
+    spec: BuildSpec,
+    answer: "Connection[bool, bool]",
+    known: Mapping[str, Any] | None = None,
+    about: Mapping[str, Any] | None = None,
+) -> None:
     """Make a result in this process, which ends afterwards; the current folder is the root.
 
     `answer` gets True once the result and its record are written. An error becomes the last line
-    of the job's log, below its traceback.
+    of the job's log, below its traceback. The program is given what is `known`, and the record says
+    what `about` says.
     """
     sys.excepthook = _excepthook
     log = log_path(spec.result)
@@ -33,7 +41,8 @@ def make(spec: BuildSpec, answer: "Connection[bool, bool]") -> None:
         Path(file).unlink(missing_ok=True)
     try:
         with recorded(spec) as output:
-            output.update(import_module(f"pipeline.jobs.{spec.program}").make(spec) or {})
+            program = import_module(f"pipeline.jobs.{spec.program}")
+            output.update(program.make(spec, **(known or {})) or about or {})
     except Exception as error:
         message = " ".join(str(error).split())
         if words := memory_is_short(error):

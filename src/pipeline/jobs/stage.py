@@ -27,14 +27,16 @@ def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
     return progress
 
 
-def make(spec: BuildSpec) -> None:
+def make(spec: BuildSpec, **known: Any) -> None:
     """Compute a dataset with the function that the specification names, and save it.
+
+    The function also gets what is `known` already, which decides no value.
 
     `declaration.Stage` says how the function is called. With a `method` that scans, the ball's map
     finds impacts by it, and the dataset says how many it missed.
     """
     block, function = spec.config, imported(spec.function)
-    fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}}
+    fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}} | known
     parameters = inspect.signature(function).parameters
     if "progress" in parameters:
         fields["progress"] = _progress(spec)

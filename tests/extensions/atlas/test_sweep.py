@@ -25,16 +25,18 @@ def checked(**sweeps):
 
 
 @pytest.mark.parametrize(
-    ("name", "sweeps", "slurm", "line"),
+    ("name", "sweeps", "options", "line"),
     [
-        (["lime"], {"plane": SMALL, "line": SMALL}, False, "no sweep lime: did you mean line"),
-        ([], {}, False, "sweeps: empty"),
-        ([], {"small": SMALL}, True, "--slurm: there is no sbatch on this machine"),
+        (["lime"], {"plane": SMALL, "line": SMALL}, "", "no sweep lime: did you mean line"),
+        ([], {}, "", "sweeps: empty"),
+        ([], {"small": SMALL}, "slurm", "--slurm: there is no sbatch on this machine"),
+        ([], {"small": SMALL}, "slurm gpu", "--slurm on others: choose one"),
     ],
 )
-def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweeps, slurm, line):
+def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweeps, options, line):
     monkeypatch.setenv("PATH", "/nowhere")
-    args = Arguments(word="sweep", sweep=name, slurm=slurm, options=[])
+    given = {option: option in options for option in ("slurm", "gpu")}
+    args = Arguments(word="sweep", sweep=name, options=[], **given)
     args.config = checked(**sweeps)
     with pytest.raises(UsageError, match=line):
         command.run(args)
@@ -73,6 +75,11 @@ def hashes(tree):
 def times(tree):
     files = (tree.path / "results" / "atlas").rglob("*.nc")
     return {file.name: file.stat().st_mtime_ns for file in files}
+
+
+def test_no_other_command_sees_the_finer_atlas(tree):
+    assert tree.succeed("atlas", "finer", "-n") == "finer: not made yet: block, data, drawing\n"
+    assert "finer" not in tree.succeed("list") + tree.succeed("atlas", "-n")
 
 
 @pytest.mark.slow

@@ -1,0 +1,68 @@
+"""An NVIDIA card, through cuda-core: memory, copies, and threads that run a kernel."""
+
+from typing import Any
+
+import numpy as np
+
+THREADS = 128  # of a block
+
+
+class CardError(ValueError):
+    """Why no card can be used: one line."""
+
+
+class Card:
+    """The first card of this machine, with kernels that it runs; raises CardError without one.
+
+    `memory` is how many bytes are free, `driver` the version of CUDA that the driver speaks.
+    """
+
+    def __init__(self, ptx: bytes) -> None:
+        try:
+            from cuda.bindings import driver
+            from cuda.core import Device, ObjectCode
+
+            device = Device(0)
+            device.set_current()
+            self._driver, self._device, self._stream = driver, device, device.create_stream()
+            version, (self.memory, _) = self._call("DriverGetVersion"), self._call("MemGetInfo")
+            self._code = ObjectCode.from_ptx(ptx)
+            self.registers = self._code.get_kernel("classify").attributes.num_regs
+        except Exception as error:  # cuda-core raises many types
+            reason = " ".join(str(error).split()) or type(error).__name__
+            raise CardError(f"--gpu: no NVIDIA card can be used here: {reason}") from None
+        self.name, self.driver = device.name, f"CUDA {version // 1000}.{version % 1000 // 10}"
+
+    def empty(self, size: int, dtype: type) -> Any:
+        """Return room for an array of the card, with any values."""
+        return self._device.allocate(size * np.dtype(dtype).itemsize, stream=self._stream)
+
+    def copied(self, values: np.ndarray) -> Any:
+        """Return a copy of an array on the card."""
+        values = np.ascontiguousarray(values)
+        copy = self.empty(values.size, values.dtype.type)
+        self._stream.sync()
+        self._call("MemcpyHtoD", int(copy.handle), values.ctypes.data, values.nbytes)
+        return copy
+
+    def read(self, array: Any, dtype: type) -> np.ndarray:
+        """Return the values of an array of the card."""
+        values = np.empty(array.size // np.dtype(dtype).itemsize, dtype)
+        self._stream.sync()
+        self._call("MemcpyDtoH", values.ctypes.data, int(array.handle), values.nbytes)
+        return values
+
+    def run(self, kernel: str, threads: int, *arguments: Any) -> None:
+        """Start a kernel in some threads; arguments are integers and arrays of the card."""
+        from cuda.core import LaunchConfig, launch
+
+        given = [np.int64(a) if isinstance(a, int) else a for a in (threads, *arguments)]
+        shape = LaunchConfig(grid=-(-threads // THREADS), block=THREADS)
+        launch(self._stream, shape, self._code.get_kernel(kernel), *given)
+
+    def _call(self, name: str, *arguments: Any) -> Any:
+        """Call a function of the driver; return what it returns after the error."""
+        error, *results = getattr(self._driver, f"cu{name}")(*arguments)
+        if error:
+            raise RuntimeError(f"cu{name}: {self._driver.CUresult(error).name}")
+        return results[0] if len(results) == 1 else results

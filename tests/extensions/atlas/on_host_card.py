@@ -1,0 +1,12 @@
+"""Run a command of ./reproduce with this machine in the place of a card."""
+
+import sys
+
+from host_card import HostCard
+
+from extensions.atlas.gpu import run
+from pipeline.cli.main import main
+
+if __name__ == "__main__":
+    run.Card = lambda _: HostCard()
+    sys.exit(main(sys.argv[1:]))
