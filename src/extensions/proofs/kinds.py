@@ -37,8 +37,7 @@ class Horseshoe(OfBranches):
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
     """Side, at the orbit's first point, of the branches along which the sets of the horseshoe lie.
-    At other points it may be the other side, so give `branches` both. A run says if no horseshoe is
-    found or proved along it."""
+    At other points it may be the other side, so give `branches` both."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
     """Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
@@ -59,9 +58,8 @@ class Twist(Scene):
         allowed("a list of energies in rising order", min_length=2, max_length=1000),
         Predicate(rising),
     ]
-    """Energies at which the twist coefficient is computed, in m omega^2 R^2. A run names an energy
-    at which no twist is proved, such as one at which the third or fourth power of the fixed point's
-    multiplier is 1."""
+    """Energies at which the twist coefficient is computed. A run names one at which no twist is
+    proved, such as one at which the third or fourth power of the fixed point's multiplier is 1."""
     marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
     """Energies, among `energies`, whose values are marked with a dot."""
     axes: dict[Literal["energy", "twist"], Axis] = ABSENT
@@ -113,8 +111,8 @@ class Curves(OfChaoticOrbits):
     ]
     """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. A
     curve's number is close to the given one, which must not be too close to a fraction of small
-    integers. A run says if it finds or proves no such curve, and names the nearest found. Proved
-    curves around longer orbits at the scene's energy are added."""
+    integers. If no such curve is found or proved, a run names the nearest found. Proved curves
+    around longer orbits at the scene's energy are added."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point is elliptic, and that its curves can be sought."""
