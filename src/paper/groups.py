@@ -229,7 +229,7 @@ class OnSurface(Scene):
     """Direction from which the surface is seen. It is opaque."""
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
-    rate, omega). An axis that is left out holds its data. Limits that cut the energy surface are
+    rate, omega). Limits that cut the energy surface are
     widened to hold it, and a run says so."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:

@@ -34,8 +34,8 @@ class Motion(OfPeriodicOrbit):
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
     """Length of time that is drawn, in 1/omega, from an impact on."""
     axes: dict[Literal["t", "displacement"], Axis] = ABSENT
-    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
-    An axis that is left out holds its data."""
+    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and
+    strain)."""
 
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
@@ -84,4 +84,4 @@ class Exponents(OfRecords):
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
-    `largest` (exponents of the inset). An axis that is left out holds its data."""
+    `largest` (exponents of the inset)."""

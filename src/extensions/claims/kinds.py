@@ -29,12 +29,12 @@ class Spread(OfRecords):
     """Number of equal blocks of a long orbit, the shortest runs whose exponents are kept."""
     regular: list[Fraction] = allowed("a list of fractions", min_length=1)
     """Starts of regular orbits, as fractions of the section's radius along y = 0, whose exponents
-    are drawn beside ln n/n. A chaotic one is grey."""
+    are drawn beside ln n/n."""
     regular_impacts: int = whole(16, 10_000_000)
     """Number of impacts of each regular orbit."""
     cells: int = whole(2, 1000)
-    """Number of cells to a side, in the rectangle around the section. Those that chaotic orbits
-    enter are counted."""
+    """Number of cells to a side, in the rectangle around the section, of which those that chaotic
+    orbits enter are counted."""
     visits: int = whole(2, 100_000_000)
     """Number of impacts of each chaotic orbit whose cells are counted."""
 
@@ -216,8 +216,7 @@ class Control(Scene):
     """Number of orbits of each map, which start evenly over the whole section."""
     impacts: int = whole(64, 10_000_000)
     """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
-    is told from a curve after about 4.4/eps impacts. Shares are kept after an eighth, a quarter and
-    half of these impacts too."""
+    is told from a curve after about 4.4/eps impacts."""
     period: int = whole(2, 12)
     """Period of the elliptic orbit whose islands are followed beside the fixed point."""
     starts: list[Fraction] = allowed("a list of 1 to 50 fractions", min_length=1, max_length=50)

@@ -42,8 +42,7 @@ class Horseshoe(OfBranches):
     """Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
     """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
-    of `p` and `q`, the coordinates of the middle set, below. An axis that is left out holds its
-    data."""
+    of `p` and `q`, the coordinates of the middle set, below."""
 
 
 class Twist(Scene):
@@ -63,8 +62,7 @@ class Twist(Scene):
     marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
     """Energies, among `energies`, whose values are marked with a dot."""
     axes: dict[Literal["energy", "twist"], Axis] = ABSENT
-    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient). An axis
-    that is left out holds its data."""
+    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient)."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that marks are among the energies, at which the fixed point must be elliptic."""

@@ -64,14 +64,14 @@ def _page_of(part: str) -> Path | None:
     return pages.get(part)
 
 
-def others() -> Iterator[tuple[str, str, str, str]]:
-    """Yield each key of config.yaml of another part, its command, folder and the part's page."""
+def others() -> Iterator[tuple[str, str, str]]:
+    """Yield each key of config.yaml of another part, its command, and the part's page."""
     for name, part in _OTHERS.items():
         for each in part.sets.values():
             if each.key:
-                yield each.key, each.command, each.folder, _link(name, "../")
+                yield each.key, each.command, _link(name, "../")
         for key in part.settings:
-            yield key, "", "", _link(name, "../")
+            yield key, "", _link(name, "../")
 
 
 def kinds_of(part: str) -> dict[str, type[Picture]]:

@@ -130,7 +130,8 @@ class Axis(Block):
     """a mapping with the keys limits and ticks"""
 
     limits: Range
-    """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn."""
+    """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn. An axis
+    that is left out holds its data."""
     ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
     """Positions of the tick marks and their labels, within the limits."""
 
