@@ -5,7 +5,6 @@ The captions are those of the report, with the values from which the committed p
 
 import re
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -25,7 +24,12 @@ def page() -> str:
     """Return the text of docs/figures.md."""
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
     environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
-    wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)
+
+    def wrapped(text: str) -> str:
+        """Return a paragraph in lines, none of which begins with = as an underline does."""
+        glued = text.replace(" = ", "\0=\0")
+        return fill(glued, 100, break_long_words=False, break_on_hyphens=False).replace("\0", " ")
+
     sections = [(SETS[each.group].heading, each, _told_once(of)) for each, of in _captions()]
     return environment.from_string(template).render(sections=sections, fill=wrapped)
 
