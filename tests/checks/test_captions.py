@@ -124,4 +124,4 @@ def test_the_page_says_once_what_two_captions_share():
         (own,) = re.findall(rf"/{scene}\.png\) (.*?)(?= ###?#? |$)", text)
         assert f"The rest is as of Figure {earlier[-1]}." in own
     assert text.count("It is opaque") == text.count("The two lines touch at every") == 1
-    assert "After 6 impacts" in text and "at energy 0.001 " in text
+    assert "orbit of period 6 in time" in text and "at energy 0.001 " in text
