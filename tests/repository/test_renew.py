@@ -39,6 +39,8 @@ def test_a_field_of_several_kinds_is_described_once(part):
     items = [re.findall(r"^- `(\w+)` (\(.*(?:\n  .*)*)", text, re.M) for text in kinds]
     found = Counter(item for each in items for item in each)
     assert len(found) > 10 and max(found.values()) == 1, found.most_common(1)
+    place = reference.common_place(part)
+    assert not place or reference.section(part).count(place) == 1
     for names, kind in re.findall(r"^- (`.*): as\s+of `(\w+)`", "\n".join(kinds), re.M):
         (place,) = (i for i, text in enumerate(kinds) if text.startswith(f"{kind}\n"))
         assert set(re.findall(r"`(\w+)`", names)) <= {name for name, _ in items[place]}
