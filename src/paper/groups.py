@@ -37,19 +37,17 @@ class View(Block):
     """a mapping with the keys elevation and azimuth"""
 
     elevation: float = allowed("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
-    """Angle of the viewing direction above the plane of x and xdot, in degrees. Small angles show
-    the surface from the side, large ones from above."""
+    """Angle of the viewing direction above the plane of x and xdot."""
     azimuth: float = allowed("a number of degrees from -360 to 360", ge=-360, le=360)
-    """Angle of the viewing direction around the axis of udot, in degrees, from the axis of x
-    towards the axis of xdot. Turn it until the islands of interest face the viewer."""
+    """Angle of the viewing direction around the axis of udot, from the axis of x towards the axis
+    of xdot."""
 
 
 class Branch(Block):
     """a mapping with the key length"""
 
     length: float = allowed("a positive number, in radii of the section", gt=0)
-    """Arc length along which each of these branches is traced from its periodic point, in section
-    radii. Longer branches need more points and time."""
+    """Arc length along which each of these branches is traced from its periodic point."""
 
 
 class BothBranches(Block):
@@ -65,10 +63,10 @@ class Resolution(Block):
     """a mapping with the keys distance and bend"""
 
     distance: float = allowed("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
-    """Largest distance between neighbouring points of a traced line, in section radii. Use 0.01
-    for a picture of the whole section. Points are inserted until it holds."""
+    """Largest distance between neighbouring points of a traced line. Use 0.01 for a picture of the
+    whole section."""
     bend: float = allowed("a number from 0.1 to 90, in degrees", ge=0.1, le=90)
-    """Largest angle between neighbouring pieces of a traced line, in degrees. 10 looks smooth."""
+    """Largest angle between neighbouring pieces of a traced line. 10 looks smooth."""
 
 
 class Window(Block):
@@ -146,8 +144,8 @@ class OfChaoticOrbits(OfOrbits):
         Predicate(distinct),
     ] = []
     """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. It changes no
-    picture: those whose tangent vectors grow exponentially are called chaotic, whatever stands
-    here. They are drawn first, in grey."""
+    picture: those whose tangent vectors grow exponentially are called chaotic, and drawn first, in
+    grey."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that places in `sea` are places in `starts`."""
@@ -178,7 +176,7 @@ class OfPeriodicOrbit(Scene):
 
     period: int = whole(1, 12)
     """Number of impacts after which the periodic orbit closes; 1 is the fixed point. Only orbits
-    that are symmetric under the reversor are found. A run says if there is none."""
+    that are symmetric under the reversor are found."""
     type: OrbitType
     """Stability of the periodic orbit, among those of the period: an elliptic orbit is surrounded
     by islands, others are saddles with manifolds."""
@@ -190,8 +188,7 @@ class OfManifolds(OfPeriodicOrbit):
     type: Saddle
     """Stability of the periodic orbit, a saddle, among those of the period."""
     resolution: Resolution
-    """How finely the manifolds are traced. A run says if the branches would have too many
-    points."""
+    """How finely the manifolds are traced."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the tolerance of a scan, and that no branch needs too many points."""
@@ -229,10 +226,10 @@ class OnSurface(Scene):
     """A scene drawn on the energy surface, in (x, xdot, udot)."""
 
     view: View = Field({"elevation": 40, "azimuth": 115}, validate_default=True)
-    """Direction from which the surface is seen. The surface is opaque and hides its far side."""
+    """Direction from which the surface is seen. It is opaque."""
     axes: SectionAxes = ABSENT
     """Limits and ticks of the axes `x` (position, R), `xdot` (velocity, omega R) and `udot` (strain
-    rate, omega). An axis that is left out holds its data. Limits that cut the energy surface are
+    rate, omega). Limits that cut the energy surface are
     widened to hold it, and a run says so."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:

@@ -32,11 +32,10 @@ class Motion(OfPeriodicOrbit):
     headline = "orbit"
 
     duration: float = allowed("a number with 0 < duration <= 10000", gt=0, le=10_000)
-    """Length of time that is drawn, in 1/omega, from an impact on. A run says if this makes too
-    many flights."""
+    """Length of time that is drawn, in 1/omega, from an impact on."""
     axes: dict[Literal["t", "displacement"], Axis] = ABSENT
-    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and strain).
-    An axis that is left out holds its data."""
+    """Limits and ticks of the axes `t` (time, 1/omega) and `displacement` (height, R, and
+    strain)."""
 
 
 class Tangle(OfBranches, OfOrbits, OnSurface):
@@ -58,8 +57,8 @@ class Closeup(OfManifolds):
     window: Window
     """Part of the section that is drawn, relative to the point."""
     length: float = allowed("a number above 0, in section radii", gt=0)
-    """Arc length along which the branches of all points of the orbit are traced, in section radii.
-    Longer branches bring more lines into the window."""
+    """Arc length along which the branches of all points of the orbit are traced. Longer branches
+    bring more lines into the window."""
     axes: dict[Literal["x", "xdot"], Axis] = ABSENT
     """Limits and ticks of the axes `x` (position, R) and `xdot` (velocity, omega R). An axis that
     is left out has the limits of the window."""
@@ -85,4 +84,4 @@ class Exponents(OfRecords):
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
-    `largest` (exponents of the inset). An axis that is left out holds its data."""
+    `largest` (exponents of the inset)."""

@@ -1,5 +1,6 @@
 """Captions say what was computed and drawn, of any scene, and name a scene after its set."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -115,3 +116,12 @@ def test_no_caption_or_name_is_on_the_page_twice():
     assert len(set(names)) == len(set(texts)) == len(parts)
     for families in [part for part in parts if part.startswith("families/energy: ")]:
         assert "residues" in families and "missed impacts" not in families
+
+
+def test_the_page_says_once_what_two_captions_share():
+    text = " ".join(page().split())
+    for scene, earlier in {"fig8": "fig2", "fig4": "fig3"}.items():
+        (own,) = re.findall(rf"/{scene}\.png\) (.*?)(?= ###?#? |$)", text)
+        assert f"The rest is as of Figure {earlier[-1]}." in own
+    assert text.count("It is opaque") == text.count("The two lines touch at every") == 1
+    assert "orbit of period 6 in time" in text and "at energy 0.001 " in text

@@ -32,12 +32,15 @@ def test_the_generated_files_are_current(generated):
 
 @pytest.mark.parametrize("part", [name for name in parts() if reference.section(name)])
 def test_a_field_of_several_kinds_is_described_once(part):
-    """Other kinds name the kind that has the description: one of the paper, or of the same part."""
-    kinds = re.split("^##+ picture: ", reference.page() + reference.section(part), flags=re.M)[1:]
+    """Other kinds name the kind that has it: one of the paper, of the part, or of one it needs."""
+    sections = map(reference.section, dict.fromkeys([*parts()[part].needs, part]))
+    kinds = re.split("^##+ picture: ", "".join([reference.page(), *sections]), flags=re.M)[1:]
     kinds = [re.split("^#", text, maxsplit=1, flags=re.M)[0] for text in kinds]
     items = [re.findall(r"^- `(\w+)` (\(.*(?:\n  .*)*)", text, re.M) for text in kinds]
     found = Counter(item for each in items for item in each)
     assert len(found) > 10 and max(found.values()) == 1, found.most_common(1)
+    place = reference.common_place(part)
+    assert not place or reference.section(part).count(place) == 1
     for names, kind in re.findall(r"^- (`.*): as\s+of `(\w+)`", "\n".join(kinds), re.M):
         (place,) = (i for i, text in enumerate(kinds) if text.startswith(f"{kind}\n"))
         assert set(re.findall(r"`(\w+)`", names)) <= {name for name, _ in items[place]}

@@ -77,8 +77,8 @@ class Atlas(Picture):
     undrawn = ("formats", "block")
 
     k: Values
-    """Inertias of the grid, in increasing order. A single value makes a line, several make a plane,
-    drawn as maps."""
+    """Inertias of the grid, in increasing order. A single value makes a line, several make a
+    plane, drawn as maps."""
     energy: Values
     """Energies of the grid as multiples of g^2, in increasing order."""
     g: Gravity = ABSENT
@@ -86,12 +86,11 @@ class Atlas(Picture):
     the ball could flatten, eq. (31), are refused. The data do not depend on it."""
     starts: int = whole(1, 1_000_000)
     """Number of orbits in each cell of the grid. They start evenly, by area, over the half y >= 0
-    of the section, of which the other half is the mirror image."""
+    of the section."""
     impacts: int = whole(100, 10_000_000)
     """Largest number of impacts of an orbit. Longer orbits tell slow chaos from regular motion."""
     block: int = whole(1, 100_000)
-    """Number of cells that one job computes. Choose it so that a job takes about a minute. The data
-    do not depend on it."""
+    """Number of cells that one job computes, in about a minute. The data do not depend on it."""
 
     def completed(self) -> Self:
         """Write out the axes."""

@@ -15,9 +15,8 @@ class OfSea(Scene):
     """A scene of many orbits of the chaotic sea."""
 
     orbits: int = whole(2, 100_000)
-    """Number of orbits. They start evenly over the whole section; those that are chaotic are
-    followed. A run says if these are fewer than two. More orbits make the statistics more
-    precise."""
+    """Number of orbits. They start evenly over the whole section; those that are chaotic, at least
+    two, are followed."""
     impacts: int = whole(100, 10_000_000)
     """Number of impacts of each chaotic orbit, after the first 16,000, by which it is recognized.
     Orbits stay long at the edges of islands: averages need long orbits as well as many."""

@@ -22,20 +22,19 @@ class Spread(OfRecords):
 
     orbits: int = whole(2, 1000)
     """Number of long orbits, which start uniformly over the whole section. Their exponents decide
-    which of them are chaotic. A run says if none is."""
+    which of them are chaotic."""
     length: int = whole(100, 100_000_000)
     """Number of impacts of each long orbit, a multiple of `blocks`."""
     blocks: int = whole(2, 10_000)
-    """Number of equal blocks of a long orbit. Exponents are averaged over each block, the shortest
-    run whose distribution can be drawn."""
+    """Number of equal blocks of a long orbit, the shortest runs whose exponents are kept."""
     regular: list[Fraction] = allowed("a list of fractions", min_length=1)
     """Starts of regular orbits, as fractions of the section's radius along y = 0, whose exponents
-    are drawn beside ln n/n. A chaotic one is grey."""
+    are drawn beside ln n/n."""
     regular_impacts: int = whole(16, 10_000_000)
     """Number of impacts of each regular orbit."""
     cells: int = whole(2, 1000)
-    """Number of cells to a side, in the rectangle around the section, of which those are counted
-    that chaotic orbits enter."""
+    """Number of cells to a side, in the rectangle around the section, of which those that chaotic
+    orbits enter are counted."""
     visits: int = whole(2, 100_000_000)
     """Number of impacts of each chaotic orbit whose cells are counted."""
 
@@ -56,7 +55,7 @@ class Clusters(OfSea):
         "a list of 1 to 7 times", min_length=1, max_length=7
     )
     """Times, in 1/omega. A flight longer than a cut separates two clusters of impacts. A run
-    refuses a cut that leaves no orbit lags + 2 clusters, and names the largest that does not."""
+    refuses a cut that leaves no orbit lags + 2 clusters, and names the largest possible one."""
     lags: int = whole(1, 100)
     """A cluster is compared with this many later ones."""
     resamples: int = whole(10, 100_000)
@@ -89,10 +88,10 @@ class Rotation(Scene):
     headline = "at the fixed point"
 
     energies: Energies
-    """Energies, in m omega^2 R^2, whose rotation numbers are drawn beside those of `energy`."""
+    """Energies whose rotation numbers are drawn beside those of `energy`."""
     starts: int = whole(2, 100_000)
     """Number of orbits at each energy. They start evenly along y = 0, from the fixed point to the
-    rim. More starts resolve narrower plateaus."""
+    rim."""
     impacts: int = whole(100, 10_000_000)
     """Number of impacts of each orbit."""
     detail: Between
@@ -115,7 +114,7 @@ class Jumps(OfChaoticOrbits):
     headline = "jump curve"
 
     energies: Energies
-    """Further energies, in m omega^2 R^2, whose curves are drawn below the section."""
+    """Further energies, whose curves are drawn below the section."""
     sides: int = whole(4, 100_000, 4)
     """Number of straight sides of which each curve is drawn, without those that a jump of the map
     breaks. Its length with this number, half and a quarter of it gives the error of the length."""
@@ -128,13 +127,12 @@ class Flux(OfSea):
     headline = "lobes"
 
     period: int = whole(2, 12, 2)
-    """Period of the hyperbolic orbit whose branches enclose the regions. A run says if there is
-    none, or if its branches enclose nothing."""
+    """Period of the hyperbolic orbit whose branches enclose the regions."""
     distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
-    """Largest distance between neighbouring points of the traced branches, in section radii."""
+    """Largest distance between neighbouring points of the traced branches."""
     grid: int = whole(10, 3000)
-    """The flux is counted along the orbits, and over a grid of this many points to a side, in the
-    rectangle around the section."""
+    """Number of points to a side, in the rectangle around the section, over which the flux is
+    counted beside that along the orbits."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all impacts fit into memory."""
@@ -161,8 +159,7 @@ class LastCurve(Scene):
     period about 1.6 times as long as the one before."""
     between: Between
     """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
-    section's centre. The end nearer to the fixed point comes first. A run says if an orbit is not
-    found there."""
+    section's centre. The end nearer to the fixed point comes first."""
     impacts: int = whole(100, LARGEST)
     """Number of impacts of the orbit from the last convergent's periodic point."""
     drawn: int = whole(100, LARGEST)
@@ -198,8 +195,7 @@ class Exclusion(Curves):
     """Number of points across the section, drawn as a disk, and in the other direction. 1128 make a
     million points."""
     followed: int = whole(1, 10_000)
-    """Number of impacts forwards and backwards after which a point that is not excluded is given
-    up."""
+    """Largest number of impacts forwards and backwards by which a point is excluded."""
 
 
 class Control(Scene):
@@ -220,8 +216,7 @@ class Control(Scene):
     """Number of orbits of each map, which start evenly over the whole section."""
     impacts: int = whole(64, 10_000_000)
     """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
-    is told from a curve after about 4.4/eps impacts. Shares are kept after an eighth, a quarter and
-    half of these impacts too."""
+    is told from a curve after about 4.4/eps impacts."""
     period: int = whole(2, 12)
     """Period of the elliptic orbit whose islands are followed beside the fixed point."""
     starts: list[Fraction] = allowed("a list of 1 to 50 fractions", min_length=1, max_length=50)

@@ -25,7 +25,7 @@ class Families(Scene):
     span: Range
     """Least and largest value of the parameter. Families are followed between them."""
     period: int = whole(1, 24)
-    """Largest period of the orbits. Each further period has about twice as many orbits."""
+    """Largest period of the orbits."""
     levels: int = whole(1, 10_000)
     """Number of values of the parameter, evenly in the radius of the section, at which brute force
     seeks orbits that no family holds yet."""

@@ -37,14 +37,12 @@ class Horseshoe(OfBranches):
 
     connection: Annotated[Literal["outer", "inner"], allowed("outer or inner")]
     """Side, at the orbit's first point, of the branches along which the sets of the horseshoe lie.
-    At other points it may be the other side, so give `branches` both. A run says if no horseshoe is
-    found or proved along it."""
+    At other points it may be the other side, so give `branches` both."""
     type: Annotated[Literal["hyperbolic"], allowed("hyperbolic")]
     """Horseshoes are proved on hyperbolic orbits only."""
     axes: dict[Literal["x", "y", "p", "q"], Axis] = ABSENT
     """Limits and ticks of the axes `x` (position, R) and `y` = xdot - k udot (omega R) above, and
-    of `p` and `q`, the coordinates of the middle set, below. An axis that is left out holds its
-    data."""
+    of `p` and `q`, the coordinates of the middle set, below."""
 
 
 class Twist(Scene):
@@ -59,14 +57,12 @@ class Twist(Scene):
         allowed("a list of energies in rising order", min_length=2, max_length=1000),
         Predicate(rising),
     ]
-    """Energies at which the twist coefficient is computed, in m omega^2 R^2. A run names an energy
-    at which no twist is proved, such as one at which the third or fourth power of the fixed point's
-    multiplier is 1."""
+    """Energies at which the twist coefficient is computed. A run names one at which no twist is
+    proved, such as one at which the third or fourth power of the fixed point's multiplier is 1."""
     marks: list[Energy] = allowed("a list of energies among those", default=[], max_length=10)
     """Energies, among `energies`, whose values are marked with a dot."""
     axes: dict[Literal["energy", "twist"], Axis] = ABSENT
-    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient). An axis
-    that is left out holds its data."""
+    """Limits and ticks of the axes `energy` (m omega^2 R^2) and `twist` (the coefficient)."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that marks are among the energies, at which the fixed point must be elliptic."""
@@ -113,8 +109,8 @@ class Curves(OfChaoticOrbits):
     ]
     """Rotation numbers of the curves around the fixed point, in clockwise turns per impact. A
     curve's number is close to the given one, which must not be too close to a fraction of small
-    integers. A run says if it finds or proves no such curve, and names the nearest found. Proved
-    curves around longer orbits at the scene's energy are added."""
+    integers. If no such curve is found or proved, a run names the nearest found. Proved curves
+    around longer orbits at the scene's energy are added."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the fixed point is elliptic, and that its curves can be sought."""

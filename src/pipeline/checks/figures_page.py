@@ -3,8 +3,8 @@
 The captions are those of the report, with the values from which the committed pictures were made.
 """
 
+import re
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -24,9 +24,35 @@ def page() -> str:
     """Return the text of docs/figures.md."""
     template = Path(__file__).with_name("figures.md.jinja").read_text(encoding="utf-8")
     environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
-    wrapped = partial(fill, width=100, break_long_words=False, break_on_hyphens=False)
-    sections = [(SETS[each.group].heading, each, texts) for each, texts in _captions()]
+
+    def wrapped(text: str) -> str:
+        """Return a paragraph in lines, none of which begins with = as an underline does."""
+        glued = text.replace(" = ", "\0=\0")
+        return fill(glued, 100, break_long_words=False, break_on_hyphens=False).replace("\0", " ")
+
+    sections = [(SETS[each.group].heading, each, _told_once(of)) for each, of in _captions()]
     return environment.from_string(template).render(sections=sections, fill=wrapped)
+
+
+def _told_once(captions: dict[str, Caption]) -> Iterator[tuple[str, Caption, list[str]]]:
+    """Yield the scenes of a set with their captions, and the paragraphs of these for the page.
+
+    Of a caption that an earlier one matches sentence by sentence, those stand that differ.
+    """
+    earlier: list[tuple[str, list[str]]] = []
+    for scene, each in captions.items():
+        texts = [f"{each.shows} {each.see}", each.details]
+        split = [re.split(r"(?<=[.!?]) (?=[A-Z(])", text) for text in texts]
+        said = [sentence for sentences in split for sentence in sentences]
+        for name, other in earlier:
+            known = [a for a, b in zip(said, other, strict=False) if a == b]
+            if known and len(said) == len(other):
+                new = [[s for s in sentences if s not in known] for sentences in split]
+                texts = [" ".join(sentences) for sentences in new]
+                texts[1] += f" The rest is as of {name}."
+                break
+        earlier.append((each.name, said))
+        yield scene, each, [text.strip() for text in texts if text.strip()]
 
 
 def codecheck_manifest() -> str:

@@ -54,18 +54,24 @@ def table_of_parts() -> str:
 
 def _link(part: str, up: str = "") -> str:
     """Return a part's name as a link to its page, if it has one."""
+    page = _page_of(part)
+    return f"[{part}]({up}{page})" if page else part
+
+
+def _page_of(part: str) -> Path | None:
+    """Return the page of a part, from the root, if it has one."""
     pages = {file.parent.name: file.relative_to(ROOT) for file in files("README.md").values()}
-    return f"[{part}]({up}{pages[part]})" if part in pages else part
+    return pages.get(part)
 
 
-def others() -> Iterator[tuple[str, str, str, str]]:
-    """Yield each key of config.yaml of another part, its command, folder and the part's page."""
+def others() -> Iterator[tuple[str, str, str]]:
+    """Yield each key of config.yaml of another part, its command, and the part's page."""
     for name, part in _OTHERS.items():
         for each in part.sets.values():
             if each.key:
-                yield each.key, each.command, each.folder, _link(name, "../")
+                yield each.key, each.command, _link(name, "../")
         for key in part.settings:
-            yield key, "", "", _link(name, "../")
+            yield key, "", _link(name, "../")
 
 
 def kinds_of(part: str) -> dict[str, type[Picture]]:
@@ -131,6 +137,18 @@ def key_of(name: str) -> str:
     return "scenes"
 
 
+def place_of(name: str) -> str:
+    """Return where scenes of a kind stand, and which blocks of other scenes they lack."""
+    without = "" if "ball" in KINDS[name].model_fields else ", without ball, energy and method"
+    return f"under `{key_of(name)}:`{without}"
+
+
+def common_place(part: str) -> str:
+    """Return the place of all scenes of a part's kinds; empty if they differ."""
+    places = {place_of(name) for name in kinds_of(part)}
+    return places.pop() if len(places) == 1 else ""
+
+
 def listed(model: type[Block]) -> str:
     """Return a Markdown list of the fields of a model."""
     return "\n".join(_items(model).values())
@@ -139,11 +157,15 @@ def listed(model: type[Block]) -> str:
 def listed_of_kind(name: str, part: str) -> str:
     """Return a Markdown list of a kind's own fields, where each field is described once.
 
-    A field that an earlier kind, of the main part or of this one, has too is only named.
+    A field that an earlier kind has too, also of a part that this one needs, is only named.
     """
+    pages = {_MAIN_PART: " (`docs/config.md`)"}
+    pages |= {each: f" (`{_page_of(each)}`)" for each in parts()[part].needs if each not in pages}
+    pages[part] = ""
+    place = {each: page for other, page in pages.items() for each in kinds_of(other)}
     earlier: dict[str, str] = {}  # item -> the first kind with it
-    for each, kind in (kinds_of(_MAIN_PART) | kinds_of(part)).items():
-        items = {key: _items(kind)[key] for key in own_fields(kind)}
+    for each in place:
+        items = {key: _items(KINDS[each])[key] for key in own_fields(KINDS[each])}
         if each == name:
             break
         earlier = {item: each for item in items.values()} | earlier
@@ -152,9 +174,7 @@ def listed_of_kind(name: str, part: str) -> str:
         same.setdefault(earlier.get(item, ""), []).append(key)
     lines = [items[key] for key in same.pop("", [])]
     for other, keys in same.items():
-        elsewhere = part != _MAIN_PART and other in kinds_of(_MAIN_PART)
-        text = f"- {', '.join(f'`{key}`' for key in keys)}: as of `{other}`"
-        text += " (`docs/config.md`)." if elsewhere else "."
+        text = f"- {', '.join(f'`{key}`' for key in keys)}: as of `{other}`{place[other]}."
         lines.append(fill(text, 100, subsequent_indent="  "))
     return "\n".join(lines)
 
@@ -184,8 +204,8 @@ def _rendered(template: str, part: str) -> str:
         keep_trailing_newline=True,
         undefined=jinja2.StrictUndefined,
     )
-    used: tuple[Any, ...] = (Scene, Variant, Scan, key_of, listed, nested, listed_of_kind)
-    used += (own_fields, upstream, others, kinds_of, blocks_of, parts)
+    used: tuple[Any, ...] = (Scene, Variant, Scan, place_of, common_place, listed, nested)
+    used += (listed_of_kind, own_fields, upstream, others, kinds_of, blocks_of, parts)
     environment.globals |= {each.__name__: each for each in used} | {"fields": fields}
     text = environment.get_template(f"{template}.md").render(part=part)
     return re.sub(r"\n{3,}", "\n\n", text)

@@ -74,10 +74,14 @@ def expected(families, shares):
         shares, *(f"side_{name}" for name in ("at", "family", "part", "event", "event_at"))
     )
     extrema = rows(shares, "extremum_kind", "extremum_at", "cause_event")
-    for (kind, at, cause), pair in zip(extrema, sides, strict=True):
+    for (kind, at, _), pair in zip(extrema, sides, strict=True):
         for value, number, part, event, place in zip(*pair, strict=True):
             where = f"{kind} {at:.4f} | {value:.4f} | {named(families, number)}"
-            yield f"| {where} | {part:.2f} | {event} at {place:.5f} | {cause} |"
+            yield f"| {where} | {part:.2f} | {event} at {place:.5f} |"
+    caused = [f"the {kind} at {at:.4f}, where the {cause}:" for kind, at, cause in extrema
+              if cause != "unexplained"]  # fmt: skip
+    yield f"**One of five extrema has a cause by this rule**, {caused[0]}"
+    assert len(caused) == 1 and len(extrema) == 5
     broken = dict(rows(shares, "breakup_event", "breakup_at"))
     ratios = rows(shares, "resonance_turns", "resonance_order")
     values = rows(shares, "energy", "regular")

@@ -113,11 +113,10 @@ class BallBlock(Block):
     """a mapping with the keys k and g"""
 
     k: Inertia
-    """Dimensionless Euler inertia of the ball: how its mass is distributed. Use 1/5 = 0.2 for a
-    solid sphere and 1/3 for a thin shell. Values above 1/3 belong to no sphere."""
+    """Dimensionless Euler inertia of the ball: 1/5 = 0.2 for a solid sphere, 1/3 for a thin shell.
+    Values above 1/3 belong to no sphere."""
     g: Gravity
-    """Gravity in units of R omega^2, where R is the ball's radius and omega the frequency of its
-    stretching. Apart from scale, the dynamics depends only on k and E/g^2."""
+    """Gravity in R omega^2. Apart from scale, the dynamics depends only on k and E/g^2."""
 
 
 class PartOfBall(Block):
@@ -131,7 +130,8 @@ class Axis(Block):
     """a mapping with the keys limits and ticks"""
 
     limits: Range
-    """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn."""
+    """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn. An axis
+    that is left out holds its data."""
     ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
     """Positions of the tick marks and their labels, within the limits."""
 

@@ -15,9 +15,9 @@ class Scan(Block):
     """a mapping with the keys scan and tolerance"""
 
     scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
-    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected. A
-    smaller step misses fewer impacts and takes longer; a ball whose impact is missed falls through
-    the floor. 0.1 is a typical choice."""
+    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected, for
+    instance 0.1. A smaller one misses fewer impacts; a ball whose impact is missed falls through
+    the floor."""
     tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
     """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding, and
     scenes with manifolds allow no more."""

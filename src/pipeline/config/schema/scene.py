@@ -72,14 +72,13 @@ class Scene(Picture):
     on_section = True
 
     ball: fields.BallBlock = ABSENT
-    """The ball of this scene. Without it the scene has the ball at the top of the file."""
+    """The ball of this scene, by default that at the top of the file."""
     energy: fields.Energy
     """Total energy of the ball, in m omega^2 R^2; every impact keeps it. Below the lower bound
-    there is no motion, above the upper one the ball could flatten to nothing, eq. (31). Islands of
-    regular motion mostly shrink as the energy rises."""
+    there is no motion, above the upper one the ball could flatten to nothing, eq. (31)."""
     method: Method = ABSENT
-    """How the next impact is found. Without it, the first impact is found with a certificate that
-    none was missed; leave it out unless you want to compare methods."""
+    """How the next impact is found. Leave it out unless you want to compare methods: the first
+    impact is then found with a certificate that none was missed."""
 
     def along_energy(self) -> bool:
         """Return whether the scene follows something over energies, from end to end of `span`."""

@@ -21,8 +21,8 @@ class Variant(Block):
         ge=1e-6,
         le=1e6,
     )
-    """Change the unit of length. g is multiplied by this number and energies by its square, so that
-    positions and velocities are multiplied by it, while times and exponents stay."""
+    """Changes the unit of length. g, positions and velocities are multiplied by this number, and
+    energies by its square; times and exponents stay."""
     scenes: Annotated[
         dict[str, Annotated[YamlMapping, allowed("a mapping with fields of the scene")]],
         allowed("a mapping from names of scenes to the fields that differ"),
