@@ -85,7 +85,7 @@ def set_up(stamp: str, *arguments: str) -> None:
     except KeyboardInterrupt:
         with suppress(OSError):  # Popen, if interrupted, leaves the process that it has started
             for child in Path("/proc/thread-self/children").read_text().split():
-                os.kill(int(child), signal.SIGKILL)
+                _end(int(child))
         print_error("interrupted: run it again to go on")
         sys.exit(130)
     except (UsageError, FileError, OSError) as error:
@@ -186,8 +186,15 @@ def _run(command: Sequence[str | Path], environment: dict[str, str] | None = Non
                 there = len([*VENV.glob("lib/*/site-packages/*.dist-info")])
                 print_error(f"installing: packages so far: {there}")
         finally:
-            child.terminate()
-            child.wait()
+            if child.returncode is None:
+                _end(child.pid)
+
+
+def _end(process: int) -> None:
+    """Kill a child and reap it, without Popen: an interrupted wait may keep Popen's lock."""
+    with suppress(OSError):
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
 
 
 def _check(succeeded: bool) -> None:
