@@ -54,6 +54,7 @@ def test_no_statement_ends_in_the_middle_and_long_ones_are_lists(text):
     for part in (above, table):
         plain = re.sub(r"<[^>]*>|\s+", " ", part)
         assert not re.search(r"[;:,] *\.(?:\s|$)|\. *\.\s|Accuracy: *\.", plain)
+        assert not re.search(r"<summary>[^;]*[\s:,];", part)
     cells = re.findall(r'data-label="our value">(.*?)</td>', table, re.DOTALL)
     assert len(cells) == len(ROWS)
     (cell,) = re.findall(r'id="claim-50" .*?data-label="our value">(.*?)</td>', table, re.DOTALL)

@@ -53,8 +53,8 @@ def _sentences(row: Verdict) -> list[list[str]]:
     sentences = []
     for sentence in re.split(r"(?<=[^.]\.) (?=[A-Z])", row.value):
         first, *others = sentence.split("; ")
-        beginning, verb, item = first.rpartition(" are ")
-        series = [beginning + verb, item, *others] if verb else [first, *others]
+        announced = re.fullmatch(r"(.*(?:: | are ))(.*)", first)
+        series = [*announced.groups(), *others] if announced else [first, *others]
         sentences.append(series if len(others) > 1 else [sentence])
     return sentences
 
