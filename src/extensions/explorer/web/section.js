@@ -299,11 +299,14 @@ class SectionView {
     ground.restore();
   }
 
-  /** Draw axes with numbers at edges of the box around the half ellipsoid, clear of what one sees. */
+  /** Draw axes with numbers at edges of a box around the half ellipsoid, or around its part in the middle. */
   drawBox() {
     const { ground, colours, radius, k } = this;
     const low = -radius * Math.sqrt(k / (1 + k));
-    const ranges = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
+    const size = (radius * Math.min(this.width, this.height)) / 4 / this.scale; // a part is half as tall as the view
+    const point = size < radius / 3 && this.surfacePoint(...this.origin);
+    const whole = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
+    const ranges = point ? point.map((value) => [value - size, value + size]) : whole;
     const middle = this.flat(...ranges.map(([a, b]) => 0.5 * (a + b)));
     const put = (text, [left, top], colour) => {
       const half = 3 + 3.6 * text.length;
@@ -312,12 +315,8 @@ class SectionView {
     };
     ["x", "ẋ⁻", "u̇⁻"].forEach((name, axis) => {
       const others = [0, 1, 2].filter((i) => i !== axis);
-      const at = (value, corner) => {
-        const point = [];
-        point[axis] = value;
-        others.forEach((i, n) => (point[i] = ranges[i][corner[n]]));
-        return this.flat(...point);
-      };
+      const at = (value, corner) =>
+        this.flat(...ranges.map((range, i) => (i === axis ? value : range[corner[others.indexOf(i)]])));
       const [from, to] = ranges[axis];
       const half = 0.5 * (from + to);
       // The edge furthest from the middle: downwards for x and xdot, to the left for udot.
@@ -330,16 +329,17 @@ class SectionView {
       const [left, top] = at(half, edge);
       if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
       strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
-      const shift = axis ? 0 : this.centre;
-      const { offsets, labels } = ticksAround(half + shift, to - from, Math.max(length / 44, 4));
+      const { offsets, labels, base } = ticksAround(half + (axis ? 0 : this.centre), to - from, Math.max(length / 44, 4));
       const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
       offsets.forEach((offset, i) => {
         const tick = at(half + offset, edge);
         strokePath(ground, colours.muted, 1, () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
         put(labels[i], beside(tick, 13 + 3.6 * labels[i].length * Math.abs(out[0])), colours.muted);
       });
-      const above = [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16];
-      put(name, axis === 2 ? above : beside([left, top], 38), colours.ink);
+      const title = base ? `${name} − (${base})` : name;
+      const letters = Math.max(...labels.map((label) => label.length)) + 0.5 * title.length;
+      const place = axis === 2 ? [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16] : beside([left, top], 26 + 7 * letters * Math.abs(out[0]));
+      put(title, place, colours.ink);
     });
     ground.lineWidth = 1;
   }

@@ -62,7 +62,7 @@ function ballAllowed({ k, g, E }) {
 
 /** A number or a fraction that was typed, with a comma or a real minus sign too; NaN if it is none. */
 function readNumber(text) {
-  const plain = String(text).trim().replace("−", "-").replaceAll(",", ".");
+  const plain = String(text).trim().replaceAll("−", "-").replaceAll(",", ".");
   const match = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(?:\s*\/\s*(\d+\.?\d*|\.\d+))?$/i.exec(plain);
   const value = match ? Number(match[1]) / Number(match[2] ?? 1) : NaN;
   return Number.isFinite(value) ? value : NaN;
@@ -77,7 +77,7 @@ function readCount(text) {
 /** A number with so many significant digits, with a proper minus sign. */
 function shortNumber(value, digits = 6) {
   if (!Number.isFinite(value)) return "–";
-  return String(Number(value.toPrecision(digits))).replace("-", "−");
+  return String(Number(value.toPrecision(digits))).replaceAll("-", "−");
 }
 
 const COUNT = new Intl.NumberFormat("en");
