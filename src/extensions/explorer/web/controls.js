@@ -358,7 +358,7 @@ class Controls {
         const value = readCount(element("impacts").value);
         const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
         const most = COUNT.format(MOST_IMPACTS);
-        const error = `impacts = ${element("impacts").value} is not allowed: a whole number from 1 to ${most}`;
+        const error = `impacts = ${element("impacts").value.trim() || "nothing"} is not allowed: a whole number from 1 to ${most}`;
         complain("impacts", allowed ? "" : error, "impacts");
         if (type === "input") return;
         if (allowed) this.state.impacts = value;
