@@ -19,14 +19,14 @@ def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[s
 REQUIRED = ("variant", "a", "b")
 _FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
 COMMANDS = {
-    "list": Command("every figure, chart and dataset that can be made, and the state of its file"),
+    "list": Command("figures, charts and datasets that can be made, and their states"),
     "variant": SnakemakeCommand(
-        "make the figures of a variant of config.yaml, in results/NAME/figures/",
+        "make the figures of a variant, in results/NAME/figures/",
         _name("variant", "a variant of config.yaml", "NAME"),
         names("figure", _FIGURES),
     ),
     "verify": Command(
-        "check whether everything is as committed, and if not, show what differs",
+        "check whether all is as committed, and if not, show what differs",
         switch("--strict", "exit with status 1 for notes too"),
         switch("--committed", "compare committed files alone: nothing has to be computed here"),
         details="The layers are config, source, environment, data, drawing and file. The exit "

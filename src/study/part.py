@@ -21,7 +21,7 @@ PART = Part(
     },
     commands={
         "study": SnakemakeCommand(
-            "compare speed and accuracy with other methods, in more_figures/study/",
+            "compare speed and accuracy of methods, in more_figures/study/",
             scenes="study",
             packages="study",
             details="Installs the packages of the other methods first (once).",

@@ -17,12 +17,15 @@ from pipeline.declaration import parts
 
 
 def test_help_has_a_line_for_each_command(capsys):
-    for words in (["--help"], ["-h"], ["help"], ["fig3", "--help"]):
+    files = ["fig3", "results/paper/orbits_fig2.nc"]
+    files += ["study/edges", "edges"] if "study" in parts() else []
+    for words in (["--help"], ["-h"], ["help"], *([name, "--help"] for name in files)):
         status, out, err = answer(capsys, *words)
         assert (status, err) == (0, "")
         for name, command in all_commands().items():
             assert re.search(rf"^  {name} +{re.escape(command.line)}$", out, re.MULTILINE)
     assert len(out.splitlines()) <= 41
+    assert max(map(len, out.splitlines())) <= 80
 
 
 def test_the_help_of_each_command_names_its_arguments(capsys):
@@ -47,6 +50,7 @@ MISTAKES = {
     "verfy": ": no command or figure verfy: did you mean verify?",
     "fig33": ": no command or figure fig33: did you mean fig3?",
     "fig33 --help": ": no command or figure fig33",
+    "results/paper/fig33.png --help": ": no command or figure results/paper/fig33.png",
     "verfy -h": ": no command or figure verfy: did you mean verify?",
     "fig3 fgi5": ": no command or figure fgi5: did you mean fig5?",
     "fig2 fig3 list": ": list is a command, no figure: run ./reproduce list",

@@ -5,7 +5,7 @@ from pipeline.declaration import Command, Part, switch
 PART = Part(
     commands={
         "explore": Command(
-            "write a page that computes orbits in a browser, with the same bits, and open it",
+            "write and open a page that computes orbits, with the same bits",
             switch("--no-open", "only write results/explorer.html"),
             module="extensions.explorer.command",
         ),

@@ -12,7 +12,7 @@ PART = Part(
     },
     commands={
         "archive": Command(
-            "write one tar with the figures, the data and what they were made from",
+            "write one tar of the figures, the data and what made them",
             ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
             switch("--with-packages", "add the sources and the locked packages: runs offline"),
             (
@@ -23,13 +23,13 @@ PART = Part(
             details="The same results give the same bytes. All results must be current.",
         ),
         "article": Command(
-            "set the replication article, results/article.pdf, from current results",
+            "set the article, results/article.pdf, from current results",
             module=f"{_COMMANDS}.article",
             details="Installs the typesetter first (once).",
             needs=_TEXT,
         ),
         "site": SnakemakeCommand(
-            "write one folder to mail or serve: report, explorer and article, in results/site/",
+            "write results/site/: report, explorer and article, to mail or serve",
             module=f"{_COMMANDS}.site",
             details="All published files must be the committed ones. Installs the typesetter "
             "first (once).",

@@ -15,7 +15,7 @@ PART = Part(
             module="extensions.report.compare.command",
         ),
         "report": SnakemakeCommand(
-            "write one HTML page: figures, numbers beside the paper's, corrections, run times",
+            "write one HTML page: figures, their numbers, corrections, run times",
             module="extensions.report.command",
         ),
     },

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
-from ..declaration import lacking
+from ..declaration import files, lacking
 from ..records.names import suggestion
 
 if TYPE_CHECKING:  # it needs packages
@@ -29,7 +29,7 @@ _PRINTS = {
 }
 
 
-_OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, without a network."
+_OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, offline."
 _SNAKEMAKE = "What follows -- goes to snakemake as it is: ./reproduce fig3 -- --dag"
 
 
@@ -77,9 +77,10 @@ def read(arguments: list[str]) -> Arguments:
     if word == "test" and rest[:1] not in (["--help"], ["-h"]):
         return Arguments(word=word, options=rest)
     if not word and first[:1] not in ("", "-") and not {"-h", "--help"}.isdisjoint(rest):
-        file = ROOT / "config.yaml"
-        scenes = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
-        if not re.search(f"^ +{re.escape(first)}:", scenes, re.MULTILINE):  # help has no packages
+        given = [ROOT / "config.yaml", *files("scenes.yaml").values()]
+        texts = [f.read_text(encoding="utf-8", errors="replace") for f in given if f.is_file()]
+        names = re.findall(r"^ +([\w-]+):", "\n".join(texts), re.MULTILINE)  # help has no packages
+        if not any(f"_{Path(first).stem}".endswith(f"_{name}") for name in names):
             _refuse(f"no command or figure {first}{hint(first, commands)}")
     own, options = rest if word else arguments, list[str]()
     if "--" in own and commands.get(word or "", DEFAULT_COMMAND).runs_snakemake:
