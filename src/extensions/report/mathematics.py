@@ -15,7 +15,7 @@ _FORMULA = re.compile(
     | \^(?P<high>-?\w(?:[\d.]*\d)?)
     | \b(?P<greek>{"|".join(_GREEK)})(?:_(?P<mark>\w))?\b
     | \bl(?P<exponent>[1-3])\b
-    | (?<!['’.\\])(?:\b|(?<=\bd))(?P<letter>[EFPRghkmnprtuxy])(?:_(?P<low>\w))?\b
+    | (?<!['’.\\])(?:\b|(?<=\bd))(?P<letter>[EFPRghjkmnprtuvxy])(?:_(?P<low>\w))?\b
     """,
     re.VERBOSE,
 )

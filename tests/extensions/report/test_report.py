@@ -200,6 +200,7 @@ def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
         ("1e-13 and h^-0.502", "10<sup>−13</sup> and <i>h</i><sup>−0.502</sup>"),
         ("dx ^ dxdot, |l2|", "d<i>x</i> ∧ d<i>ẋ</i>, |λ<sub>2</sub>|"),
         ("-p delta(t - t_i)", "−<i>p</i> δ(<i>t</i> − <i>t</i><sub>i</sub>)"),
+        ("every v_j, whatever j", "every <i>v</i><sub>j</sub>, whatever <i>j</i>"),
         ("d phi_2/dx at m omega^2", "d φ<sub>2</sub>/d<i>x</i> at <i>m</i> ω<sup>2</sup>"),
         ("Young's <b>, 3 x 5, fig5.png", "Young’s &lt;b&gt;, 3 × 5, fig5.png"),
     ],
