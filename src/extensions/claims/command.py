@@ -7,6 +7,7 @@ from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.running import INTERRUPTED
 from pipeline.cli.session import UsageError, interruptible, locked
+from pipeline.cli.table import wrapped
 from pipeline.config import MAIN, Config
 from pipeline.records import artifacts
 from pipeline.records.files import write_whole
@@ -40,7 +41,8 @@ def run(args: Arguments) -> int:
         with interruptible():
             verdicts = write(config)
     counts = Counter(verdict.verdict for verdict in verdicts)
-    print(f"\n{claims.FILE}: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    counted = ", ".join(f"{n} {word}" for word, n in counts.items())
+    print("", *wrapped(f"{claims.FILE}: {counted}"), sep="\n")
     return 0
 
 

@@ -64,11 +64,12 @@ def test_pictures_are_drawn_where_the_verdicts_lack_data(made, capsys, edit, lac
     assert capsys.readouterr().out.strip().startswith(words)
 
 
-def test_verdicts_are_written_where_nothing_lacks(made, capsys):
+def test_verdicts_are_written_where_nothing_lacks(made, capsys, monkeypatch):
     args = SimpleNamespace(config=config.check(shipped()), makes_nothing=False)
+    monkeypatch.setenv("COLUMNS", "14")  # the width of the terminal
     assert command.run(args) == 0
     assert len(made[0][2]) > 50
-    assert capsys.readouterr().out.strip() == "CLAIMS.md: 1 holds"
+    assert capsys.readouterr().out.strip() == "CLAIMS.md: 1\n  holds"
 
 
 def test_without_pictures_and_verdicts_there_is_nothing_to_do(made):
