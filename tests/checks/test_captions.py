@@ -122,6 +122,6 @@ def test_the_page_says_once_what_two_captions_share():
     text = " ".join(page().split())
     for scene, earlier in {"fig8": "fig2", "fig4": "fig3"}.items():
         (own,) = re.findall(rf"/{scene}\.png\) (.*?)(?= ###?#? |$)", text)
-        assert f"The rest is as of Figure {earlier[-1]}." in own
+        assert f"The rest is as for Figure {earlier[-1]}." in own
     assert text.count("It is opaque") == text.count("The two lines touch at every") == 1
     assert "orbit of period 6 in time" in text and "at energy 0.001 " in text

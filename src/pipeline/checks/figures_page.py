@@ -49,7 +49,7 @@ def _told_once(captions: dict[str, Caption]) -> Iterator[tuple[str, Caption, lis
             if known and len(said) == len(other):
                 new = [[s for s in sentences if s not in known] for sentences in split]
                 texts = [" ".join(sentences) for sentences in new]
-                texts[1] += f" The rest is as of {name}."
+                texts[1] += f" The rest is as for {name}."
                 break
         earlier.append((each.name, said))
         yield scene, each, [text.strip() for text in texts if text.strip()]

@@ -41,15 +41,13 @@ class Card:
         """Return a copy of an array on the card."""
         values = np.ascontiguousarray(values)
         copy = self.empty(values.size, values.dtype.type)
-        self._stream.sync()
-        self._call("MemcpyHtoD", int(copy.handle), values.ctypes.data, values.nbytes)
+        self._copy("HtoD", int(copy.handle), values.ctypes.data, values.nbytes)
         return copy
 
     def read(self, array: Any, dtype: type) -> np.ndarray:
         """Return the values of an array of the card."""
         values = np.empty(array.size // np.dtype(dtype).itemsize, dtype)
-        self._stream.sync()
-        self._call("MemcpyDtoH", values.ctypes.data, int(array.handle), values.nbytes)
+        self._copy("DtoH", values.ctypes.data, int(array.handle), values.nbytes)
         return values
 
     def run(self, kernel: str, threads: int, *arguments: Any) -> None:
@@ -60,9 +58,14 @@ class Card:
         shape = LaunchConfig(grid=-(-threads // THREADS), block=THREADS)
         launch(self._stream, shape, self._code.get_kernel(kernel), *given)
 
+    def _copy(self, how: str, to: int, source: int, size: int) -> None:
+        """Copy bytes after all that was started before, and wait for the end."""
+        self._call(f"Memcpy{how}Async", to, source, size, self._stream.handle)
+        self._stream.sync()
+
     def _call(self, name: str, *arguments: Any) -> Any:
         """Call a function of the driver; return what it returns after the error."""
         error, *results = getattr(self._driver, f"cu{name}")(*arguments)
-        if error:
+        if int(error):
             raise RuntimeError(f"cu{name}: {self._driver.CUresult(error).name}")
         return results[0] if len(results) == 1 else results
