@@ -21,6 +21,7 @@ from pipeline.declaration import ONLY_SET
 from pipeline.records.sources import ROOT
 
 from .finer import NAME
+from .gpu import card
 
 
 def run(args: Arguments) -> int:
@@ -49,7 +50,11 @@ def run(args: Arguments) -> int:
     drawings = figures.drawings_of(args.config, group, names) if args.word == "atlas" else {}
     datasets = args.config.datasets
     data = [datasets.get((group, name, "sweep")) for name in names]  # None for verdicts
+    if args.gpu and not any(data):
+        raise CommandLineError(f"--gpu: {', '.join(names)}: no sweep")
     if args.gpu and not args.makes_nothing:
+        with one_line():
+            card.require_driver()
         add_packages("gpu")
     with locked():
         if args.gpu and not args.makes_nothing and not _computed(args, [*filter(None, data)]):

@@ -5,7 +5,7 @@ from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage, names,
 _ARGUMENTS = (
     names("sweep", "sweeps of config.yaml; without a name, all; or finer, a million cells"),
     switch("--slurm", "submit blocks of cells to Slurm, with the options in profiles/slurm"),
-    switch("--gpu", "compute blocks of cells on an NVIDIA card, with the same bytes"),
+    switch("--gpu", "compute blocks of cells on an NVIDIA card"),
 )
 _MODULE = "extensions.atlas.command"
 PART = Part(

@@ -121,10 +121,10 @@ class Freshness:
             record = read_record(self.root, record_path(path))
         except RecordError as error:
             return str(error)
-        here = self.here(path)
-        # What was made another way, with the same bytes, names sources of this way too.
-        more = {file: self.syntax_hash(file) for file in record["sources"]}
-        return _difference(record, here | {"sources": more | here["sources"]})
+        # What was made another way, to the same bytes, says which further sources that has.
+        here, way = self.here(path), record["output"].get("way", {})
+        now = {"sources": here["sources"] | {file: self.syntax_hash(file) for file in way}}
+        return _difference(record | {"sources": record["sources"] | way}, here | now)
 
     def here(self, path: str) -> dict[str, Any]:
         """Return the record that this tree would write of a result, for the file that is there."""

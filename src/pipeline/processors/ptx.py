@@ -59,5 +59,5 @@ def _emitted(machine: Any, module: Any, _: list[str]) -> bytes:
     return text.encode()
 
 
-# Runs on every card since 2017.
+# Cards of compute capability 7.0 or higher run it.
 TARGET = Target("nvptx64-nvidia-cuda", "sm_70", "+ptx70", prepared=_prepared, emitted=_emitted)

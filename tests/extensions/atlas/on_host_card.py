@@ -4,9 +4,9 @@ import sys
 
 from host_card import HostCard
 
-from extensions.atlas.gpu import run
+from extensions.atlas.gpu import card, run
 from pipeline.cli.main import main
 
 if __name__ == "__main__":
-    run.Card = lambda _: HostCard()
+    run.Card, card.require_driver = lambda _: HostCard(), lambda: None
     sys.exit(main(sys.argv[1:]))

@@ -1,5 +1,7 @@
 """An NVIDIA card, through cuda-core: memory, copies, and threads that run a kernel."""
 
+import ctypes
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,13 +10,21 @@ THREADS = 128  # of a block
 
 
 class CardError(ValueError):
-    """Why no card can be used: one line."""
+    """Why a card, or what it computed, cannot be used: one line."""
+
+
+def require_driver() -> None:
+    """Raise CardError on a machine without a driver, for which nothing need be installed."""
+    try:
+        ctypes.CDLL("libcuda.so.1")
+    except OSError:
+        raise CardError("--gpu: this machine has no NVIDIA driver (libcuda.so.1)") from None
 
 
 class Card:
     """The first card of this machine, with kernels that it runs; raises CardError without one.
 
-    `memory` is how many bytes are free, `driver` the version of CUDA that the driver speaks.
+    `memory` is how many bytes are free, `driver` the driver's version and that of its CUDA.
     """
 
     def __init__(self, ptx: bytes) -> None:
@@ -31,7 +41,10 @@ class Card:
         except Exception as error:  # cuda-core raises many types
             reason = " ".join(str(error).split()) or type(error).__name__
             raise CardError(f"--gpu: no NVIDIA card can be used here: {reason}") from None
-        self.name, self.driver = device.name, f"CUDA {version // 1000}.{version % 1000 // 10}"
+        file = Path("/sys/module/nvidia/version")
+        own = f"{file.read_text(encoding='utf-8').strip()}, " if file.exists() else ""
+        self.name = device.name
+        self.driver = f"{own}CUDA {version // 1000}.{version % 1000 // 10}"
 
     def empty(self, size: int, dtype: type) -> Any:
         """Return room for an array of the card, with any values."""

@@ -14,10 +14,10 @@ from . import orbit
 from .card import Card, CardError
 from .plans import levels
 
-MOST_ORBITS = 4_000_000  # at once; a card is full from 250,000 on, and few are long
+MOST_ORBITS = 2_000_000  # at once: with more, a slow card would not answer for long
 _FREE_SHARE = 0.9  # of the memory that is free
 for _function in filter(isfunction, vars(fixed_point).values()):
-    register_jitable(_function)
+    register_jitable(_function)  # they call each other
 
 
 @jit
@@ -37,7 +37,7 @@ def fixed_points(cells: Any) -> np.ndarray:
 def orbits_at_once(card: Card, starts: int, impacts: int) -> int:
     """Return how many orbits fit into a card's memory; raises CardError if not those of a cell."""
     _, shares, sums = levels(impacts)
-    each = 8 * (orbit.KEPT + sums + len(orbit.FOUND)) + 4 + 1  # bytes
+    each = 8 * (orbit.KEPT + sums + len(orbit.FOUND)) + 4 + 1 + 32  # bytes, with those of a cell
     room = int(_FREE_SHARE * card.memory) - shares.nbytes
     if room < each * starts:
         words = f"{card.memory / 1e9:.1f} GB free, a cell of {starts} orbits takes"

@@ -2,9 +2,8 @@
 
 import os
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.processors.build import CompiledFile
 from pipeline.records.build_spec import BuildSpec
 from pipeline.records.record import failure
-from pipeline.records.sources import ROOT, source_files
+from pipeline.records.sources import ROOT, source_files, syntax_hash
 
 from .card import Card, CardError
 from .cells import classified, fixed_points, orbits_at_once
@@ -30,52 +29,60 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
     """
     specs = config.build_specs()
     freshness = Freshness(ROOT, specs)
-    blocks = [specs[block] for path in datasets for block in specs[path].inputs]
+    blocks = [specs[block] for path in dict.fromkeys(datasets) for block in specs[path].inputs]
     blocks = [spec for spec in blocks if freshness.direct_reason(spec.result)]
     if not blocks:
         return
     context = forks.forking(data=True)  # before CUDA starts
+    files = [*source_files(f"{__package__}.cells"), str(KERNEL.path.relative_to(ROOT))]
+    way = {file: syntax_hash(ROOT / file) for file in files}
     card = Card(KERNEL.content())
     kinds = {(spec.config["starts"], spec.config["impacts"]) for spec in blocks}
     rooms = {kind: orbits_at_once(card, *kind) for kind in kinds}
-    way = [*source_files(f"{__package__}.cells"), str(KERNEL.path.relative_to(ROOT))]
-    about = {"device": card.name, "driver": card.driver}
-    left = len(blocks)
-    Heartbeat(lambda: f"{card.name}: {left} of {len(blocks)} blocks left" if left else "")
-    workers = (os.cpu_count() or 1) if cores == "all" else int(cores)
+    about = {"device": card.name, "driver": card.driver, "way": way}
+    futures: list[Future[None]] = []
 
     def write(spec: BuildSpec, *judged: np.ndarray) -> None:
-        nonlocal left
-        whole = spec._replace(sources=[*dict.fromkeys([*spec.sources, *way])])
-        if not forks.run(context, whole, {"judged": judged}, about):
-            raise CardError(failure(spec.result) or f"{spec.result}: not made")
-        left -= 1
+        if not forks.run(context, spec, {"judged": judged}, about):
+            raise CardError(f"{spec.result}: {failure(spec.result) or 'not made'}")
 
-    with ThreadPoolExecutor(workers) as pool:
-        before: list[Any] = []
-        for batch, (starts, impacts) in _batches(blocks, rooms):
-            cells = np.array([cell for spec in batch for cell in spec.config["cells"]])
-            fixed = fixed_points(cells)
-            places, step = np.column_stack([cells, fixed[:, [0, 2]]]), rooms[starts, impacts]
-            step //= starts
-            try:
-                verdicts = np.concatenate(
-                    [
-                        classified(card, places[first : first + step], starts, impacts)
-                        for first in range(0, len(places), step)
-                    ]
-                ).view(np.recarray)
-            except Exception as error:  # cuda-core raises many types
-                raise CardError(f"--gpu: {card.name}: {' '.join(str(error).split())}") from error
-            for each in before:
+    def progress() -> str:
+        left = len(blocks) - sum(each.done() for each in futures)
+        return f"{card.name}: {left} of {len(blocks)} blocks left" if left else ""
+
+    Heartbeat(progress)
+    with ThreadPoolExecutor((os.cpu_count() or 1) if cores == "all" else int(cores)) as pool:
+        try:
+            for batch, (starts, impacts) in _batches(blocks, rooms):
+                cells = np.array([cell for spec in batch for cell in spec.config["cells"]])
+                fixed = fixed_points(cells)
+                verdicts = _verdicts(card, cells, fixed, starts, impacts, rooms[starts, impacts])
+                for each in futures:  # so that two batches at most are in memory
+                    each.result()
+                last = 0
+                for spec in batch:
+                    first, last = last, last + len(spec.config["cells"])
+                    judged = fixed[first:last], verdicts[first * starts : last * starts]
+                    futures.append(pool.submit(write, spec, *judged))
+            for each in futures:
                 each.result()
-            before, last = [], 0
-            for spec in batch:
-                first, last = last, last + len(spec.config["cells"])
-                judged = fixed[first:last], verdicts[first * starts : last * starts]
-                before.append(pool.submit(write, spec, *judged))
-        for each in before:
-            each.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _verdicts(
+    card: Card, cells: np.ndarray, fixed: np.ndarray, starts: int, impacts: int, room: int
+) -> np.recarray:
+    """Return the verdicts on the orbits of cells, as many orbits at once as there is room for."""
+    places, step = np.column_stack([cells, fixed[:, [0, 2]]]), room // starts
+    pieces = [places[first : first + step] for first in range(0, len(places), step)]
+    try:
+        found = [classified(card, piece, starts, impacts) for piece in pieces]
+    except Exception as error:  # cuda-core raises many types
+        between = f"cells {cells[0].tolist()} to {cells[-1].tolist()}"
+        raise CardError(f"--gpu: {between}: {' '.join(str(error).split())}") from error
+    return np.concatenate(found).view(np.recarray)
 
 
 def _batches(
