@@ -94,7 +94,7 @@ def test_a_deleted_part_leaves_no_trace(tmp_path):
     assert result.returncode == 0, result.stderr
     assert "docs/config.md: renewed\n" in result.stdout
     assert "reproduce: " not in tree.run("-n").stdout
-    fields = {"energy"}  # also the name of a field of scenes
+    fields = {"energy", ""}  # also the name of a field of scenes; no key
     names = "|".join(set().union(*map(names_of, GONE)) - fields)
     trace = re.compile(rf'(?<=[`"/ ])({names})(?=[`"/]|: run)')
     written = [SCHEMA, "codecheck.yml", "docs/config.md", "docs/figures.md"]

@@ -28,8 +28,8 @@ class _Noting:
 
 _make = make
 
-def make(spec, answer):
-    _make(spec, _Noting(spec.result, answer))
+def make(spec, answer, *known):
+    _make(spec, _Noting(spec.result, answer), *known)
 """
 
 
