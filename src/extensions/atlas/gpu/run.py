@@ -1,6 +1,5 @@
 """Make the outdated blocks of sweeps on a card; other processes write them, with their records."""
 
-import os
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -15,6 +14,7 @@ from pipeline.processors.build import CompiledFile
 from pipeline.records.build_spec import BuildSpec
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT, source_files, syntax_hash
+from pseudorigid.dynamics.ensemble import threads
 
 from .card import Card, CardError
 from .cells import classified, fixed_points, orbits_at_once
@@ -51,7 +51,7 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
         return f"{card.name}: {left} of {len(blocks)} blocks left" if left else ""
 
     Heartbeat(progress)
-    with ThreadPoolExecutor((os.cpu_count() or 1) if cores == "all" else int(cores)) as pool:
+    with ThreadPoolExecutor(threads() if cores == "all" else int(cores)) as pool:
         try:
             for batch, (starts, impacts) in _batches(blocks, rooms):
                 cells = np.array([cell for spec in batch for cell in spec.config["cells"]])
