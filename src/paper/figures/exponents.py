@@ -29,9 +29,9 @@ empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=
 def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
     """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
 
-    A key names the starts, if there are several. If some orbits are regular and others chaotic,
-    the inset and the names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones, and
-    the key says which is which. Raises ValueError if the axes show nothing.
+    A key names the starts, if there are several. If orbits are of several types, some chaotic, the
+    inset and the names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones. The key
+    says which is which, and which orbits are neither regular nor chaotic. Raises ValueError if the axes show nothing.
     """
     return drawn(scene, lyapunov)[0]
 
@@ -47,8 +47,10 @@ def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
 def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
     """Return the figure, and the values of the inset, none without one."""
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    final, chaotic = final_exponents(lyapunov), lyapunov["type"].values == "chaotic"
+    final, types = final_exponents(lyapunov), lyapunov["type"].values
+    chaotic = types == "chaotic"
     mixed = chaotic.any() and not chaotic.all()
+    told = len({*types}) > 1 or types[0] not in ("chaotic", "regular")
     in_inset = chaotic if mixed else np.full(chaotic.shape, True)
     largest = exponent[:, in_inset].max(axis=2)
     scene = complete(
@@ -62,12 +64,12 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     _, orbits, indices = exponent.shape
     turns = (_DASHES[orbit % len(_DASHES)] for orbit in range(orbits))
     lines = list(zip(style.ordered(orbits), turns, strict=True))
-    if mixed and orbits > _MOST_STARTS:
+    if told and orbits > _MOST_STARTS:
         raise ValueError(f"starts: {orbits} of them: expected at most {_MOST_STARTS}, with a key")
     names: list[str] = []
-    if mixed or 1 < orbits <= _MOST_NAMED:
-        types = lyapunov["type"].values if mixed else [""] * orbits
-        names = [_key_text(*each) for each in zip(scene["starts"], types, strict=True)]
+    if told or 1 < orbits <= _MOST_NAMED:
+        kinds = types if told else [""] * orbits
+        names = [_key_text(*each) for each in zip(scene["starts"], kinds, strict=True)]
     columns = 3 if max((width(name, 8.0) for name in names), default=0.0) < _NARROW else 2
     # A key takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-len(names) // columns) // 75))

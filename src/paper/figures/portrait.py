@@ -15,26 +15,33 @@ from pseudorigid.figures.canvas import style
 _CURVE, _SEA = 0.8, 0.4  # points
 
 
-@style.pinned()
 def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
-    """Draw orbits in (x, xdot, udot) on the opaque energy surface, chaotic ones in grey.
+    """Draw orbits in (x, xdot, udot) on the opaque energy surface, those not regular in grey.
 
-    Regular ones have colours from dark to light, and, if there are some, the numbers of their
+    Regular ones have colours from dark to light, and, if several are seen, the numbers of their
     starts. Raises ValueError if nothing can be seen.
     """
+    return drawn(scene, orbits)[0]
+
+
+@style.pinned()
+def drawn(scene: dict[str, Any], orbits: xr.Dataset) -> tuple[Figure, list[str]]:
+    """Return the figure, and the types of the orbits of which at least a point is seen."""
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
-    is_regular = orbits["type"].values == "regular"
-    chaotic, regular = (np.flatnonzero(is_regular == each).tolist() for each in (False, True))
-    name = style.plural("chaotic orbit", len(chaotic))
-    box = Box(scene, [(name, style.SEA, "o")] if chaotic else [], states)
-    hues = dict(zip(regular, style.ordered(len(regular)), strict=True))
-    for index in chaotic + regular:
+    types = orbits["type"].values
+    others, regular = (np.flatnonzero((types == "regular") == each) for each in (False, True))
+    trial = Box(scene, shown=states)
+    seen = [types[i] for i, span in enumerate(spans) if trial.seen(states[:, span]).any()]
+    name = style.irregular(seen)
+    box = Box(scene, [(name, style.SEA, "o")] if name else [])
+    hues = dict(zip(regular.tolist(), style.ordered(len(regular)), strict=True))
+    for index in [*others.tolist(), *hues]:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
-    if len(regular) > 1:
-        curves = [states[:, spans[index]] for index in regular]
-        box.names(curves, [f"{index + 1}" for index in regular], [*hues.values()])
-    return box.figure
+    if seen.count("regular") > 1:
+        curves = [states[:, spans[index]] for index in hues]
+        box.names(curves, [f"{index + 1}" for index in hues], [*hues.values()])
+    return box.figure, seen
 
 
 def hidden(scene: dict[str, Any], orbits: xr.Dataset) -> Iterator[str]:

@@ -2,9 +2,10 @@
 
 A function has the name of a kind and takes the scene's block and the datasets by their stages.
 KIND_facts returns what the kind's caption says of what was computed and drawn (`d` in
-captions.toml). The last three functions help them, and those of extensions.
+captions.toml). The last four functions help them, and those of extensions.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
@@ -23,9 +24,11 @@ def portrait(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
 
 
 def portrait_facts(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, Any]:
-    """Count the chaotic and the regular orbits."""
-    regular = int((orbits["type"] == "regular").sum())
-    return {"chaotic": orbits.sizes["orbit"] - regular, "regular": regular}
+    """Count the orbits of each type of which something is seen, and the others."""
+    from .portrait import drawn
+
+    seen = drawn(block, orbits)[1]
+    return counts(seen) | {"unseen": orbits.sizes["orbit"] - len(seen)}
 
 
 def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
@@ -94,26 +97,29 @@ def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) 
 
 
 def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
-    """Give the final exponents, and mean and spread of the largest ones."""
+    """Give the final exponents, and mean and spread of the largest ones, of one type only."""
     import numpy as np
 
     from pseudorigid.dynamics.variables import final_exponents
 
-    last = final_exponents(lyapunov)
+    last, types = final_exponents(lyapunov), lyapunov["type"].values
     largest = np.sort(last[:, 0])
-    spread = f", standard deviation {np.std(largest, ddof=1):.4f}" if largest.size > 1 else ""
+    alike = types == ("chaotic" if "chaotic" in types else types[0])
+    some = np.sort(last[alike, 0])
+    spread = f", standard deviation {np.std(some, ddof=1):.4f}" if some.size > 1 else ""
+    name = "their mean" if alike.all() else f"mean of the {types[alike][0]} ones"
     rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
     rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
     return {
         "largest exponent": rows[0],
-        "their mean": f"{np.mean(largest):.4f}{spread}",
+        name: f"{np.mean(some):.4f}{spread}",
         "all three of an orbit, at the end": "; ".join(rows[1:]),
         "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
     }
 
 
 def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, Any]:
-    """Count chaotic and regular orbits, and say from where to where the largest exponents are."""
+    """Count orbits by type, and say from where to where the largest chaotic exponents are."""
     from pseudorigid.dynamics.variables import final_exponents
 
     from .exponents import drawn
@@ -121,11 +127,15 @@ def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, An
     chaotic = lyapunov["type"].values == "chaotic"
     largest = sorted(final_exponents(lyapunov)[chaotic, 0].tolist())
     return {
-        "chaotic": len(largest),
-        "regular": int((lyapunov["type"] == "regular").sum()),
+        **counts(lyapunov["type"].values.tolist()),
         "largest": [f"{value:.4f}" for value in largest[:: max(len(largest) - 1, 1)]],
         "inset": bool(drawn(block, lyapunov)[1].size),
     }
+
+
+def counts(types: Sequence[str]) -> dict[str, int]:
+    """Count the orbits of each type."""
+    return {name: types.count(name) for name in ("chaotic", "regular", "undecided", "undefined")}
 
 
 def about_orbit(periodic: xr.Dataset, block: dict[str, Any]) -> dict[str, str]:

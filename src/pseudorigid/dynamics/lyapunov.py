@@ -13,7 +13,7 @@ from .ball import Ball, require_ball
 from .ensemble import in_threads
 from .inputs import StateLike, not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
-from .regularity import regular_bound
+from .regularity import orbit_types
 from .variables import TIME, described, final_exponents, orbit_dims
 
 
@@ -102,8 +102,7 @@ def scene_exponents(
 
     Starts are as in `orbits.start_state`. `impacts` is one number for all orbits, or one for each.
     Then each orbit has records of its own; `exponent` and `time` are NaN at those of the others.
-    `type` is "chaotic" for an orbit whose largest exponent exceeds `regular_bound`, "regular" for
-    another one, and "undefined" for one that grazes at once.
+    `type` is "regular", "chaotic", "undecided" or "undefined", by `regularity.orbit_types`.
 
     >>> from pseudorigid import Ball
     >>> spectrum = scene_exponents(Ball(k=0.2, g=0.04), 0.01, [0.6], 1000, 10)
@@ -118,12 +117,7 @@ def scene_exponents(
         result = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
         result = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
-    known = ~np.isnan(result["exponent"].values[:, :, 0])
-    lengths = np.where(known, result["impact"].values[:, None], 1).max(axis=0)
-    bounds = [regular_bound(length) for length in lengths.tolist()]
     largest = final_exponents(result).max(axis=1)
-    types = np.where(
-        largest > bounds, "chaotic", np.where(np.isnan(largest), "undefined", "regular")
-    )
+    types = np.array(orbit_types(ball, states.T, counts, largest.tolist()))
     table = described({"type": ("orbit", types, "regular or chaotic")})
     return result.assign(start_variables(starts, states) | table)

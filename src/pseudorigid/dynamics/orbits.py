@@ -8,7 +8,7 @@ import xarray as xr
 
 from .ball import Ball, State, require_ball, require_short_flights
 from .inputs import StateLike, not_allowed, one_of, state_of, whole_number
-from .regularity import chaotic_orbits
+from .regularity import orbit_types
 from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
 
@@ -79,8 +79,8 @@ def scene_orbits(
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
     Starts are as in `start_state`. `impacts` is the number of all orbits, or a list. `type` is
-    "regular" or "chaotic" by `chaotic_orbits`, which follows short orbits further, and "undefined"
-    for one that grazes exactly, as in `classify_orbits`.
+    "regular", "chaotic" or "undecided" by `regularity`, which follows short and slow orbits further,
+    and "undefined" for one that grazes exactly, as in `classify_orbits`.
 
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]
@@ -100,13 +100,11 @@ def ragged_orbits(
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data |= described({"row_size": ("orbit", np.array(impacts, np.int64), "number of impacts")})
     data["row_size"][2]["sample_dimension"] = "point"
-    orbits = xr.Dataset(data)
-    types = np.full(len(starts), "regular", dtype=object)
-    types[chaotic_orbits({"k": ball.k, "g": ball.g}, orbits)] = "chaotic"
-    for orbit, (state, piece) in enumerate(zip(states, pieces, strict=True)):
-        speeds = np.append(piece[1] + piece[2], state[1] + state[2])
-        types[orbit] = types[orbit] if np.all(speeds > 0.0) else "undefined"
-    return orbits.assign(described({"type": ("orbit", types, "regular or chaotic")}))
+    types = np.array(orbit_types(ball, np.transpose(states), impacts), dtype=object)
+    for orbit, piece in enumerate(pieces):
+        types[orbit] = types[orbit] if np.all(piece[1] + piece[2] > 0.0) else "undefined"
+    data |= described({"type": ("orbit", types, "regular or chaotic")})
+    return xr.Dataset(data)
 
 
 def start_state(ball: Ball, energy: float, start: Any) -> State:

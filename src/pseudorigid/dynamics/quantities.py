@@ -7,9 +7,9 @@ import numpy as np
 import xarray as xr
 
 from ..kernel.tangents import turns_and_growth
-from . import fixed_point
 from .ball import Ball, require_ball
 from .inputs import StateLike, not_allowed, state_of, whole_number
+from .regularity import LEAST_IMPACTS, around_fixed_point, first_turn, regular
 from .variables import attributes_of, described, orbit_dims
 from .verdict import classify_orbits as follow_until_decided
 
@@ -104,7 +104,8 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
 
     Each orbit is followed until the decision is safe: along a regular orbit a tangent vector grows
     in proportion to the number of impacts and the rotation number settles; along a chaotic orbit
-    the vector grows exponentially.
+    the vector grows exponentially. No orbit is called regular before it has made one whole turn
+    around the symmetric fixed point and has been followed for as long again.
 
     Parameters
     ----------
@@ -113,14 +114,16 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
     state : (x, xdot, udot) or xarray.Dataset
         Just before an impact, as for `orbit`. States may have different energies.
     impacts : int
-        How many impacts to follow an undecided orbit at most, at least 100.
+        How many impacts to follow an undecided orbit at most, at least 100. Numbers below 2,000
+        stand for 2,000, since shorter orbits decide too little.
 
     Returns
     -------
     xarray.Dataset
-        type, "regular", "chaotic" or, for a state that is not finite and an orbit that grazes
-        exactly, "undefined"; rotation_number, turns per impact around the symmetric fixed point;
-        followed, the number of impacts. A state of one dimension has the dim `orbit`, of more
+        type, "regular", "chaotic", "undecided" for an orbit that makes no whole turn within half of
+        the impacts, or "undefined" for a state that is not finite and an orbit that grazes exactly;
+        rotation_number, turns per impact around the symmetric fixed point; followed, the number of
+        impacts. A state of one dimension has the dim `orbit`, of more
         `orbit_0`, ...
 
     Raises
@@ -140,13 +143,22 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']
     """
-    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
+    impacts = max(whole_number("impacts", impacts, _FEWEST_IMPACTS), LEAST_IMPACTS)
     finite, orbits = _finite_orbits(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     winding, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
         verdicts = follow_until_decided(ball.k, *orbits, impacts)
-        words = np.where(verdicts.regular, "regular", "chaotic")
+        words = np.where(verdicts.regular, "regular", "chaotic").astype(object)
+        calm = np.flatnonzero(verdicts.regular)
+        needed = 2 * first_turn(ball.k, *(a[..., calm] for a in orbits), impacts // 2)
+        slow = needed > verdicts.followed[calm]
+        if slow.any():
+            late = calm[slow]
+            turns, rate = turns_and_growth(ball.k, *(a[..., late] for a in orbits), impacts)
+            unturned = np.where(needed[slow] <= impacts, "regular", "undecided")
+            words[late] = np.where(regular(rate, impacts), unturned, "chaotic")
+            verdicts.winding[late], verdicts.followed[late] = turns, impacts
         types[finite] = np.where(np.isnan(verdicts.growth), "undefined", words)
         winding[finite], followed[finite] = verdicts.winding, verdicts.followed
     dims = orbit_dims(finite.shape)
@@ -169,17 +181,10 @@ def require_default_map(ball: Ball) -> None:
         raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
 
 
-def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[Any, np.ndarray, np.ndarray]]:
-    """Return which states are finite, and their orbits as `kernel.tangents.begin` takes them.
-
-    These are states with lengths in g R, and x and rotation number of the fixed point at each
-    orbit's energy.
-    """
+def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+    """Return which states are finite, and their orbits as `around_fixed_point` does."""
     require_default_map(ball)
     x, xdot, udot = ball.on_section(*state_of(state))
     finite = np.isfinite(x)
     columns = [np.atleast_1d(a[finite]) for a in (x, xdot, udot)]
-    energies, inverse = np.unique(ball.energy(*columns) / ball.g**2, return_inverse=True)
-    fixed_points = [fixed_point.numbers(ball.k, energy) for energy in energies.tolist()]
-    centre, _, expected = np.array(fixed_points).reshape(-1, 3)[inverse.reshape(-1)].T
-    return finite, (tuple(a / ball.g for a in columns), centre, expected)
+    return finite, around_fixed_point(ball, np.array(columns))

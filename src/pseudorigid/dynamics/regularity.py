@@ -1,28 +1,39 @@
-"""Criteria that tell regular orbits from chaotic ones.
+"""The rule by which orbits are called regular, chaotic or undecided, and its criteria.
 
 The length exp(G) of a tangent vector grows in proportion to the number of impacts n on a regular
 orbit, and like exp(lambda n), with a Lyapunov exponent lambda > 0, on a chaotic one.
 
 The *growth* of an orbit of n impacts is the mean of G over its last quarter less the mean of G over
 its second quarter. It is ln(7/3) = 0.85 on average on a regular orbit of any length, and lambda n/2
-on a chaotic one. An orbit is regular if its growth is below GROWTH_THRESHOLD.
+on a chaotic one. An orbit is chaotic if its growth is at least GROWTH_THRESHOLD.
 
 From exponents of whole orbits the growth cannot be computed. A second criterion serves for these:
-an orbit is regular if its largest exponent is at most `regular_bound`.
+an orbit is chaotic if its largest exponent exceeds `regular_bound`.
 tests/dynamics/test_regularity.py checks that both criteria agree.
+
+No criterion decides early. A short orbit is followed for LEAST_IMPACTS. A slow one, such as one
+along the rim, has not met yet what makes it chaotic: no orbit is called regular before it has made
+one whole turn around the symmetric fixed point, and has been followed for as long again. An orbit
+that makes none within half of _MOST_IMPACTS and is not chaotic is undecided.
 """
 
+import math
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
-import xarray as xr
 
 from ..kernel.arithmetic import log
 from ..kernel.verdict import GROWTH_THRESHOLD
+from . import fixed_point
 from .ball import Ball
-from .variables import states_of
 
-_LEAST_IMPACTS = 2000  # behind a verdict on an orbit of a scene
+LEAST_IMPACTS = 2000  # behind a verdict
+_MOST_IMPACTS = 64_000  # to which an orbit that makes no whole turn is followed: 60 ms
 _STRIDE = 10  # impacts
 _BLOCK = 2000  # strides whose states are in memory at once
+_IN_MEMORY = 1 << 18  # states, while turns are counted
+_AT_CENTRE = 1e-12  # relative distance from the fixed point at which roundings decide the turns
 
 
 def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
@@ -42,17 +53,80 @@ def regular_bound(length: int) -> float:
     return 3.0 * log(float(length)) / length
 
 
-def chaotic_orbits(ball: dict[str, float], orbits: xr.Dataset) -> list[int]:
-    """Return the indices of the orbits of a dataset of `scene_orbits` that are chaotic.
+def orbit_types(
+    ball: Ball, states: Any, impacts: Sequence[int], exponents: Sequence[float] = ()
+) -> list[str]:
+    """Return the type of each orbit of n states (3, n), of which `impacts` were computed.
 
-    An orbit with few impacts is followed further, since its growth tells little.
+    It is "regular", "chaotic", "undecided", or "undefined" for an orbit that grazes exactly.
+    `exponents` are the largest ones over these impacts, if they are known.
     """
-    sizes, states = orbits["row_size"].values, np.array(states_of(orbits))
-    first = np.cumsum(sizes) - sizes
-    lengths = [max(size, _LEAST_IMPACTS) for size in sizes.tolist()]
-    followed = zip(states[:, first].T, lengths, strict=True)
-    growths = [_growth(Ball(ball["k"], ball["g"]), *each) for each in followed]
-    return [index for index, growth in enumerate(growths) if not growth < GROWTH_THRESHOLD]
+    ball, states = Ball(ball.k, ball.g), np.asarray(states, dtype=float)
+    needed = 2 * first_turn(ball.k, *around_fixed_point(ball, states), _MOST_IMPACTS // 2)
+    types = []
+    for i, (state, length) in enumerate(zip(states.T, impacts, strict=True)):
+        if exponents and length >= LEAST_IMPACTS:
+            if exponents[i] > regular_bound(length):
+                types.append("chaotic")
+                continue
+            length = min(length, _MOST_IMPACTS)
+        length = max(length, LEAST_IMPACTS, min(int(needed[i]), _MOST_IMPACTS))
+        growth = _growth(ball, state, length) if state[1] + state[2] > 0.0 else math.nan
+        unturned = "regular" if needed[i] <= length else "undecided"
+        word = unturned if growth < GROWTH_THRESHOLD else "chaotic"
+        types.append(word if math.isfinite(growth) else "undefined")
+    return types
+
+
+@np.errstate(all="ignore")
+def around_fixed_point(ball: Ball, states: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return orbits as `kernel.tangents.begin` takes them.
+
+    These are states (3, n) with lengths in g R, and x and rotation number of the symmetric fixed
+    point at each orbit's energy.
+    """
+    energies, inverse = np.unique(ball.energy(*states) / ball.g**2, return_inverse=True)
+    fixed_points = [fixed_point.numbers(ball.k, energy) for energy in energies.tolist()]
+    centre, _, expected = np.array(fixed_points).reshape(-1, 3)[inverse.reshape(-1)].T
+    return np.asarray(states) / ball.g, centre, expected
+
+
+def first_turn(
+    k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray, most: int
+) -> np.ndarray:
+    """Return after how many impacts each orbit has made one whole turn (n,), most + 1 if later.
+
+    Arguments are those of `kernel.tangents.begin`. A turn is counted within half a turn of the
+    expected one, to 0.01 turns. At the fixed point itself each impact makes the expected one.
+    """
+    expected = np.where(np.isnan(expected), 0.5, expected)
+    turned, found = np.zeros(len(centre)), np.full(len(centre), most + 1)
+    at, done, ball = np.arange(len(centre)), 0, Ball(k, 1.0)
+    while done < most and at.size:
+        count = min(max(64, done), 1 + _IN_MEMORY // at.size, most - done)
+        orbits = np.moveaxis(ball.history(states, count)[..., :3], -1, 0)
+        orbits = np.concatenate([states[:, :, None], orbits], axis=2)
+        turns = _turns(k, orbits, centre[at, None], expected[at, None])
+        so_far = turned[at, None] + np.cumsum(turns, axis=1)
+        whole = np.abs(so_far) >= 1.0
+        here = whole.any(axis=1)
+        found[at[here]] = done + 1 + np.argmax(whole[here], axis=1)
+        turned[at] = so_far[:, -1]
+        at, states, done = at[~here], orbits[:, ~here, -1], done + count
+    return found
+
+
+def _turns(k: float, orbits: np.ndarray, centre: np.ndarray, expected: np.ndarray) -> np.ndarray:
+    """Return the turns between successive states of orbits (3, n, m), clockwise."""
+    x, v, w = orbits
+    p, q = x - centre, (v - k * w) / np.sqrt(k * (1.0 + k))
+    size = np.abs(p) + np.abs(q)
+    away = size > _AT_CENTRE * (np.abs(x) + np.abs(w))
+    # In place of an angle, the way around the square |p| + |q| = 1: it needs no arcus tangent.
+    place = 0.25 * np.copysign(1.0 - p / np.where(away, size, np.inf), q)
+    turns = place[:, :-1] - place[:, 1:]
+    turns -= np.floor(turns - (expected - 0.5))
+    return np.where(away[:, :-1] & away[:, 1:], turns, expected)
 
 
 def _growth(ball: Ball, state: np.ndarray, impacts: int) -> float:

@@ -14,7 +14,7 @@ import xarray as xr
 from pseudorigid.dynamics import paper
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-from pseudorigid.dynamics.regularity import regular_bound
+from pseudorigid.dynamics.regularity import orbit_types
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
 
 from .sea import as_array, half_axes, section_points
@@ -47,26 +47,27 @@ def spread(
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
-    chaotic = so_far[-1].max(axis=-1) > regular_bound(length)
+    types = orbit_types(ball, states, [length] * orbits, so_far[-1].max(axis=-1).tolist())
+    chaotic = np.array(types) == "chaotic"
     if not chaotic.any():
         raise ValueError(
             f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
             "give more orbits, longer ones or another energy"
         )
-    words, meaning = ("chaotic", "regular"), "regular or chaotic"
     lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
     islands = ball.start(starts, energy)
     calm = [lyapunov_spectrum(ball, islands, n, 1)["exponent"].values[0] for n in lengths]
-    wrong = calm[-1].max(axis=-1) > regular_bound(lengths[-1])
+    counts, largest = [lengths[-1]] * starts.size, calm[-1].max(axis=-1).tolist()
+    types_of_regular = orbit_types(ball, islands, counts, largest)
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
-        "type": ("orbit", np.where(chaotic, *words), meaning),
+        "type": ("orbit", types, "regular or chaotic"),
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
         "length": ("length", lengths, "number of impacts"),
         "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), calm, "exponent of a regular orbit"),
-        "regular_type": ("island", np.where(wrong, *words), meaning),
+        "regular_type": ("island", types_of_regular, "regular or chaotic"),
     }
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
     attributes: dict[str, Any] = {"block_impacts": length // blocks}

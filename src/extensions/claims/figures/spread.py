@@ -98,7 +98,8 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     n, values = spread["length"].values[long], spread["regular_exponent"].values[long]
     across = decades((1, len(str(int(n[-1])))), "Length in impacts")
     largest = values.max(axis=-1)
-    chaotic = spread["regular_type"].values == "chaotic"
+    types = spread["regular_type"].values
+    chaotic = types != "regular"
     lowest = log10(np.append(largest[largest > 0.0], _LN10 * log10(n[-1]) / n[-1])).min()
     lowest = min(-5, int(np.floor(lowest)))
     highest = max(0, int(np.ceil(log10(max(float(largest.max()), 1e-5))[0])))
@@ -110,5 +111,5 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
         hue = style.SEA if chaotic[island] else style.BLUE
         panel.line(n, positive, color=hue, lw=0.8)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
-    grey = "grey: chaotic; " if chaotic.any() else ""
+    grey = f"grey: {' and '.join(sorted({*types[chaotic]}))}; " if chaotic.any() else ""
     corner(sheet, frame, f"{grey}dashes: $\\ln\\,n/n$")

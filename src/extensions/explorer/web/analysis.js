@@ -9,6 +9,7 @@
 const analysis = (() => {
   const GROWTH_THRESHOLD = 2.2;
   const FIRST_VERDICT = 500; // impacts below which an orbit gets no verdict
+  const LEAST_IMPACTS = 2000; // behind the verdict "regular"; a shorter orbit is followed further
   const RESOLUTION = 20000; // cells of a symmetry line
   const SAME = 1e-9; // all lengths from here on in section radii
   const CLOSURE = 1e-14;
@@ -38,6 +39,9 @@ const analysis = (() => {
   class Follower {
     constructor(k, g, energy, state) {
       this.k = k;
+      this.start = [k, g, energy, state];
+      this.turned = 0; // turns around the fixed point
+      this.needed = Infinity; // impacts until one whole turn, and as many again
       this.orbit = pseudorigid.follow(k, g, ...state);
       this.impacts = 0;
       this.turns = new Float64Array(1024);
@@ -78,6 +82,10 @@ const analysis = (() => {
         if (turn < this.expected - 0.5) turn += 1;
         else if (turn > this.expected + 0.5) turn -= 1;
         this.turns[this.impacts + i] = turn;
+        // At the fixed point itself roundings decide the angle.
+        const near = Math.abs(r) + Math.abs(s) <= 1e-12 * (Math.abs(piece.x[i]) + Math.abs(piece.udot[i]));
+        this.turned += near ? this.expected : turn;
+        if (Math.abs(this.turned) >= 1) this.needed = Math.min(this.needed, 2 * (this.impacts + i + 1));
         p = r;
         q = s;
       }
@@ -86,13 +94,24 @@ const analysis = (() => {
       return piece;
     }
 
+    /** The type of the orbit as in Python, or "" for one that is too short or stops. */
+    verdict(growth) {
+      if (this.impacts < FIRST_VERDICT || this.refused) return "";
+      if (Number.isNaN(growth)) return "undefined"; // it grazes exactly
+      if (growth >= GROWTH_THRESHOLD) return "chaotic";
+      if (this.impacts >= LEAST_IMPACTS) return this.impacts >= this.needed ? "regular" : "undecided";
+      if (!this.further) {
+        this.further = new Follower(...this.start);
+        this.further.advance(LEAST_IMPACTS);
+      }
+      return this.further.facts().verdict;
+    }
+
     /** Exponent, rotation number and verdict after all impacts so far. */
     facts() {
       const n = this.impacts;
       const growth = growthOf(this.sizes, n);
-      let verdict = "";
-      if (n >= FIRST_VERDICT && !this.refused) verdict = growth < GROWTH_THRESHOLD ? "regular" : "chaotic";
-      if (verdict && Number.isNaN(growth)) verdict = "undefined"; // it grazes exactly, as in Python
+      const verdict = this.verdict(growth);
       return {
         impacts: n,
         exponent: this.orbit.exponent(),
@@ -109,7 +128,7 @@ const analysis = (() => {
     return larger;
   }
 
-  /** The growth of a tangent vector, by which analyses/regularity.py tells orbits apart. */
+  /** The growth of a tangent vector, by which dynamics/regularity.py tells orbits apart. */
   function growthOf(sizes, n) {
     const quarter = Math.floor(n / 4);
     if (!quarter) return NaN;

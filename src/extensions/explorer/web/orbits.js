@@ -9,7 +9,7 @@ const NEAR = 300; // impacts by which an orbit's curve is known
 function assignHues(orbits, section, hues) {
   const before = [];
   for (const orbit of orbits) {
-    if (orbit.isSea() || !orbit.settled) continue;
+    if (orbit.isSea() || !orbit.settled || orbit.facts?.verdict === "undecided") continue;
     const nearest = Array(hues).fill(Infinity);
     for (const other of before) {
       nearest[other.hue] = Math.min(nearest[other.hue], orbit.distance(other, section));

@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from paper.figures.reports import about_orbit, portrait_facts
+from paper.figures.reports import about_orbit, counts
 
 
 def horseshoe(
@@ -49,8 +49,8 @@ def graph(block: dict[str, Any], graph: xr.Dataset, orbits: xr.Dataset) -> dict[
 
 
 def graph_facts(block: dict[str, Any], orbits: xr.Dataset, **_: xr.Dataset) -> dict[str, Any]:
-    """Count chaotic and regular orbits."""
-    return portrait_facts(block, orbits)
+    """Count the orbits of each type."""
+    return counts(orbits["type"].values.tolist())
 
 
 curves_facts = graph_facts

@@ -43,7 +43,7 @@ class Section(Panel):
         self.minor()
 
     def orbits(self, orbits: xr.Dataset) -> None:
-        """Draw orbits as dots, first and paler the chaotic ones."""
+        """Draw orbits as dots, first and paler those that are not regular."""
         x, y = chart(self.k, *states_of(orbits))
         regular = orbits["type"].values == "regular"
         spans = rows(orbits)
@@ -78,7 +78,7 @@ def over_orbits(
 ) -> tuple[Section, Entry | None, Entry | None]:
     """Draw the section with its rim and orbits at the top of a new sheet.
 
-    Return the panel, and the entries of a key for regular and for chaotic orbits, None for one that
+    Return the panel, and the entries of a key for regular orbits and for others, None for one that
     is not drawn.
     """
     sheet = Sheet(style.COLUMN, high)
@@ -86,8 +86,9 @@ def over_orbits(
     panel.orbits(orbits)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))
-    rest = int(np.sum(orbits["type"].values == "regular"))
+    types = orbits["type"].values.tolist()
+    rest = types.count("regular")
     regular = (style.plural("regular orbit", rest), style.BACKDROP, "o") if rest else None
-    sea = orbits.sizes["orbit"] - rest
-    chaotic = (style.plural("chaotic orbit", sea), SEA, "o") if sea else None
+    sea = style.irregular(types)
+    chaotic = (sea, SEA, "o") if sea else None
     return panel, regular, chaotic

@@ -1,6 +1,6 @@
 """The style of all pictures: matplotlib's defaults, its own fonts, and fixed colours."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -88,6 +88,13 @@ def setting(scene: dict[str, Any], energy: bool = True) -> str:
 def plural(noun: str, count: int) -> str:
     """Return a noun in the number that a count needs."""
     return noun if count == 1 else f"{noun}s"
+
+
+def irregular(types: Sequence[str]) -> str:
+    """Return the key's name of the orbits that are not regular; empty if all are."""
+    kinds = [kind for kind in ("chaotic", "undecided", "undefined") if kind in types]
+    rest = sum(kind in kinds for kind in types)
+    return plural(f"{' and '.join(kinds)} orbit", rest) if rest else ""
 
 
 def number(value: float, power: int = 0) -> str:
