@@ -19,6 +19,7 @@ SADDLE = {"ball": PAPER, "period": 6, "type": "hyperbolic", "energy": 0.01, "sta
 EXPONENTS = {"ball": PAPER, "energy": 0.01, "impacts": 1500, "records": 20}
 PORTRAIT = {"ball": PAPER, "energy": 0.01, "sea": []}
 ISLANDS = [-0.440981 + 0.014 * i for i in range(26)]
+SLOW = 0.9999999999
 CHAOS = "neighbours separate exponentially"
 REGULAR = "exponents of the regular orbit"
 
@@ -39,6 +40,32 @@ CASES = [
         ["one colour", "ones", "dark to light"],
     ),
     ("exponents", {"starts": [-0.2, 0.6]}, ["the chaotic orbit's largest"], ["the regular"]),
+    (
+        "exponents",
+        {"starts": [SLOW, -0.2]},
+        ["the regular orbit tend", "1 undecided orbit makes no whole turn"],
+        [CHAOS, "regular orbits"],
+    ),
+    ("exponents", {"starts": [SLOW]}, ["1 undecided orbit makes no"], [CHAOS, "tend to zero"]),
+    ("exponents", {"starts": [SLOW, 0.6]}, ["the chaotic orbit's largest"], ["regular"]),
+    (
+        "portrait",
+        {"starts": [SLOW, 0.6], "impacts": 9, "view": {"elevation": 20, "azimuth": 240}},
+        ["to 1 chaotic orbit", "Others belong to 1 undecided orbit"],
+        ["losed curve", "seen"],
+    ),
+    (
+        "portrait",
+        {"starts": [SLOW, 0.99999, -0.2], "impacts": 9},
+        ["2 orbits cannot be seen, because all of their points", "A regular orbit has"],
+        ["undecided", "Grey", "chaotic", "number"],
+    ),
+    (
+        "portrait",
+        {"ball": {"k": 1e-6, "g": 1e-9}, "energy": 1e-7, "starts": [-0.3, 0.2], "impacts": 200},
+        ["1 orbit cannot be seen", "Of 400 points 1 is seen"],
+        ["regular"],
+    ),
     ("exponents", {"starts": ISLANDS[:8]}, ["one colour per orbit", "dark to light"], ["repeat"]),
     (
         "portrait",
@@ -105,7 +132,7 @@ def test_every_kind_that_is_drawn_has_a_caption_with_and_without_data():
 
 def test_a_caption_says_what_the_axes_hide():
     block = checked("portrait", **PORTRAIT | {"starts": [0.5], "impacts": 9})
-    known = {"chaotic": 1, "regular": 0, "hidden": ["axes.x hides 3 %: widen it"]}
+    known = facts(block, computed(block)) | {"hidden": ["axes.x hides 3 %: widen it"]}
     assert caption_of("one", block, known).shows.endswith(". Note: axes.x hides 3 %: widen it.")
 
 

@@ -83,6 +83,19 @@ def test_the_largest_exponent_is_the_largest_by_value():
     assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
 
 
+def test_a_mean_is_reported_of_orbits_of_one_type_only():
+    block = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
+    starts = {"chaotic": [0.6, 0.62], "regular": [-0.2, 0.1], "undecided": [0.9999999999]}
+    data = {kind: scene_exponents(BALL, 0.01, each, 500, 5) for kind, each in starts.items()}
+    numbers = {kind: reports.exponents(block, each) for kind, each in data.items()}
+    assert all(each["their mean"] for each in numbers.values())
+    mixed = reports.exponents(block, scene_exponents(BALL, 0.01, sum(starts.values(), []), 500, 5))
+    assert mixed["mean of the chaotic ones"] == numbers["chaotic"]["their mean"]
+    assert "their mean" not in mixed
+    few = scene_exponents(BALL, 0.01, starts["regular"] + starts["undecided"], 500, 5)
+    assert not any("mean" in name for name in reports.exponents(block, few))
+
+
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):
     monkeypatch.setattr(spectrum, "exponents_of_group", None)
     assert final(BALL.start([0.6, 0.62, 0.65], 0.01), 100).shape == (3, 3)

@@ -1,12 +1,14 @@
-"""The criteria for regular orbits agree with each other."""
+"""The criteria for regular orbits agree with each other, and none decides too early."""
 
 import numpy as np
 import pytest
 
+import pseudorigid
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point, regularity
+from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.dynamics.regularity import regular, regular_bound
+from pseudorigid.dynamics.regularity import around_fixed_point, first_turn, regular, regular_bound
 from pseudorigid.dynamics.rotation import winding
 from pseudorigid.dynamics.verdict import classify_orbits
 
@@ -46,3 +48,60 @@ def test_the_growth_does_not_depend_on_the_blocks_in_which_an_orbit_is_followed(
     whole = regularity._growth(BALL, state, 3000)
     monkeypatch.setattr(regularity, "_BLOCK", 7)
     assert regularity._growth(BALL, state, 3000) == whole
+
+
+SLOW = [  # k, g, energy, starts, impacts of chaotic orbits that short runs take for regular ones
+    (0.2, 0.04, 0.001, [0.894427], 400),
+    (0.2, 0.04, 0.01, [0.6, 0.62, 0.65], 10),
+    (0.2, 0.04, 0.01, [0.9999999, 0.99999999999, 1.0 - 1e-16], 500),
+    (1e-6, 1e-9, 1e-7, [-0.3, 0.2, 0.6], 200),
+]
+
+
+@pytest.mark.parametrize(("k", "g", "energy", "starts", "impacts"), SLOW)
+def test_no_run_that_is_too_short_calls_a_chaotic_orbit_regular(k, g, energy, starts, impacts):
+    ball = Ball(k, g)
+    for types in (
+        scene_orbits(ball, energy, starts, impacts)["type"].values,
+        scene_exponents(ball, energy, starts, impacts, 5)["type"].values,
+        pseudorigid.classify_orbits(ball, ball.start(starts, energy))["type"].values,
+    ):
+        assert "regular" not in types and types[0] == "chaotic"
+        assert np.all((types == "chaotic") | (np.array(starts) > 0.999999999))
+
+
+def test_an_orbit_without_a_whole_turn_is_undecided_and_one_that_makes_it_late_is_not():
+    """The least energy is -0.004, where nothing turns; nearby all is regular."""
+    starts = [0.3, -0.5]
+    for above, word in ((1e-12, "undecided"), (1e-7, "regular")):
+        energy = above - 0.004
+        assert scene_orbits(BALL, energy, starts, 3)["type"].values.tolist() == [word] * 2
+        assert scene_exponents(BALL, energy, starts, 3, 3)["type"].values.tolist() == [word] * 2
+    found = pseudorigid.classify_orbits(BALL, BALL.start([0.3, -0.2], [energy, 0.01]), 100)
+    assert found["type"].values.tolist() == ["undecided", "regular"]
+    assert found["followed"].values.tolist() == [2000, 500]
+
+
+def test_turns_are_those_of_the_angle_around_the_fixed_point():
+    states = BALL.start(np.linspace(-0.99, 0.99, 30), 0.01)
+    orbits, centre, expected = around_fixed_point(BALL, states)
+    found = first_turn(BALL.k, orbits, centre, expected, 500)
+    x, v, w = np.moveaxis(Ball(BALL.k, 1.0).history(orbits, 500)[..., :3], -1, 0)
+    p = np.column_stack([orbits[0], x]) - centre[0]
+    q = np.column_stack([orbits[1] - 0.2 * orbits[2], v - 0.2 * w]) / 0.24**0.5
+    turns = -np.diff(np.arctan2(q, p), axis=1) / (2.0 * np.pi)
+    turns -= np.floor(turns - (expected[0] - 0.5))
+    exact = np.cumsum(turns, axis=1)
+    at = np.arange(30)
+    assert np.all(exact[at, found - 1] > 0.98)
+    assert np.all(exact[at, found - 2] < 1.02)
+
+
+@pytest.mark.parametrize("energy", [-0.003, 0.01, 0.0374, 0.055])
+def test_the_elliptic_fixed_point_is_regular(energy):
+    """It makes no turns, and rounding errors decide the angles around it."""
+    x = fixed_point.numbers(BALL.k, energy / BALL.g**2)[0] * BALL.g
+    start = {"x": x, "y": 0.0}
+    assert scene_orbits(BALL, energy, [start], 5)["type"].item() == "regular"
+    found = pseudorigid.classify_orbits(BALL, BALL.state_xy(x, 0.0, energy))
+    assert found["type"].item() == "regular"

@@ -40,6 +40,11 @@ def test_a_key_has_no_orbits_that_are_not_there():
     curve = scene_orbits(BALL, 0.001, [0.5], 1000)  # of the example of `curves`
     _, regular, chaotic = section.over_orbits(SCENE | {"energy": 0.001, "sea": [0]}, curve)
     assert regular[0] == "regular orbit" and chaotic is None
+    slow = scene_orbits(BALL, 0.01, [0.9999999999, CHAOTIC], 9)  # the first on the far side
+    assert "chaotic orbit" in texts(module("portrait").draw(SCENE | {"view": VIEW}, slow))
+    behind = VIEW | {"azimuth": -120}
+    both = texts(module("portrait").draw(SCENE | {"view": behind}, slow))
+    assert "chaotic and undecided orbits" in both
     few = scene_orbits(BALL, 0.01, [CHAOTIC], 5)
     _, regular, chaotic = section.over_orbits(SCENE | {"sea": []}, few)
     assert chaotic[0] == "chaotic orbit" and regular is None

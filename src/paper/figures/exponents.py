@@ -18,7 +18,7 @@ from pseudorigid.figures.canvas.sheet import POINT, width
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
 _MOST_NAMED = 12  # starts of orbits of one type in a key
-_NARROW = 240  # pixels: names of starts up to this width stand in three columns
+_NARROW, _BROAD = 240, 380  # pixels: names of starts up to these widths stand in 3 or 2 columns
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
 _DASHES = "-", "--", "-.", ":"  # of orbits in turn
 _WIDTH = 0.8  # points
@@ -70,7 +70,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     if told or 1 < orbits <= _MOST_NAMED:
         kinds = types if told else [""] * orbits
         names = [_key_text(*each) for each in zip(scene["starts"], kinds, strict=True)]
-    columns = 3 if max((width(name, 8.0) for name in names), default=0.0) < _NARROW else 2
+    longest = max((width(name, 8.0) for name in names), default=0.0)
+    columns = 3 if longest < _NARROW else 2 if longest < _BROAD else 1
     # A key takes 48 pixels a row, rounded up to quarter inches (75 pixels).
     picture = empty_picture(scene, room=75 * -(-48 * -(-len(names) // columns) // 75))
     entries = [(name, hue, "", dash) for name, (hue, dash) in zip(names, lines, strict=False)]

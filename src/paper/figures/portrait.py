@@ -25,20 +25,20 @@ def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
 
 
 @style.pinned()
-def drawn(scene: dict[str, Any], orbits: xr.Dataset) -> tuple[Figure, list[str]]:
-    """Return the figure, and the types of the orbits of which at least a point is seen."""
+def drawn(scene: dict[str, Any], orbits: xr.Dataset) -> tuple[Figure, np.ndarray]:
+    """Return the figure, and how many points of each orbit are seen."""
     scene, states, spans = complete_box(scene, orbits), states_of(orbits), rows(orbits)
     types = orbits["type"].values
     others, regular = (np.flatnonzero((types == "regular") == each) for each in (False, True))
     trial = Box(scene, shown=states)
-    seen = [types[i] for i, span in enumerate(spans) if trial.seen(states[:, span]).any()]
-    name = style.irregular(seen)
+    seen = np.array([trial.seen(states[:, span]).sum() for span in spans])
+    name = style.irregular(types[seen > 0].tolist())
     box = Box(scene, [(name, style.SEA, "o")] if name else [])
     hues = dict(zip(regular.tolist(), style.ordered(len(regular)), strict=True))
     for index in [*others.tolist(), *hues]:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
-    if seen.count("regular") > 1:
+    if np.sum(seen[regular] > 0) > 1:
         curves = [states[:, spans[index]] for index in hues]
         box.names(curves, [f"{index + 1}" for index in hues], [*hues.values()])
     return box.figure, seen

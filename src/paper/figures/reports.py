@@ -24,11 +24,13 @@ def portrait(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
 
 
 def portrait_facts(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, Any]:
-    """Count the orbits of each type of which something is seen, and the others."""
+    """Count the orbits of each type of which something is seen, the others, and the points."""
     from .portrait import drawn
 
     seen = drawn(block, orbits)[1]
-    return counts(seen) | {"unseen": orbits.sizes["orbit"] - len(seen)}
+    types = orbits["type"].values[seen > 0].tolist()
+    points = {"seen": int(seen.sum()), "points": orbits.sizes["point"]}
+    return counts(types) | {"unseen": len(seen) - len(types)} | points
 
 
 def motion(block: dict[str, Any], periodic: xr.Dataset, motion: xr.Dataset) -> dict[str, str]:
@@ -107,12 +109,14 @@ def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
     alike = types == ("chaotic" if "chaotic" in types else types[0])
     some = np.sort(last[alike, 0])
     spread = f", standard deviation {np.std(some, ddof=1):.4f}" if some.size > 1 else ""
-    name = "their mean" if alike.all() else f"mean of the {types[alike][0]} ones"
+    name = "their mean" if alike.all() else "mean of the chaotic ones"
+    known = alike.all() or "chaotic" in types
+    mean = {name: f"{np.mean(some):.4f}{spread}"} if known else {}
     rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
     rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
     return {
         "largest exponent": rows[0],
-        name: f"{np.mean(some):.4f}{spread}",
+        **mean,
         "all three of an orbit, at the end": "; ".join(rows[1:]),
         "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
     }

@@ -44,6 +44,15 @@ def test_a_click_in_the_sea_is_seen_at_once(person):
     assert colours_near(person)[ink] > before.get(ink, 0) + 500
 
 
+def test_no_orbit_is_called_regular_before_it_has_made_a_whole_turn(person):
+    """Short orbits are followed further."""
+    orbits = "0.9999999*3000;0.9999999*600;0.9999999*15000;-0.2*600;-0.2*3000;0.6*600;-0.2*100"
+    person.open(f"{DISK}&orbits={orbits}")
+    found = [row["verdict"] for row in person.settled()]
+    assert found[:3] == ["undecided", "undecided", "chaotic"]
+    assert found[3:] == ["regular", "regular", "chaotic", "too short for a verdict"]
+
+
 def test_all_buttons_have_different_names(person):
     names = person.run(
         "return [...document.querySelectorAll('button[id]')].map(n => n.ariaLabel || n.textContent)"
