@@ -18,7 +18,7 @@ from pseudorigid.figures.canvas.sheet import POINT, width
 _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
 _MOST_NAMED = 12  # starts of orbits of one type in a key
-_NARROW, _BROAD = 240, 380  # pixels: names of starts up to these widths stand in 3 or 2 columns
+_NARROW, _BROAD = 240, 380  # pixels: names of starts up to this width stand in 3, in 2 columns
 _INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
 _DASHES = "-", "--", "-.", ":"  # of orbits in turn
 _WIDTH = 0.8  # points
@@ -31,7 +31,8 @@ def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
 
     A key names the starts, if there are several. If orbits are of several types, some chaotic, the
     inset and the names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones. The key
-    says which is which, and which orbits are neither regular nor chaotic. Raises ValueError if the axes show nothing.
+    says which is which, and which orbits are neither regular nor chaotic. Raises ValueError if the
+    axes show nothing.
     """
     return drawn(scene, lyapunov)[0]
 

@@ -79,8 +79,8 @@ def scene_orbits(
     """Compute the orbits of a scene (Figures 2 and 8) as a contiguous ragged array (CF).
 
     Starts are as in `start_state`. `impacts` is the number of all orbits, or a list. `type` is
-    "regular", "chaotic" or "undecided" by `regularity`, which follows short and slow orbits further,
-    and "undefined" for one that grazes exactly, as in `classify_orbits`.
+    "regular", "chaotic" or "undecided" by `regularity.orbit_types`, which follows short and slow
+    orbits further, and "undefined" for one that grazes exactly, as in `classify_orbits`.
 
     >>> from pseudorigid import Ball
     >>> scene_orbits(Ball(k=0.2, g=0.04), 0.01, [0.5, -0.2], [3, 2]).sizes["point"]

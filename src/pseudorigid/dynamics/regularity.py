@@ -64,13 +64,13 @@ def orbit_types(
     ball, states = Ball(ball.k, ball.g), np.asarray(states, dtype=float)
     needed = 2 * first_turn(ball.k, *around_fixed_point(ball, states), _MOST_IMPACTS // 2)
     types = []
-    for i, (state, length) in enumerate(zip(states.T, impacts, strict=True)):
-        if exponents and length >= LEAST_IMPACTS:
-            if exponents[i] > regular_bound(length):
-                types.append("chaotic")
-                continue
-            length = min(length, _MOST_IMPACTS)
-        length = max(length, LEAST_IMPACTS, min(int(needed[i]), _MOST_IMPACTS))
+    for i, (state, run) in enumerate(zip(states.T, impacts, strict=True)):
+        known = bool(exponents) and run >= LEAST_IMPACTS  # by the bound
+        if known and exponents[i] > regular_bound(run):
+            types.append("chaotic")
+            continue
+        judged = min(run, _MOST_IMPACTS) if known else run
+        length = max(judged, LEAST_IMPACTS, min(int(needed[i]), _MOST_IMPACTS))
         growth = _growth(ball, state, length) if state[1] + state[2] > 0.0 else math.nan
         unturned = "regular" if needed[i] <= length else "undecided"
         word = unturned if growth < GROWTH_THRESHOLD else "chaotic"
