@@ -144,21 +144,24 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
     ['regular', 'chaotic']
     """
     impacts = max(whole_number("impacts", impacts, _FEWEST_IMPACTS), LEAST_IMPACTS)
-    finite, orbits = _finite_orbits(ball, state)
+    finite, (states, centre, expected) = _finite_orbits(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     winding, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
-        verdicts = follow_until_decided(ball.k, *orbits, impacts)
+        verdicts = follow_until_decided(ball.k, states, centre, expected, impacts)
         words = np.where(verdicts.regular, "regular", "chaotic").astype(object)
         calm = np.flatnonzero(verdicts.regular)
-        needed = 2 * first_turn(ball.k, *(a[..., calm] for a in orbits), impacts // 2)
+        some = states[:, calm], centre[calm], expected[calm]
+        needed = 2 * first_turn(ball.k, *some, impacts // 2)
         slow = needed > verdicts.followed[calm]
         if slow.any():
             late = calm[slow]
-            turns, rate = turns_and_growth(ball.k, *(a[..., late] for a in orbits), impacts)
+            some = states[:, late], centre[late], expected[late]
+            turns, rate = turns_and_growth(ball.k, *some, impacts)
             unturned = np.where(needed[slow] <= impacts, "regular", "undecided")
             words[late] = np.where(regular(rate, impacts), unturned, "chaotic")
-            verdicts.winding[late], verdicts.followed[late] = turns, impacts
+            verdicts.winding[late], verdicts.growth[late] = turns, rate
+            verdicts.followed[late] = impacts
         types[finite] = np.where(np.isnan(verdicts.growth), "undefined", words)
         winding[finite], followed[finite] = verdicts.winding, verdicts.followed
     dims = orbit_dims(finite.shape)
@@ -181,7 +184,7 @@ def require_default_map(ball: Ball) -> None:
         raise not_allowed("ball.map", ball.map, "the default, which misses no impact")
 
 
-def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[Any, Any, Any]]:
     """Return which states are finite, and their orbits as `around_fixed_point` does."""
     require_default_map(ball)
     x, xdot, udot = ball.on_section(*state_of(state))
