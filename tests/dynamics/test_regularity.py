@@ -70,6 +70,12 @@ def test_no_run_that_is_too_short_calls_a_chaotic_orbit_regular(k, g, energy, st
         assert np.all((types == "chaotic") | (np.array(starts) > 0.999999999))
 
 
+def test_no_run_that_is_too_short_calls_a_regular_orbit_chaotic():
+    for impacts in (1, 2, 7):
+        types = scene_exponents(BALL, 0.01, [-0.2, 0.1, 0.5], impacts, 1)["type"].values
+        assert types.tolist() == ["regular", "regular", "chaotic"]
+
+
 def test_an_orbit_without_a_whole_turn_is_undecided_and_one_that_makes_it_late_is_not():
     """The least energy is -0.004, where nothing turns; nearby all is regular."""
     starts = [0.3, -0.5]

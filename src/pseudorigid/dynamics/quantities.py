@@ -166,7 +166,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
         winding[finite], followed[finite] = verdicts.winding, verdicts.followed
     dims = orbit_dims(finite.shape)
     table = {
-        "type": (dims, types, "regular or chaotic"),
+        "type": (dims, types, "regular, chaotic, undecided or undefined"),
         "rotation_number": (
             dims,
             winding,

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from sections import BALL
 
 from extensions.claims.analyses import rotation
+from extensions.claims.ledger.chaos import discontinuous
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.regularity import regular
 
@@ -48,3 +50,11 @@ def test_main_island_ends_at_two_chaotic_starts():
     assert found["place"].values[0, size - 1] < (0.18782 - centre) / radius
     step = found["place"].values[0, 1] - found["place"].values[0, 0]
     assert found["place"].values[0, size] > (0.18782 - centre) / radius - step
+
+
+def test_changes_between_regular_and_chaotic_starts_are_counted_with_two_spacings():
+    exponent = np.array([[0.0, 9.0] * 4, [0.0, 0.0, 0.0, 9.0, 9.0, 0.0, 9.0, 9.0]])
+    data = xr.Dataset({"exponent": (("energy", "start"), exponent)}, {"energy": [0.001, 0.01]})
+    numbers = discontinuous(data.assign_attrs(impacts=2)).numbers
+    assert [*numbers["counts"], *numbers["fewer"]] == [7, 3, 0, 1]
+    assert numbers["starts"] == 8

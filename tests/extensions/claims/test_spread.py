@@ -10,6 +10,7 @@ from sections import BALL
 from extensions.claims.analyses.sea import section_points
 from extensions.claims.analyses.spread import spread
 from extensions.claims.analyses.stretches import in_sea, stretches
+from extensions.claims.ledger import chaos
 from pseudorigid import lyapunov_spectrum, orbit
 
 ENERGY = 0.01
@@ -71,6 +72,12 @@ def cells_of(path):
     x = (path["x"].values[1:] - centre) / radius
     y = (path["xdot"].values - 0.2 * path["udot"].values)[1:] / (radius * math.sqrt(0.24))
     return {(int(6 * (a + 1)), int(6 * (b + 1))) for a, b in zip(x, y, strict=True)}
+
+
+def test_a_short_chaotic_orbit_in_an_island_s_place_is_noticed():
+    data = spread(BALL, ENERGY, 4, 400, 4, [0.6, -0.2], 4, 4, 4)
+    assert data["regular_type"].values.tolist() == ["chaotic", "regular"]
+    assert chaos.regular_exponents(data).verdict == "does not hold"
 
 
 @pytest.mark.parametrize(
