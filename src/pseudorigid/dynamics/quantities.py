@@ -150,7 +150,8 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
     if finite.any():
         verdicts = follow_until_decided(ball.k, states, centre, expected, impacts)
         words = np.where(verdicts.regular, "regular", "chaotic").astype(object)
-        calm = np.flatnonzero(verdicts.regular)
+        # Few turn so slowly that the mean turn of an impact leaves it open whether one is whole.
+        calm = np.flatnonzero(verdicts.regular & (abs(verdicts.winding) * verdicts.followed < 2.0))
         some = states[:, calm], centre[calm], expected[calm]
         needed = 2 * first_turn(ball.k, *some, impacts // 2)
         slow = needed > verdicts.followed[calm]

@@ -62,7 +62,7 @@ def orbit_types(
     `exponents` are the largest ones over these impacts, if they are known.
     """
     ball, states = Ball(ball.k, ball.g), np.asarray(states, dtype=float)
-    needed = 2 * first_turn(ball.k, *around_fixed_point(ball, states), _MOST_IMPACTS // 2)
+    orbits, centre, expected = around_fixed_point(ball, states)
     types = []
     for i, (state, run) in enumerate(zip(states.T, impacts, strict=True)):
         known = bool(exponents) and run >= LEAST_IMPACTS  # by the bound
@@ -70,9 +70,12 @@ def orbit_types(
             types.append("chaotic")
             continue
         judged = min(run, _MOST_IMPACTS) if known else run
-        length = max(judged, LEAST_IMPACTS, min(int(needed[i]), _MOST_IMPACTS))
+        one = slice(i, i + 1)  # few orbits at once need no loop of their own compiled
+        found = first_turn(ball.k, orbits[:, one], centre[one], expected[one], _MOST_IMPACTS // 2)
+        needed = 2 * int(found[0])
+        length = max(judged, LEAST_IMPACTS, min(needed, _MOST_IMPACTS))
         growth = _growth(ball, state, length) if state[1] + state[2] > 0.0 else math.nan
-        unturned = "regular" if needed[i] <= length else "undecided"
+        unturned = "regular" if needed <= length else "undecided"
         word = unturned if growth < GROWTH_THRESHOLD else "chaotic"
         types.append(word if math.isfinite(growth) else "undefined")
     return types
