@@ -29,7 +29,7 @@ from . import fixed_point
 from .ball import Ball
 
 LEAST_IMPACTS = 2000  # behind a verdict
-_MOST_IMPACTS = 64_000  # to which an orbit that makes no whole turn is followed: 60 ms
+_MOST_IMPACTS = 64_000  # to which an orbit that makes no whole turn is followed
 _STRIDE = 10  # impacts
 _BLOCK = 2000  # strides whose states are in memory at once
 _IN_MEMORY = 1 << 18  # states, while turns are counted
