@@ -23,7 +23,6 @@ from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import fixed_point, horseshoe, jump, periodic
 from extensions.proofs.checkers.certificate import Finding, NotProvedError
 from extensions.proofs.checkers.hsets import HSet
-from extensions.proofs.checkers.newton import enclose_zero
 from extensions.proofs.search import jump as jump_search
 from extensions.proofs.search.fixed_point import propose_elliptic, propose_unique
 from extensions.proofs.search.periodic import approximate_points
@@ -182,20 +181,6 @@ def test_the_fixed_point_is_proved_elliptic_neither_to_another_energy_nor_where_
     text = elliptic(Fraction(1), Fraction(1, 25), Fraction(1, 10), Fraction(-3))
     with pytest.raises(NotProvedError, match="not proved to be above"):
         fixed_point.check_elliptic(text, Fraction(1), Fraction(1, 25), Fraction(1, 10), trace * 10)
-
-
-@pytest.mark.parametrize("zero", [(1, 0.5), (0.5, 1), (0, 0.5), (3, 0.5)])
-def test_a_newton_image_that_is_not_inside_its_box_proves_no_zero(zero):
-    def system(values):
-        residuals = [value - wanted for value, wanted in zip(values, place, strict=True)]
-        return residuals, [[arb(1), arb(0)], [arb(0), arb(1)]]
-
-    box = [arb(0.5, 0.5), arb(0.5, 0.5)]
-    place = [arb(0.5, 1e-3), arb(0.5, 1e-3)]
-    assert all(found.contains(0.5) for found in enclose_zero(system, box))
-    place = [arb(a, 1e-3) for a in zero]
-    with pytest.raises(NotProvedError, match="does not lie inside"):
-        enclose_zero(system, box)
 
 
 # ---- certificates that are consistent and prove less than the statement
