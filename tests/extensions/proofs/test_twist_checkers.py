@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from math import comb, factorial, pi
 from types import SimpleNamespace
@@ -127,6 +128,24 @@ def test_the_trace_falls_on_all_bands(place, monkeypatch):
         fixed_point._prove_falling_trace(arb(0.2), arb(1.5), 7)
 
 
+def test_the_last_trace_and_the_last_band_reach_both_ends_of_theta(monkeypatch):
+    given, trace_at, falling = {}, fixed_point.trace_at, fixed_point._prove_falling_trace
+
+    def noted(name, function, k, theta, *more):
+        given.setdefault(name, theta)
+        return function(k, theta, *more)
+
+    monkeypatch.setattr(fixed_point, "trace_at", partial(noted, "theta", trace_at))
+    monkeypatch.setattr(fixed_point, "_prove_falling_trace", partial(noted, "end", falling))
+    THEOREMS["fixed-point-elliptic"].prove()
+    with ctx.workprec(400):
+        low, high = (ball_of(Fraction(a)) for a in shifted("fixed-point-elliptic", 0))
+        assert given["theta"].contains(low) and given["theta"].contains(high)
+        assert given["end"] > high
+
+
+# That the ends of theta, or edges, lie in (0, pi) is also a premise of energy_at, which refuses them
+# too. The set of complex_flight is made from the known root, and so contains it.
 @pytest.mark.parametrize(("function", "theta"), [
     *((fixed_point.energy_at, theta) for theta in (-1, 0, arb(3.1, 0.1), arb(0.1, 0.2))),
     *((fixed_point.trace_at, theta) for theta in (-1, 4)),
