@@ -144,8 +144,8 @@ def test_the_last_trace_and_the_last_band_reach_both_ends_of_theta(monkeypatch):
         assert given["end"] > high
 
 
-# That the ends of theta, or edges, lie in (0, pi) is also a premise of energy_at, which refuses them
-# too. The set of complex_flight is made from the known root, and so contains it.
+# That the ends of theta, or edges, lie in (0, pi) is also a premise of energy_at, which refuses
+# them too. The set of complex_flight is made from the known root, and so contains it.
 @pytest.mark.parametrize(("function", "theta"), [
     *((fixed_point.energy_at, theta) for theta in (-1, 0, arb(3.1, 0.1), arb(0.1, 0.2))),
     *((fixed_point.trace_at, theta) for theta in (-1, 4)),
