@@ -17,7 +17,7 @@ from small_curve import SMALL
 
 from extensions.proofs import Surface
 from extensions.proofs.checkers import circle, complex_flight, curve, periodic
-from extensions.proofs.checkers.certificate import NotProvedError
+from extensions.proofs.checkers.certificate import Certificate, NotProvedError
 from pseudorigid.verified.flight import UndecidedError
 
 PAPER, TEXT = Surface("1/5", "1/25", "1/100"), SMALL.text()
@@ -205,6 +205,20 @@ def test_a_root_that_is_not_proved_to_be_the_only_one_is_refused(
 ])  # fmt: skip
 def test_each_number_of_a_certificate_is_looked_at(field, value, reason):
     assert reason in refused(SMALL, with_field(TEXT, field, value))
+
+
+def test_the_cells_reach_the_edge_of_the_wide_strip():
+    """4 rows of cells below the strip's edge and 3 beyond; the first curve is the certificate's."""
+    certificate = Certificate(TEXT, "invariant curve", PAPER)
+    claim = curve._read(certificate, Fraction("0.0069"), Fraction("1e-35"), None)
+    numbers = [claim.strip, claim.wide, claim.height, claim.loss, claim.error, claim.share]
+    assert [float(a) for a in numbers] == pytest.approx(
+        [0.06, 0.105, 0.015, 0.0098, 1e-35, 0.0069], abs=0, rel=1e-12)  # fmt: skip
+    assert (claim.columns, claim.rows, claim.all_rows) == (64, 4, 7)
+    x, y = np.array(certificate.numbers("coefficients", 2), dtype=float).T
+    angles = 2 * pi * 0.2 * np.arange(x.size)
+    expected = np.cos(angles) @ x, np.sin(angles) @ y
+    assert [float(a) for a in curve._points(claim.curve, 5)[1]] == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("ends", [("0.17864", "0.1787"), ("0.1786", "0.17861")])
