@@ -177,7 +177,8 @@ def test_formulas_need_no_mathematical_font(page):
 
     Chromium draws a combining dot, which has none, to the left of the letter.
     """
-    formulas = [ElementTree.fromstring(each) for each in re.findall(r"<math\b.*?</math>", page, re.S)]
+    found = re.findall(r"<math\b.*?</math>", page, re.S)
+    formulas = [ElementTree.fromstring(each) for each in found]
     letters = [mi for each in formulas for mi in each.iter("mi") if mi.text.isalpha()]
     movers = [mover for each in formulas for mover in each.iter("mover")]
     assert len(letters) > 80 and {mi.get("mathvariant") for mi in letters} == {"normal"}
