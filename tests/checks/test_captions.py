@@ -4,21 +4,24 @@ import re
 from pathlib import Path
 
 import pytest
-from examples import PAPER, SHELL, checked, computed
+import yaml
+from examples import PAPER, SHELL, assert_decided, checked, computed
 from project import ROOT, SHIPPED
 
 from pipeline import config
 from pipeline.checks import manifest
 from pipeline.checks.captions import CAPTIONS, caption_of
-from pipeline.checks.figures_page import page
+from pipeline.checks.figures_page import _captions, page
 from pipeline.checks.quantities import facts
 from pipeline.config import PUBLISHED
+from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
 
 SADDLE = {"ball": PAPER, "period": 6, "type": "hyperbolic", "energy": 0.01, "starts": [-0.2]}
 EXPONENTS = {"ball": PAPER, "energy": 0.01, "impacts": 1500, "records": 20}
 PORTRAIT = {"ball": PAPER, "energy": 0.01, "sea": []}
 ISLANDS = [-0.440981 + 0.014 * i for i in range(26)]
+HIGH_UP = {"displacement": {"limits": [0.4, 2], "ticks": [1]}}
 CHAOS = "neighbours separate exponentially"
 REGULAR = "exponents of the regular orbit"
 
@@ -67,7 +70,17 @@ CASES = [
         ["(black dot)"],
         ["meet", "neighbour", "dots"],
     ),
-    ("closeup", {"period": 6}, ["A branch from another point"], ["of the point"]),
+    ("tangle", {"branches": {"outer": {"length": 0.05}}}, ["leave each"], ["inner"]),
+    ("closeup", {"period": 6}, ["(a black dot)"], ["of the point", "oscillate", "Each crossing"]),
+    ("motion", {}, ["every impact (a dot) and"], []),
+    ("motion", {"axes": HIGH_UP}, ["every impact and"], ["a dot"]),
+    ("rotation", {}, ["last regular one of 80"], ["plateau", "monotone", "triangle", "fraction"]),
+    ("rotation", {"energies": [0.03]}, [], []),
+    ("spread", {}, ["a triangle"], ["paper", "grey"]),
+    ("spread", {"regular": [0.5]}, ["chaotic orbits are grey"], []),
+    ("exclusion", {}, ["proved curve", "Regular orbits are black"], ["islands are proved"]),
+    ("exclusion", {"starts": [0.98]}, [], ["Regular orbits are black"]),
+    ("twist", {"energies": [0.0005, 0.002]}, ["At 2 energies"], ["ring"]),
     ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0012]}, [], ["and after it"]),
     (
         "jumps",
@@ -103,9 +116,41 @@ def test_every_kind_that_is_drawn_has_a_caption_with_and_without_data():
             assert caption_of(Path(name).stem, record["config"], record["output"]).shows
 
 
+def test_no_caption_has_a_condition_or_points_to_another_picture():
+    """Of all committed pictures; of all kinds' examples and variants' scenes without data."""
+    shown = [caption for _, of in _captions() for caption in of.values()]
+    names = [caption.name for caption in shown]
+    for caption in shown:
+        assert_decided(caption, names)
+    for scenes in config.load(SHIPPED).variants.values():
+        for block in scenes.values():
+            assert_decided(caption_of("one", block.as_mapping()), names)
+    for kind in CAPTIONS:
+        block = yaml.safe_load(example(kind))
+        given = {"ball": PAPER, "energy": 0.01, "beside": [0], "starts": [0.1], "impacts": 9}
+        if kind == "atlas":
+            block["energy"] = [2, 12]
+        if kind != "chains":
+            assert_decided(caption_of("one", given | block), names)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("near their crossing, if they have one", "to the last start, or the rim if none is"),
+        *("It stands where there is room.", "The rest is as for claims/flux.", "as in Figure 3"),
+        *("Where lines coincide, they take turns.", "A dot, where the axes show it."),
+    ],
+)
+def test_a_condition_is_noticed(text):
+    caption = caption_of("one", checked("portrait", **PORTRAIT | {"starts": [0.5], "impacts": 9}))
+    with pytest.raises(AssertionError):
+        assert_decided(caption._replace(see=text))
+
+
 def test_a_caption_says_what_the_axes_hide():
     block = checked("portrait", **PORTRAIT | {"starts": [0.5], "impacts": 9})
-    known = {"chaotic": 1, "regular": 0, "hidden": ["axes.x hides 3 %: widen it"]}
+    known = {"chaotic": 1, "regular": 0, "drawn": [], "hidden": ["axes.x hides 3 %: widen it"]}
     assert caption_of("one", block, known).shows.endswith(". Note: axes.x hides 3 %: widen it.")
 
 
@@ -118,10 +163,9 @@ def test_no_caption_or_name_is_on_the_page_twice():
         assert "residues" in families and "missed impacts" not in families
 
 
-def test_the_page_says_once_what_two_captions_share():
+def test_the_page_has_whole_captions():
     text = " ".join(page().split())
-    for scene, earlier in {"fig8": "fig2", "fig4": "fig3"}.items():
-        (own,) = re.findall(rf"/{scene}\.png\) (.*?)(?= ###?#? |$)", text)
-        assert f"The rest is as for Figure {earlier[-1]}." in own
-    assert text.count("It is opaque") == text.count("The two lines touch at every") == 1
-    assert "orbit of period 6 in time" in text and "at energy 0.001 " in text
+    for _, captions in _captions():
+        for scene, caption in captions.items():
+            (own,) = re.findall(rf"/{scene}\.png\) (.*?)(?= ###?#? |$)", text)
+            assert own == " ".join(filter(None, caption[2:]))
