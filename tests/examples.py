@@ -26,7 +26,7 @@ OTHER = {"k": 0.25, "g": 0.03}
 # Words of a caption that leaves a condition to the reader, or to another picture.
 UNDECIDED = re.compile(
     r"""\b(?: if | may | might | unless | otherwise | perhaps | Where | none\sis | as\sfar\sas
-    | where\s(?:there|they|these|this|other|it|the\saxes) | (?:or|and),\swhere
+    | where\s(?:there|these|other|the\saxes) | (?:or|and),\swhere
     | rest\sis | (?:as|like)\s(?:for|in|of|on)\s(?:Figure|[`\w]+/|the\s\w+\spicture) )\b""",
     re.VERBOSE,
 )
