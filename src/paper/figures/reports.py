@@ -93,9 +93,7 @@ def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) 
     return quantities
 
 
-def closeup_facts(
-    block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset
-) -> dict[str, Any]:
+def closeup_facts(block: dict[str, Any], manifolds: xr.Dataset, **_: xr.Dataset) -> dict[str, Any]:
     """Say whether a branch oscillates: in all, it turns by more than two whole turns."""
     import numpy as np
 

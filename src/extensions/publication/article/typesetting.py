@@ -1,16 +1,16 @@
 """Set the article with typst, whose package brings the compiler and the fonts."""
 
 import re
-import unicodedata
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 _SOURCE = Path(__file__).with_name("article.typ")
 _STYLE = Path(__file__).with_name("article.css")
 # typst says this of every page: its export may change, but its version is pinned.
 _KNOWN = "html export is under active development and incomplete"
 _FORMULA = re.compile(r'<span data-alt="([^"]*)"><math\b(.*?)</span>', re.DOTALL)
-_LETTER = re.compile(r"<mi>([^\x00-\x7f])</mi>")
+_LETTER, _PLAIN = re.compile(r"<mi>([^\x00-\x7f])</mi>"), '<mi mathvariant="normal">{}</mi>'
 _COMBINING_DOT, _DOT = "<mo>\u0307</mo>", "<mo>\u02d9</mo>"
 _HEAD = """\
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; \
@@ -33,20 +33,16 @@ def typeset(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
 def web_page(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
     """Return the article as one HTML page, with the figures in it and formulas in MathML.
 
-    Formulas need no mathematical font, which readers may lack: their letters are those of the text,
-    and a dot has a width of its own, without which Chromium draws it beside the letter.
+    Formulas need no mathematical font, which readers may lack: letters are plain ones, which the
+    style slants, and a dot has a width, without which Chromium draws it beside the letter.
     """
     page = _compiled(root, numbers, source, format="html").decode()
-    page = _LETTER.sub(_letter_of_the_text, page).replace(_COMBINING_DOT, _DOT)
+    page = _LETTER.sub(lambda found: _PLAIN.format(normalize("NFKC", found[1])), page)
+    page = page.replace(_COMBINING_DOT, _DOT)
     # Chromium names a formula by aria-label, other programs by alttext.
     page = _FORMULA.sub(r'<math aria-label="\1" alttext="\1"\2', page)
     head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
     return page.replace("</head>", head, 1).encode()
-
-
-def _letter_of_the_text(found: re.Match[str]) -> str:
-    """Return an identifier with the plain letter for a mathematical one; the style slants it."""
-    return f'<mi mathvariant="normal">{unicodedata.normalize("NFKC", found[1])}</mi>'
 
 
 def _compiled(root: Path, numbers: str, source: Path, **options: Any) -> bytes:
