@@ -1,5 +1,6 @@
 """Scenes like the examples of the kinds of picture: checked, computed and drawn."""
 
+import re
 import warnings
 from contextlib import contextmanager
 from importlib import import_module
@@ -22,6 +23,13 @@ from pseudorigid.figures.canvas.render import render
 PAPER = {"k": 0.2, "g": 0.04}
 SHELL = {"k": 0.3333333333333333, "g": 0.02}
 OTHER = {"k": 0.25, "g": 0.03}
+# Words of a caption that leaves a condition to the reader, or to another picture.
+UNDECIDED = re.compile(
+    r"""\b(?: if | may | might | unless | otherwise | perhaps | Where | none\sis | as\sfar\sas
+    | where\s(?:there|these|other|the\saxes) | (?:or|and),\swhere
+    | rest\sis | (?:as|like)\s(?:for|in|of|on)\s(?:Figure|[`\w]+/|the\s\w+\spicture) )\b""",
+    re.VERBOSE,
+)
 
 
 def checked(kind, **change):
@@ -55,7 +63,16 @@ def made(block, data=None, legible=True):
     if legible:
         assert_legible(figure, slack=5)  # 10^-5 and 10^1 at a corner
     caption = caption_of("one", block, facts(block, data))
+    assert_decided(caption)
     return render(figure, "png"), reported(block, data), caption.shows
+
+
+def assert_decided(caption, others=()):
+    """Assert that a caption says what is in its picture, without a condition or another picture."""
+    text = " ".join(caption[1:])
+    assert not UNDECIDED.search(text), (caption.name, UNDECIDED.search(text)[0])
+    for other in others:
+        assert caption.name == other or not re.search(rf"(?<![\w/]){other}(?![\w/])", text), other
 
 
 def assert_made_or_refused_in_one_line(block):

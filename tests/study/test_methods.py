@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from project import shipped
+from project import ROOT, shipped
 
 from pipeline.config import check
 from pipeline.records.sources import source_files
@@ -98,6 +98,19 @@ def test_recorded_numbers_are_those_of_the_methods():
     error = np.abs(tau / stages.proved_times(BALL, columns) - 1)
     assert error.max() <= float(row["worst"]) * 1.001
     assert evaluations.mean() == pytest.approx(float(row["evaluations"]), rel=0.2)
+
+
+def test_readme_has_the_numbers_of_the_study():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    flights = stages.recorded("flights")
+    power = f"{float(flights['long_flights'][-1]):.0e}"[-1].translate(str.maketrans("89", "⁸⁹"))
+    careful = flights["long_missed"].values[flights["long_family"].values == "careful scan"]
+    assert f"missed none of 10{power} impacts" in " ".join(text.split())
+    assert careful.size and not careful.any()
+    columns = states.uniform(2000)
+    for method, count in (OURS, "takes {} evaluations"), (careful_method(0.5), "scan {}."):
+        mean = method.solve(BALL, *columns)[1].mean()
+        assert count.format(f"{mean:.1f}") in text
 
 
 def test_recorded_states_make_methods_fail_and_not_the_march():

@@ -98,6 +98,18 @@ def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) 
     return quantities
 
 
+def closeup_facts(block: dict[str, Any], manifolds: xr.Dataset, **_: xr.Dataset) -> dict[str, Any]:
+    """Say whether a branch oscillates: in all, it turns by more than two whole turns."""
+    import numpy as np
+
+    from pseudorigid.dynamics.variables import rows
+
+    x, xdot = (manifolds[n] / np.ptp(manifolds.attrs[f"window_{n}"]) for n in ("x", "xdot"))
+    steps = [np.diff((x + 1j * xdot).values[span]) for span in rows(manifolds)]
+    turns = [np.nansum(np.abs(np.angle(step[1:] * step[:-1].conj()))) for step in steps]
+    return {"oscillates": bool(max(turns) > 4.0 * np.pi)}
+
+
 def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
     """Give the final exponents, and mean and spread of the largest ones, of one type only."""
     import numpy as np

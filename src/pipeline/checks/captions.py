@@ -40,7 +40,7 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     templates |= CAPTIONS.get(kind, {})
     numbered = re.fullmatch(r"(?:.*/)?fig(\d+)", name)
     shown_name = f"Figure {numbered[1]}" if numbered else name
-    known = defaultdict(int) if facts is None else facts
+    known = defaultdict[str, Any](int, drawn=[]) if facts is None else facts
     texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
     title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
     hidden = [f"Note: {line}." for line in known["hidden"] or ()]

@@ -3,7 +3,6 @@
 The captions are those of the report, with the values from which the committed pictures were made.
 """
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from textwrap import fill
@@ -30,29 +29,8 @@ def page() -> str:
         glued = text.replace(" = ", "\0=\0")
         return fill(glued, 100, break_long_words=False, break_on_hyphens=False).replace("\0", " ")
 
-    sections = [(SETS[each.group].heading, each, _told_once(of)) for each, of in _captions()]
+    sections = [(SETS[each.group].heading, each, of) for each, of in _captions()]
     return environment.from_string(template).render(sections=sections, fill=wrapped)
-
-
-def _told_once(captions: dict[str, Caption]) -> Iterator[tuple[str, Caption, list[str]]]:
-    """Yield the scenes of a set with their captions, and the paragraphs of these for the page.
-
-    Of a caption that an earlier one matches sentence by sentence, those stand that differ.
-    """
-    earlier: list[tuple[str, list[str]]] = []
-    for scene, each in captions.items():
-        texts = [f"{each.shows} {each.see}", each.details]
-        split = [re.split(r"(?<=[.!?]) (?=[A-Z(])", text) for text in texts]
-        said = [sentence for sentences in split for sentence in sentences]
-        for name, other in earlier:
-            known = [a for a, b in zip(said, other, strict=False) if a == b]
-            if known and len(said) == len(other):
-                new = [[s for s in sentences if s not in known] for sentences in split]
-                texts = [" ".join(sentences) for sentences in new]
-                texts[1] += f" The rest is as for {name}."
-                break
-        earlier.append((each.name, said))
-        yield scene, each, [text.strip() for text in texts if text.strip()]
 
 
 def codecheck_manifest() -> str:

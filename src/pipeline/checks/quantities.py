@@ -10,6 +10,7 @@ from ..config import Config
 from ..config.schema.kinds import KINDS
 from ..declaration import hidden_by, imported
 from ..records.artifacts import load
+from .captions import CAPTIONS
 
 
 def measured(
@@ -42,9 +43,24 @@ def hidden(block: dict[str, Any], data: dict[str, Any]) -> list[str]:
 def facts(block: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:
     """Return what a caption says of what was computed and drawn, as values that JSON can hold.
 
-    `hidden` has lines on what the axes hide. The rest is what the function KIND_facts beside a
-    kind's reports returns, if there is one.
+    `hidden` has lines on what the axes hide, and `drawn` what the caption asks for of the texts and
+    markers in the picture. The rest is what the function KIND_facts beside a kind's reports
+    returns, if there is one.
     """
     module, _, kind = KINDS[block["picture"]].reported_by.rpartition(".")
     of_kind = getattr(import_module(module), f"{kind}_facts", None) if find_spec(module) else None
-    return {"hidden": hidden(block, data)} | (of_kind(block, **data) if of_kind else {})
+    found = {"hidden": hidden(block, data), "drawn": _drawn(block, data)}
+    return found | (of_kind(block, **data) if of_kind else {})
+
+
+def _drawn(block: dict[str, Any], data: dict[str, Any]) -> list[str]:
+    """Return the texts and markers of a picture, which is drawn again, that its caption quotes."""
+    from matplotlib.lines import Line2D  # takes long to import
+
+    kind, caption = KINDS[block["picture"]], "".join(CAPTIONS.get(block["picture"], {}).values())
+    if "d.drawn" not in caption:
+        return []
+    figure = imported(kind.drawn_by)(block, *(data[stage] for stage in kind.stages))
+    found = {text.get_text() for text in figure.texts}
+    found |= {str(line.get_marker()) for line in figure.findobj(Line2D) if len(line.get_xdata())}
+    return sorted(each for each in found if f'"{each}"' in caption)

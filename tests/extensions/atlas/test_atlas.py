@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 import xarray as xr
+from examples import assert_decided
 from legible import assert_legible
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas, raster
 from extensions.atlas.grid import edges
 from extensions.atlas.sweep import resonances
+from pipeline.checks.captions import caption_of
+from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.figures.axes import limits
 from pseudorigid.figures.axes.panel import Axis
@@ -180,3 +183,34 @@ def test_the_key_of_a_plane_has_what_is_drawn():
     data = dataset(low, exponent=np.nan)
     words = [text.get_text() for text in atlas.plane(low, data).texts]
     assert any("no chaotic" in text for text in words) and "the paper's Figure 8" in words
+
+
+@pytest.mark.parametrize(
+    ("sweep", "given", "said", "unsaid"),
+    [
+        (
+            LINE,
+            {"regular_low": 0.4, "regular_high": 0.6},
+            ["Dotted lines", "is 1/5 to 1/8.", "The dashed line", "Circles are the paper's two"],
+            ["rises with", "grey", "1/10"],
+        ),
+        (
+            {"k": [0.1, 0.2, 0.3], "energy": [4.0, 5.0]},
+            {"regular_low": [0.1, 0.8], "regular_high": [0.2, 0.9]},
+            ["in places the regular share (a) rises", "Solid curves"],
+            ["grey", "ircle", "begins to jump"],
+        ),
+        (
+            {"k": [0.15, 0.25], "energy": [0.5, 0.8]},
+            {"exponent": np.nan},
+            ["A grey cell", "The circle is one of"],
+            ["Circles", "rises with"],
+        ),
+    ],
+)
+def test_the_caption_has_what_is_drawn(sweep, given, said, unsaid):
+    block = sweep | {"picture": "atlas", "starts": 9, "impacts": 100}
+    caption = caption_of("a", block, facts(block, {"sweep": dataset(sweep, **given)}))
+    assert_decided(caption)
+    text = " ".join(caption[2:])
+    assert all(words in text for words in said) and not any(words in text for words in unsaid)

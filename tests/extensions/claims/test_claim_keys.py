@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from examples import checked
 from keys import SCENE, colors, texts
 from legible import frames_of
 from sections import BALL
@@ -14,6 +15,8 @@ from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
 from extensions.claims.figures import rotation as rotation_figure
 from extensions.claims.figures import spread as spread_figure
+from pipeline.checks.captions import caption_of
+from pipeline.checks.quantities import facts
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.figures.canvas import style
 
@@ -33,6 +36,20 @@ def test_the_critical_residue_lies_within_its_axis():
     figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, 1e-9]]))
     (critical,) = (line for line in figure.artists if line.get_linestyle() == "--")
     assert critical.get_ydata()[0] < 1425 / style.DPI - 0.05
+
+
+@pytest.mark.parametrize(
+    ("last", "said", "unsaid"),
+    [
+        (1e-9, ["a curve exists", "0.170000, and with 0.180000"], ["none with", "pale", "A last"]),
+        (0.3, ["a curve exists", "none with 0.180000", "A last curve", "The orbit that is"], []),
+    ],
+)
+def test_the_caption_says_which_numbers_have_a_curve(last, said, unsaid):
+    block = checked("last_curve")
+    known = facts(block, {"last_curve": residues([[1e-3, 1e-5], [1e-6, last]])})
+    text = " ".join(caption_of("a", block, known)[2:])
+    assert all(words in text for words in said) and not any(words in text for words in unsaid)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -62,6 +79,10 @@ def test_flux_without_regions_and_lobes_says_why():
     assert "neither region has an edge that can be drawn" in texts(figure)
     assert "no lobe: a jump of the\nmap cuts it" in texts(figure)
     assert not {style.SKY, style.VERMILION} & colors(figure)
+    block = checked("flux")
+    caption = caption_of("a", block, facts(block, {"flux": data}))
+    assert "why the outer branches have no lobe" in caption.shows and not caption.see
+    assert "region" not in " ".join(caption[2:])
 
 
 def test_the_difference_of_inner_branches_has_no_steps():

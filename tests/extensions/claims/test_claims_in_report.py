@@ -38,6 +38,17 @@ def test_the_first_screen_counts_the_verdicts(text):
     )
 
 
+def test_the_report_and_all_pages_count_the_statements_alike(text):
+    """CLAIMS.json is the source of the number, which README has by hand."""
+    pages = {name: (ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "CLAIMS.md")}
+    for page in [text, *pages.values()]:
+        found = re.findall(r"\b(\d+) (?:checkable )?statements", page)
+        assert found and {*found} == {str(ledger.checkable_count(ROWS))}
+    (row,) = (row for row in ROWS if row.number == 40)
+    (exponent,) = re.findall(r"converge to ([\d.]+);", row.value)
+    assert f"{exponent} ± {row.error}" in pages["README.md"]
+
+
 def test_corrections_first_and_the_whole_table(text):
     wrong = [row for row in ROWS if row.verdict in (FALSE, CORRECTED)]
     assert len(ROWS) == len(ledger.CLAIMS) and 0 < len(wrong) < len(ROWS)

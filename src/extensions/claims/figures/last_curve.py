@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas.sheet import Sheet
 from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 150, 1005  # pixels
-_CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
+CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
 
 
 @style.pinned()
@@ -26,7 +26,7 @@ def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
     above, below = (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), (_LEFT, 112, _RIGHT, 760)
     letters(sheet, above, below)
     # An orbit above the critical residue fills much of the plane.
-    wide = np.abs(last_curve["residue"].values[:, -1]) > _CRITICAL
+    wide = np.abs(last_curve["residue"].values[:, -1]) > CRITICAL
     full = style.ordered(wide.size)
     hues = [style.pale(hue) if fills else hue for hue, fills in zip(full, wide, strict=True)]
     _residues(sheet, above, last_curve, full)
@@ -51,18 +51,18 @@ def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str
     periods, residues = last_curve["period"].values, last_curve["residue"].values
     size = np.abs(residues)
     ends = log10([periods.min(), periods.max()]) + np.array([-0.1, 0.1])
-    ends_up = min(size.min(), _CRITICAL), 10.0 * max(size.max(), _CRITICAL)
+    ends_up = min(size.min(), CRITICAL), 10.0 * max(size.max(), CRITICAL)
     limits = np.floor(log10(ends_up)).tolist()
     up = decades(limits, "Residue, its modulus")
     panel = Panel(sheet, frame, decades(ends.tolist(), "Period"), up)
     panel.minor()
-    panel.line([1.0, 1e6], [_CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
+    panel.line([1.0, 1e6], [CRITICAL] * 2, color=style.BLACK, lw=0.7, ls="--")
     for i, hue in enumerate(hues):
         panel.line(periods[i], size[i], color=hue, lw=0.9)
         above = residues[i] > 0.0
         panel.dots(periods[i][above], size[i][above], hue)
         panel.dots(periods[i][~above], size[i][~above], hue, hollow=True)
-    panel.note(periods.max(), _CRITICAL, "critical: 1/4", shift=(0, 5), ha="right")
+    panel.note(periods.max(), CRITICAL, "critical: 1/4", shift=(0, 5), ha="right")
     if (residues <= 0.0).any():
         corner(sheet, frame, "hollow: negative")
 

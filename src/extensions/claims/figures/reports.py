@@ -1,11 +1,13 @@
 """What each kind of picture reports: quantity -> value as text, measured in its datasets.
 
 A function has the name of a kind. It is called with the scene's block and, as keywords, with the
-datasets of all stages of the kind, also those that it does not need.
+datasets of all stages of the kind, also those that it does not need. KIND_facts returns what the
+kind's caption says of the data.
 """
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from paper.figures.reports import listing
@@ -32,6 +34,18 @@ def rotation(block: dict[str, Any], rotation: xr.Dataset) -> dict[str, str]:
     return {"at the fixed point": numbers}
 
 
+def rotation_facts(block: dict[str, Any], rotation: xr.Dataset) -> dict[str, Any]:
+    """Name the energies at which the rotation number rises and falls, by 5 % of its range each."""
+    from .rotation import departures
+
+    turning = []
+    for energy, _, change in departures(rotation):
+        curve = np.append(0.0, change)
+        rise, fall = (np.max(c - np.minimum.accumulate(c)) for c in (curve, -curve))
+        turning += [f"{energy:g}"] * bool(min(rise, fall) > 0.05 * np.ptp(curve))
+    return {"turning": turning}
+
+
 def jumps(block: dict[str, Any], jumps: xr.Dataset, orbits: xr.Dataset) -> dict[str, str]:
     """Give the length of the curve in (x, y) where the map jumps, at each energy."""
     return {"jump curve": "length " + listing(jumps, "{:.4f} at E = {:g}", "length", "energy")}
@@ -54,6 +68,15 @@ def last_curve(block: dict[str, Any], last_curve: xr.Dataset) -> dict[str, str]:
     """Give residue and period of the last convergent of each noble rotation number."""
     last = last_curve.isel(convergent=-1)
     return {"last residues": listing(last, "{:.2g} at period {:.0f}", "residue", "period")}
+
+
+def last_curve_facts(block: dict[str, Any], last_curve: xr.Dataset) -> dict[str, Any]:
+    """Name the numbers whose last residue is above the critical one, and the others."""
+    from .last_curve import CRITICAL
+
+    above = np.abs(last_curve["residue"].values[:, -1]) > CRITICAL
+    names = np.array([f"{number:.6f}" for number in last_curve["rotation"].values])
+    return {"above": names[above].tolist(), "below": names[~above].tolist()}
 
 
 def exclusion(

@@ -95,8 +95,8 @@ def _detail(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
             panel.note(middle, p / q, name, (4, -2), "left", "top")
 
 
-def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
-    """Draw the departure from the fixed point's rotation number against the start, by energy."""
+def departures(rotation: xr.Dataset) -> list[tuple[float, np.ndarray, np.ndarray]]:
+    """Return energies, regular starts, and their departures from the fixed point's number."""
     curves = []
     for row in np.argsort(rotation["energy"].values, kind="stable").tolist():
         types = rotation["type"].values[row, : int(rotation["island"].values[row])]
@@ -104,6 +104,12 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
         start = rotation["place"].values[row, starts] - float(rotation["fixed_place"].values[row])
         change = rotation["rotation"].values[row, starts] - rotation["fixed_rotation"].values[row]
         curves.append((float(rotation["energy"].values[row]), start, change))
+    return curves
+
+
+def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
+    """Draw the departure from the fixed point's rotation number against the start, by energy."""
+    curves = departures(rotation)
     up = _departure_axis([change for _, _, change in curves])
     within = [inside([up.limits], [change]) for _, _, change in curves]
     far = max(

@@ -34,6 +34,7 @@ def section(config: Config, root: Path, links: Links) -> Section:
         "linked": links.of,
         "sentences": _sentences,
         "claims": verdicts,
+        "checkable": ledger.checkable_count(verdicts),
         "counts": list(Counter(verdict.verdict for verdict in verdicts).items()),
         "corrected": (FALSE, CORRECTED),
     }

@@ -25,6 +25,11 @@ def twist(block: dict[str, Any], twist: xr.Dataset) -> dict[str, str]:
     return {"zero of the twist": "none between them" if math.isnan(zero) else f"{zero:.12f}"}
 
 
+def twist_facts(block: dict[str, Any], twist: xr.Dataset) -> dict[str, Any]:
+    """Say whether there is a zero."""
+    return {"zero": not math.isnan(float(twist["zero"]))}
+
+
 def escape(block: dict[str, Any], escape: xr.Dataset) -> dict[str, str]:
     """Give the largest distance at each energy."""
     rows = zip(block["beside"], escape["distance"].values[:, -1], strict=True)

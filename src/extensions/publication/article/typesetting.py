@@ -3,12 +3,15 @@
 import re
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 _SOURCE = Path(__file__).with_name("article.typ")
 _STYLE = Path(__file__).with_name("article.css")
 # typst says this of every page: its export may change, but its version is pinned.
 _KNOWN = "html export is under active development and incomplete"
 _FORMULA = re.compile(r'<span data-alt="([^"]*)"><math\b(.*?)</span>', re.DOTALL)
+_LETTER, _PLAIN = re.compile(r"<mi>([^\x00-\x7f])</mi>"), '<mi mathvariant="normal">{}</mi>'
+_COMBINING_DOT, _DOT = "<mo>\u0307</mo>", "<mo>\u02d9</mo>"
 _HEAD = """\
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; \
 style-src 'unsafe-inline'">
@@ -28,8 +31,14 @@ def typeset(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
 
 
 def web_page(root: Path, numbers: str, source: Path = _SOURCE) -> bytes:
-    """Return the article as one HTML page, with the figures in it and formulas in MathML."""
+    """Return the article as one HTML page, with the figures in it and formulas in MathML.
+
+    Formulas need no mathematical font, which readers may lack: letters are plain ones, which the
+    style slants, and a dot has a width, without which Chromium draws it beside the letter.
+    """
     page = _compiled(root, numbers, source, format="html").decode()
+    page = _LETTER.sub(lambda found: _PLAIN.format(normalize("NFKC", found[1])), page)
+    page = page.replace(_COMBINING_DOT, _DOT)
     # Chromium names a formula by aria-label, other programs by alttext.
     page = _FORMULA.sub(r'<math aria-label="\1" alttext="\1"\2', page)
     head = _HEAD.format(style=_STYLE.read_text(encoding="utf-8"))
