@@ -273,7 +273,7 @@ def test_a_covering_on_cells_holds_for_a_bent_image(side, narrow):
         hsets.covering_margins(hsets.local_map(made(bent), source, ONE), source, ONE)
     beyond, room = hsets.prove_covering(made(bent), source, ONE)
     assert 0.2 < beyond < 0.77
-    assert 0.1 < room < 0.2
+    assert 0 < room < 0.19
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
