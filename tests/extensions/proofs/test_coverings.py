@@ -117,6 +117,16 @@ def test_the_local_map_has_the_coefficients_of_a_polynomial():
             assert abs(found - value) < 1e-12
 
 
+def test_curvatures_are_enclosed_over_the_whole_set():
+    """Of x^9, whose second derivative is far larger at the edges than halfway to them."""
+    def power(x):
+        return x * x * x * x * x * x * x * x * x
+
+    its = hsets.local_map(made(lambda x, y: (power(x), power(y))), ONE, ONE)
+    assert its.curvatures[0][0].contains(1)
+    assert its.curvatures[1][2].contains(1)
+
+
 EDGES = [  # coefficient, its enclosures of p' at p = 1 and at p = -1, and of q'
     (0, (2, 2), (2, 2), (2, 2)), (1, (2, 2), (-2, -2), (-2, 2)), (2, (-2, 2), (-2, 2), (-2, 2)),
     (3, (2, 2), (2, 2), (0, 2)), (4, (-2, 2), (-2, 2), (-2, 2)), (5, (0, 2), (0, 2), (0, 2)),
@@ -182,6 +192,7 @@ LANDS, FITS = "not proved to land beyond", "not proved to fit between"
     ((0, 3, 2.5), (0, 0, 0.5), LANDS),
     ((0, 3, 0, 0, 2.5), (0, 0, 0.5), LANDS),
     ((0, 3, 0, 0, 0, 2.5), (0, 0, 0.5), LANDS),
+    ((0, 3), (1, 0, 0), FITS),
     ((0, 3), (0.6, 0, 0.5), FITS),
     ((0, 3), (-0.6, 0, 0.5), FITS),
     ((0, 3), (0, 0.6, 0.5), FITS),
@@ -304,6 +315,7 @@ def test_a_dent_of_the_image_is_found_wherever_it_is(p, q, sign):
     lambda x, y: (x, y / 8), lambda x, y: (-x, y / 8), lambda x, y: (3 * x, y),
     lambda x, y: (3 * x + 4, y / 8), lambda x, y: (3 * x, y / 8 + 0.95), lambda x, y: (y / 8, 3 * x),
     lambda x, y: (3 * x, y / 8 - 0.95), lambda x, y: (1.5 * x - 0.75, y / 8),
+    lambda x, y: (3 * x, 0 * y + 1), lambda x, y: (x, 0 * y),
 ])  # fmt: skip
 def test_what_does_not_cover_is_refused(formula):
     with pytest.raises(NotProvedError, match="N does not cover M"):
@@ -408,19 +420,19 @@ def test_the_entropy_solves_its_equation(period, loop):
 
 def test_the_crossing_angle_follows_the_unstable_direction_through_the_chain(monkeypatch):
     """Slopes start within the cones at the chain's first set, and what came before has no effect."""
-    names, steps = ("S", "M_-1", "M_0", "M_1"), ((1, 9, 9, 1), (4, 1, 0.5, 0.25), (3, 0, 0, 9))
-    sets = [hset(name, [0, 0, 1, 1, 1, -1]) for name in names]
-    maps = {f"M{i}": local((0, *row[:2], 0, 0, 0), (0, *row[2:], 0, 0, 0))
-            for i, row in enumerate(steps)}  # fmt: skip
+    steps = (1, 9, 9, 1), (4, 1, 2, 0.25), (5, 2, 1, 0.5), (3, 0, 0, 9), (3, 0, 0, 9)
+    sets = [hset(f"M_{i}", [0, 0, 1, 1, 1, -1]) for i in range(-3, 3)]
+    maps = {it.name: local((0, *row[:2], 0, 0, 0), (0, *row[2:], 0, 0, 0))
+            for it, row in zip(sets, steps, strict=False)}  # fmt: skip
+    monkeypatch.setattr(hsets, "prove_hyperbolic", lambda _, a, b: ((1.0, 1.0), 1.0, maps[a.name]))
     edges = list(pairwise(sets))
-    found = dict(zip((a.name for a in sets), maps.values(), strict=False))
-    monkeypatch.setattr(hsets, "prove_hyperbolic", lambda _, a, b: ((1.0, 1.0), 1.0, found[a.name]))
-    angle = horseshoe._relations(None, edges, sets[1:], [[Fraction(0)] * 2] * 3)[2]
+    angle = horseshoe._relations(None, edges, sets[1:], [[Fraction(0)] * 2] * 5)[2]
     for slope in (-1, 0, 1):
-        after = (0.5 + 0.25 * slope) / (4 + slope)
-        half = np.arctan2(1 - after, 1 + after)
+        for a, b, c, d in steps[1:3]:
+            slope = (c + d * slope) / (a + b * slope)
+        half = np.arctan2(1 - slope, 1 + slope)
         assert angle.contains(min(2 * half, np.pi - 2 * half))
-    assert angle.rad() < 0.2
+    assert angle.rad() < 0.15
 
 
 # ---- a graph

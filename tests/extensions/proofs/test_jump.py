@@ -163,24 +163,32 @@ def test_landings_are_proved_at_every_angle_of_the_rim(angles, error, monkeypatc
     assert max(a.upper() for a in landed) >= arb.pi()
 
 
-def test_the_shortest_flights_land_by_an_inequality(monkeypatch):
-    """At any angle up to the limit; at a higher energy the bound fails, and further on the rim."""
-    for surface, limit in ((Surface("1/5", "1/25", "3"), 0.95), (PAPER, 0.3)):
-        monkeypatch.setattr(jump, "_SHORT_FLIGHTS", limit)
-        monkeypatch.setattr(jump, "_landing", lambda *_: Impact(*map(arb, (0, 0, 1, 1))))
+@pytest.mark.parametrize(("share", "lands"), [(0.98, True), (1.02, False)])
+def test_the_shortest_flights_land_by_an_inequality(share, lands, monkeypatch):
+    """-(g + x) < xdot^2/(4 A), just below and above it."""
+    beyond = bound_of_short_flights(share)
+    monkeypatch.setattr(jump, "_rim_point", lambda *_: (arb("0.05"), arb(str(beyond))))
+    monkeypatch.setattr(jump, "_landing", lambda *_: Impact(*map(arb, (0, 0, 1, 1))))
+    if lands:
+        jump.check_landings(PAPER)
+    else:
         with pytest.raises(NotProvedError, match="shortest flights from the rim"):
-            jump.check_landings(surface)
+            jump.check_landings(PAPER)
 
 
-def test_a_flight_shorter_than_the_inequality_allows_is_no_landing():
-    """The bound on which it rests, -(g + x) < xdot^2/(4 A): f > 0 somewhere up to t = xdot/A."""
+def bound_of_short_flights(share):
+    """-(g + x) at a share of the inequality's bound, for xdot = 0.05."""
+    v = mpmath.mpf("0.05")
+    return mpmath.findroot(lambda d: d - share * v * v / (4 * mpmath.hypot(G + d, v)), 0.01)
+
+
+def test_a_flight_within_the_inequality_lands_by_the_time_of_its_proof():
+    """f > 0 at t = xdot/A, which is at most 1."""
     for share in (0.2, 0.6, 0.99):
-        xdot = mpmath.mpf("0.1")
-        beyond = mpmath.findroot(lambda d: d - share * xdot**2 / (4 * mpmath.hypot(G + d, xdot)), 0.01)
-        gap = Gap(-G - beyond, xdot, -xdot, mpmath.mpf(0), G)
-        amplitude = mpmath.hypot(G + beyond, xdot)
-        assert gap(xdot / amplitude) > 0
-        assert first_root(gap)[0] < xdot / amplitude
+        beyond, v = bound_of_short_flights(share), mpmath.mpf("0.05")
+        gap, amplitude = Gap(-G - beyond, v, -v, mpmath.mpf(0), G), mpmath.hypot(G + beyond, v)
+        assert gap(v / amplitude) > 0
+        assert first_root(gap)[0] < v / amplitude
 
 
 @pytest.mark.parametrize(("impact", "reason"), [
@@ -259,9 +267,9 @@ def test_a_curve_crosses_from_edge_to_edge(crossing, sign):
         with pytest.raises(NotProvedError, match="N: the jump set may not reach both"):
             crossing(lambda t: 0 * t, lambda t, shape=shape: shape * (3 * t * t - 1.5))
     assert crossing(lambda t: 0 * t, lambda t: sign * (t + t / 4), 1, -1) == 0.25
-    for reach in (arb(1.2, 0.3), arb(1)):
+    for reach, aside in ((arb(1.2, 0.3), 0), (1.25, 0.25), (1.25, -0.25)):
         with pytest.raises(NotProvedError, match="N: the jump set may not reach both"):
-            crossing(lambda t: 0 * t, lambda t, reach=reach: sign * reach * t)
+            crossing(lambda t: 0 * t, lambda t, a=reach, b=aside: sign * a * t + b)
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
