@@ -94,6 +94,7 @@ LONG = "9" * MOST_DIGITS
     ("a = 0", lambda it: it.at_most("a", Fraction(2)), "a is 0, not above 0 and at most 2"),
     ("a = -1", lambda it: it.at_most("a", Fraction(2)), "a is -1, not above 0"),
     ("a_b = 3", lambda it: it.check("a_b", Fraction(2)), "of a b 3, not 2"),
+    ("a_b = 1", lambda it: it.check("a_b", Fraction(2)), "of a b 1, not 2"),
     ("a = 2", lambda it: it.check("a", Fraction(2), str), "missing or of another form"),
 ])  # fmt: skip
 def test_a_field_has_its_form_and_its_bounds(field, read, expected):

@@ -252,16 +252,23 @@ def test_an_orbit_run_through_more_than_once_does_not_double():
     assert "period may be shorter" in refused("six-elliptic-doubling", text, **bounds | other)
 
 
-def test_the_box_of_an_event_is_larger_than_the_certificates_by_the_error_of_its_numbers(monkeypatch):
-    boxes = []
-    monkeypatch.setattr(events, "enclose_zero", lambda _, values: boxes.append(values) or values)
-    text = 'kind = "a"\nevent = ["1/3"]\nradius = 1e-4'
-    with ctx.workprec(256), pytest.raises(NotProvedError, match="too widely"):
-        events._prove_event(Certificate(text, "a"), None, 1, Fraction(1, 10**4))
-    with ctx.workprec(256):
-        assert boxes[0][0].rad() >= arb("1e-4") + arb("1e-30")
+def test_the_box_of_an_event_is_larger_than_the_certificates_by_the_error_of_its_numbers(
+    monkeypatch,
+):
+    radii = []
+    monkeypatch.setattr(events, "box", lambda centre, radius: radii.append(radius))
+    monkeypatch.setattr(events, "enclose_zero", lambda *_: [arb(1)])
+    certificate = Certificate('kind = "a"\nevent = [1]\nradius = 1e-4', "a")
+    assert events._prove_event(certificate, None, 1, Fraction(1, 10**4)) == [1]
+    assert radii == [Fraction(1, 10**4) + Fraction(1, 10**30)]
     with pytest.raises(NotProvedError, match="as stated"):
-        events._prove_event(Certificate(text, "a"), None, 1, Fraction(2, 10**4))
+        events._prove_event(certificate, None, 1, Fraction(2, 10**4))
+
+
+@pytest.mark.parametrize("slope", [arb(1), arb(0), arb(-1, 2)])
+def test_a_trace_that_may_not_fall_is_refused(slope, monkeypatch):
+    monkeypatch.setattr(events, "_trace_slope", lambda *_: slope)
+    assert "to fall through -2" in refused("six-elliptic-doubling")
 
 
 @pytest.mark.parametrize("name", EVENTS)
