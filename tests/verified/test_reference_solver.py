@@ -3,13 +3,11 @@
 import mpmath
 import pytest
 from flights import FAMILIES, TAU, by_mpmath, draw
-from flint import arb, ctx
 from independent_solver import exact_map, judge
 from mpmath import mpf
 from sections import BALL
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.verified.flight import Flight, UndecidedError
 from pseudorigid.verified.reference_solver import first_root, orbit
 
 
@@ -42,22 +40,6 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
     for row in orbit(BALL, state, 40):
         *exact, _ = exact_map(mpf(BALL.k), mpf(BALL.g), *exact)
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
-
-
-def test_grazing_starts_are_decided_where_the_numbers_are_exact():
-    def root(x, c, s):
-        x, c, s = map(arb, (x, c, s))
-        return Flight(x, -s - c, c, s, arb(0.25)).first_root()
-
-    with ctx.workprec(128):
-        # x < -g: the ball leaves the floor although xdot + udot = 0
-        assert root(-0.5, 0.1, 0) > 0
-        # x = -g exactly and udot > 0: a cubic start
-        assert root(-0.25, 0.1, 0) > 0
-        with pytest.raises(UndecidedError):
-            root(-0.25, -0.1, 0)
-        with pytest.raises(UndecidedError, match="grazing"):
-            root(0.1, 0.1, arb(0, 1e-9))
 
 
 def test_a_ball_pressed_onto_the_floor_stays_there():

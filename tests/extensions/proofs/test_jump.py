@@ -300,7 +300,7 @@ def circle(monkeypatch):
         parts = {
             (periodic, "prove_saddles"): lambda *_: SimpleNamespace(points=points),
             (hsets, "prove_hyperbolic"): lambda _, a, b: relation(
-                a, b, (0.5, 1.0) if a.name == "S_5" else (1.0, 1.0), 0.25 if a.name == "S_4" else 1, None),
+                a, b, (0.5 if a.name == "S_5" else 1.0, 1.0), 0.25 if a.name == "S_4" else 1, None),
             (hsets, "prove_covering"): lambda _, a, b: relation(a, b, (2.0, 0.75)),
             (jump, "check_landings"): lambda _: calls.append("landings"),
             (jump, "prove_crossing"): lambda _, last, low, high: calls.append(
@@ -331,7 +331,8 @@ def test_the_loop_is_closed_and_the_chain_leads_to_the_jump_set(circle):
     assert chain == [f"M_{i}" for i in range(1, len(chain) + 1)]
     assert found.margins == {"beyond": 0.5, "room": 0.75, "cones": 0.25, "crossing": 0.125}
     for p, q in ((-1, -1), (1, 1), (1, -1), (-1, 1)):
-        assert found.digits["jump set at x"].overlaps(found.parts["chain"][-1].box(arb(p), arb(q))[0])
+        corner = found.parts["chain"][-1].box(arb(p), arb(q))[0]
+        assert found.digits["jump set at x"].overlaps(corner)
     assert circle("leaves = 0", "leaves = 5")[1][6] == "S_5 M_1"
 
 
@@ -384,7 +385,8 @@ def test_flights_from_the_rim_start_below_the_floor(monkeypatch):
     starts = []
     monkeypatch.setattr(flight, "_isolate", lambda *at: starts.append(at[1]) or (arb(1), arb(2)))
     monkeypatch.setattr(flight, "_refine", lambda *_: None)
-    for xdot, beyond in ((arb(-0.1, 0.02), arb(0.02, 0.01)), (arb(-0.3), arb(0)), (arb(0.1), arb(1))):
+    wide = arb(-0.1, 0.02), arb(0.02, 0.01)
+    for xdot, beyond in (wide, (arb(-0.3), arb(0)), (arb(0.1), arb(1))):
         flight.flight_from_rim(arb("0.04"), xdot, beyond)
         start, g = starts.pop(), mpmath.mpf("0.04")
         assert (start is None) == (xdot > 0)

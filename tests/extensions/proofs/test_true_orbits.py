@@ -113,7 +113,7 @@ def test_a_start_that_grazes_is_refused(monkeypatch):
 
 
 def test_the_true_point_stays_in_the_set_of_a_run():
-    """z + C e, |e_i| <= r_i: with so few bits that roundings of z dominate, and from exact starts."""
+    """z + C e, |e_i| <= r_i: from exact starts too, and where roundings of z dominate."""
     surface = Surface(**PAPER)
     for start, bits in (({"x": "1/4", "y": "0"}, 130), ({"x": "2/5", "y": "1/100"}, 300)):
         run, true = (Run(Start(surface, start), 40, n) for n in (bits, 2000))
