@@ -99,10 +99,12 @@ def test_nothing_is_enclosed_outside_a_premise(case):
 
 
 @pytest.mark.parametrize("place", range(4))
-def test_an_impact_that_is_no_number_has_no_bound(place):
+def test_an_impact_that_is_off_has_its_error_and_one_that_is_no_number_no_bound(place):
     before = np.array([[0.1], [0.05], [0.06]])
     exact = reference_solver.impact(ball_of(K), ball_of(G), *map(arb, before[:, 0]))
     impact = np.array([[float(a)] for a in exact])
     assert proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) < 1e-15
+    impact[place] += 1e-3
+    assert 1e-3 - 1e-15 < proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) < 1.1e-3
     impact[place] = np.nan
     assert proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) == np.inf
