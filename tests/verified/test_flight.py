@@ -151,6 +151,7 @@ def test_the_worst_gap_stays_negative_for_the_first_step(x, c, s, why, width):
     assert -0.01 * a * (1 + float(t)) < max(bounds) < 0  # sharp for the worst of them
 
 
+# "c > 0" cannot fail alone at x = -g: a step t > 0 implies it.
 @pytest.mark.parametrize(("x", "c", "s", "reason"), [
     (0.1, 0.1, arb(0), "may be grazing"), (0.1, 0.1, arb(0, 1e-9), "may be grazing"),
     (0.1, 0.1, arb(-1), "may be grazing"), (-0.5, 0.1, arb(0, 1e-9), "may be grazing"),
