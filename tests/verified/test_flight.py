@@ -117,18 +117,6 @@ def test_a_step_that_is_proposed_too_long_is_not_taken(monkeypatch):
     assert flight._step(arb(-1, 2), *at[1:]) == 0
 
 
-@pytest.mark.parametrize(("f", "d", "m"), [
-    (-1, 0.5, 2), (-1, -0.5, 2), (-1, 0.5, 0), (-1e-9, 3, 1), (-1, 0, 2), (-1, -1, 0), (-1, 0, 0),
-])  # fmt: skip
-def test_the_root_of_a_parabola(f, d, m):
-    root = flight._parabola_root(f, d, m)
-    if m == 0 and d <= 0:
-        assert root == math.inf
-    else:
-        assert root > 0
-        assert abs(f + d * root + m * root**2 / 2) < 1e-15
-
-
 @pytest.mark.parametrize(("x", "c", "s", "why"), [
     (0.1, 0.3, 0.2, "s > 0"), (-0.3, 0.3, 0.2, "s > 0, x < -g"), (-0.3, 0.3, 0.0, "s = 0, x < -g"),
     (-0.3, -0.3, 0.0, "s = 0, x < -g"), (-0.25, 0.3, 0.0, "x = -g"), (0.1, -0.3, 1e-6, "nearly"),
@@ -266,21 +254,3 @@ def test_a_march_that_reaches_no_root_is_undecided(monkeypatch):
     for start in (arb(20), arb("nan")):
         with pytest.raises(UndecidedError, match="may touch"):
             flight._isolate(its, start)
-
-
-def test_a_march_that_lacks_bits_is_repeated_with_more(monkeypatch):
-    march, used = flight._march, []
-
-    def counted(its, start):
-        used.append(ctx.prec)
-        if ctx.prec < 300:
-            raise UndecidedError("bits")
-        return march(its, start)
-
-    monkeypatch.setattr(flight, "_march", counted)
-    its = Flight(arb("0.1"), arb("-0.4"), arb("0.1"), arb("0.3"), arb("0.25"))
-    with ctx.workprec(500):
-        its.first_root()
-    assert used == [64, 128, 256, 500]
-    with ctx.workprec(200), pytest.raises(UndecidedError, match="bits"):
-        its.first_root()
