@@ -383,6 +383,14 @@ def test_a_horseshoe_has_all_relations_and_the_least_margins(horseshoe_of):
     assert (middle.s, last.centre, last.u, last.s) == ((1, -1), (20, -1), (0, -1), (1, 0))
 
 
+def test_the_chain_comes_back_in_the_opposite_order():
+    first = "[[20, 1, 1, 0, 0, 1]"
+    text = HORSESHOE.replace(first, f"{first}, [25, 2, 1, 0, 0, 1]")
+    chain = horseshoe._sets(Certificate(text, "horseshoe"))[1]
+    assert [it.name for it in chain] == ["M_-2", "M_-1", "M_0", "M_1", "M_2"]
+    assert [it.centre for it in chain] == [(20, 1), (25, 2), (30, 0), (25, -2), (20, -1)]
+
+
 @pytest.mark.parametrize(("old", "new", "changed", "reason"), [
     ("", "", {"points": ((0, 0), (10, 2.5), (10, -1))}, "S_1 is not proved to contain"),
     ("[1, 0.5], ", "", {}, "margins for 7 coverings"),

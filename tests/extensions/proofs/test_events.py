@@ -191,6 +191,35 @@ def test_a_flight_proved_clear_is_below_the_floor_throughout():
     assert clear > 40
 
 
+def test_the_time_up_to_which_a_bound_shows_it_is_right_and_sharp(monkeypatch):
+    """That bound is negative up to it for all flights in the balls, and not up to twice as long."""
+    random, shorter = np.random.default_rng(12), 0
+    for _ in range(200):
+        x, c = -0.04 + random.normal() * 10 ** random.uniform(-2, 0), random.normal()
+        s = random.choice([0.0, 10 ** random.uniform(-4, 0)])
+        wide, spans = 0.2 * min(abs(x + 0.04), 0.1), []
+        monkeypatch.setattr(events, "holds_throughout", lambda *at, to=spans: to.append(at) or True)
+        its = Flight(arb(x, wide), None, arb(c, wide), arb(s), arb("0.04"))
+        try:
+            events._check_clear(its, arb(3))
+        except UndecidedError:
+            continue
+        ((_, first, until, _),) = spans
+        assert until == 3
+        bend, jerk = 0.04 + x + wide, abs(c) + wide
+        amplitude = float((its.x * its.x + its.c * its.c).sqrt().upper())
+
+        def bounds(t, of=(bend, jerk, amplitude, s)):
+            bend, jerk, amplitude, s = of
+            rest = jerk * t / 6 + amplitude * t * t / 24
+            return bend / 2 + rest, -s + t * (abs(bend) / 2 + rest)
+
+        assert min(bounds(float(first))) < 1e-9
+        assert first == 3 or min(bounds(2 * float(first))) > -1e-9
+        shorter += first < 3
+    assert shorter > 60
+
+
 @pytest.mark.parametrize(("x", "c", "s", "until", "reason"), [
     (-0.3, 0.1, arb(0), 1, ""), (-0.3, 0.1, arb(0.1), 1, ""), (0.1, 0.1, arb(0.2), 1, ""),
     (-0.3, 0.1, arb(-1e-9), 1, "may be negative"), (-0.3, 0.1, arb(0, 1e-9), 1, "may be negative"),

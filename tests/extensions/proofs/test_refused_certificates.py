@@ -232,9 +232,10 @@ def test_stated_margins_that_no_covering_has_are_refused(checker, margin, reason
 
 
 @pytest.mark.parametrize("centre", [0.7, 0.785, 0.79, 1.2, 1.5707])
-def test_the_crossing_angle_is_acute_even_near_a_right_angle(centre):
+@pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (1, -1)])
+def test_the_crossing_angle_is_acute_even_near_a_right_angle(centre, signs):
     """The angle between (x, y) and (x, -y), for all slopes of a wide ball."""
-    axes = (arb(1), arb(0)), (arb(0), arb(1))
+    axes = (arb(signs[0]), arb(0)), (arb(0), arb(signs[1]))
     tangents = [tan(min(centre + offset, 1.57)) for offset in (-0.1, -0.03, 0.04, 0.1)]
     slope = arb(tangents[0]).union(arb(tangents[-1]))
     angle = horseshoe._crossing_angle(HSet("M_0", (arb(0), arb(0)), *axes), slope)
