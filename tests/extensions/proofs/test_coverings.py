@@ -421,14 +421,16 @@ def test_each_premise_of_a_horseshoe_is_looked_at(old, new, changed, reason, hor
 
 
 @pytest.mark.parametrize(("period", "loop"), [(1, 1), (3, 5), (6, 119), (14, 9)])
-def test_the_entropy_solves_its_equation(period, loop):
-    with ctx.workprec(128):
+@pytest.mark.parametrize("bits", [12, 20, 128])
+def test_the_entropy_solves_its_equation(period, loop, bits):
+    """Also where the sign of the equation's two sides is not decided near the solution."""
+    with ctx.workprec(bits):
         found = horseshoe._entropy(period, loop)
-        assert found.rad() < 1e-17
-        with mpmath.workdps(40):
-            paths = lambda h: mpmath.exp(-period * h) + mpmath.exp(-loop * h) - 1  # noqa: E731
-            true = mpmath.findroot(paths, (0.001, 1), solver="anderson")
-            assert found.contains(arb(mpmath.nstr(true, 30)))
+    with ctx.workprec(128), mpmath.workdps(40):
+        assert found.rad() < (1e-17 if bits == 128 else 0.05)
+        paths = lambda h: mpmath.exp(-period * h) + mpmath.exp(-loop * h) - 1  # noqa: E731
+        true = mpmath.findroot(paths, (0.001, 1), solver="anderson")
+        assert found.contains(arb(mpmath.nstr(true, 30)))
 
 
 def test_the_crossing_angle_follows_the_unstable_direction_through_the_chain(monkeypatch):
