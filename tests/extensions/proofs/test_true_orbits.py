@@ -134,6 +134,24 @@ def test_the_true_point_stays_in_the_set_of_a_run():
         assert 0 < max(run.radii) < arb(2) ** -70
 
 
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_start_at_the_edge_of_a_set_stays_in_it(side):
+    """The set is a segment along x or along y at first."""
+    surface, width = Surface(**PAPER), Fraction(1, 2**120)
+    at = [Fraction(1, 4), Fraction(1, 64)]
+    run = Run(Start(surface, dict(zip("xy", at, strict=True))), 5, 300)
+    run.radii[side] = ball_of(width)
+    at[side] += width
+    edge = Run(Start(surface, dict(zip("xy", at, strict=True))), 5, 300)
+    for _ in range(3):
+        run.step()
+        edge.step()
+        with ctx.workprec(300):
+            off = [[a - b] for a, b in zip(edge.centre, run.centre, strict=True)]
+            sides = run.frame.inv() * arb_mat(off)
+            assert all(abs(sides[i, 0]) <= run.radii[i] for i in (0, 1))
+
+
 def test_a_frame_is_orthogonal_along_the_longer_column():
     columns = arb_mat([[3, 1], [4, 2]])
     for radii, direction in (((1, 1), (3, 4)), ((0.01, 1), (1, 2))):
@@ -185,6 +203,7 @@ def test_a_value_is_rounded_only_if_the_whole_ball_is(value, width, nearest):
 
 @pytest.mark.parametrize(("start", "inside"), [
     ("0.999", True), ("-0.999", True), ("1", False), ("-1", False), ("2", False),
+    ({"x": "0.1", "y": "0.17"}, True), ({"x": "0.1", "y": "-0.18"}, False),
     ({"x": "0.1", "y": "0.1"}, True), ({"x": "0.6", "y": "0"}, False),
     ({"x": "0.2", "y": "0.2"}, False), ({"x": "0.2", "y": "-0.2"}, False),
     ({"x": "0.1", "xdot": "0.1"}, True), ({"x": "0.1", "xdot": "-0.1"}, True),
