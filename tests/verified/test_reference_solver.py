@@ -9,7 +9,8 @@ from mpmath import mpf
 from sections import BALL
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.verified.flight import Flight, UndecidedError
+from pseudorigid.verified import reference_solver
+from pseudorigid.verified.flight import UndecidedError
 from pseudorigid.verified.reference_solver import first_root, orbit
 
 
@@ -44,21 +45,36 @@ def test_the_proved_orbit_is_that_of_sixty_digits():
         assert max(abs(a - float(b)) for a, b in zip(row, exact, strict=True)) < 1e-16
 
 
-def test_grazing_starts_are_decided_where_the_numbers_are_exact():
-    def root(x, c, s):
-        x, c, s = map(arb, (x, c, s))
-        return Flight(x, -s - c, c, s, arb(0.25)).first_root()
-
-    with ctx.workprec(128):
-        # x < -g: the ball leaves the floor although xdot + udot = 0
-        assert root(-0.5, 0.1, 0) > 0
-        # x = -g exactly and udot > 0: a cubic start
-        assert root(-0.25, 0.1, 0) > 0
-        with pytest.raises(UndecidedError):
-            root(-0.25, -0.1, 0)
-        with pytest.raises(UndecidedError, match="grazing"):
-            root(0.1, 0.1, arb(0, 1e-9))
+@pytest.mark.parametrize(("x", "v", "w", "stays"), [
+    (0.1, 0.05, -0.05, True), (-0.25, 0.1, -0.1, True), (-0.25, 0.0, 0.0, True),
+    (-0.25, -0.1, 0.1, False), (-0.5, 0.1, -0.1, False), (-0.5, 0.0, 0.0, False),
+    (0.1, 0.05, -0.04, False), (-0.25, 0.1, -0.05, False),
+])  # fmt: skip
+def test_a_ball_stays_where_it_is_pressed_onto_the_floor(x, v, w, stays):
+    """s = 0 and x > -g, or x = -g with udot <= 0, all exact in doubles; g = 1/4."""
+    root = first_root(0.25, 0.25, x, v, w)
+    assert (root == 0) == stays
+    assert stays or root.rel_accuracy_bits() >= 150
+    state = reference_solver.impact(*map(arb, (0.25, 0.25, x, v, w)))
+    assert (state[:3] == (x, v, w)) == stays
 
 
-def test_a_ball_pressed_onto_the_floor_stays_there():
-    assert first_root(0.2, 0.04, 0.1, 0.05, -0.05) == 0
+@pytest.mark.parametrize("failure", ["None", "UndecidedError"])
+def test_bits_are_doubled_until_a_question_is_decided(failure, monkeypatch):
+    used = []
+
+    def compute(least):
+        used.append(ctx.prec)
+        if ctx.prec >= least:
+            return arb(7)
+        if failure == "None":
+            return None
+        raise UndecidedError("bits")
+
+    assert reference_solver.decided(lambda: compute(400), 100) == 7
+    assert used == [100, 200, 400]
+    assert reference_solver.decided(lambda: compute(10**6), 3000) is None
+    assert used[3:] == [3000, 6000]
+    monkeypatch.setattr(reference_solver, "impact", lambda *_: (None, None, None, arb(1, 0.1)))
+    with pytest.raises(ArithmeticError, match="cannot tell a touch from a miss"):
+        first_root(0.2, 0.04, 0.1, 0.05, 0.05)

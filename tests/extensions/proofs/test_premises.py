@@ -6,24 +6,17 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from certificates import numbers, refused, with_field, with_rows
-from flint import acb, arb
+from flint import arb
 
 from extensions.proofs import THEOREMS, Surface, proved_impacts
 from extensions.proofs.checkers import (
-    events,
     fixed_point,
-    graph,
-    jump,
     one_zero,
     periodic,
 )
-from extensions.proofs.checkers.certificate import NotProvedError, box, holds_throughout
-from extensions.proofs.checkers.hsets import HSet
-from extensions.proofs.enclosure import jets
-from extensions.proofs.enclosure.jets import Jet
+from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.enclosure.surface import ball_of
-from pseudorigid.verified import flight, reference_solver
-from pseudorigid.verified.flight import Flight
+from pseudorigid.verified import reference_solver
 
 PAPER = Surface("1/5", "1/25", "1/100")
 K, G = Fraction(1, 5), Fraction(1, 25)
@@ -31,13 +24,8 @@ K, G = Fraction(1, 5), Fraction(1, 25)
 
 @pytest.mark.parametrize(("name", "field", "value", "reason"), [
     ("jump-set", "speed", "0.1172", "rim point with x < -g"),
-    ("jump-set", "speed", "-0.13670", "rim point with x < -g"),
-    ("jump-set", "speed", "0.2", "rim point with x < -g"),
     ("jump-set", "radius", "0", "not above 0 and at most"),
-    ("jump-set", "radius", "1e-27", "not above 0 and at most"),
-    *(("no-circle", "touches", touches, "rim point with x < -g")  # through the floor
-      for touches in (["-0.13835", "-0.13670"], ["-0.0741", "0.1172"], ["-9", "9"])),
-    ("no-circle", "leaves", 6, "does not begin at its saddles"),
+    ("no-circle", "touches", ["-0.13835", "-0.13670"], "rim point with x < -g"),
     ("one-fixed-point", "theta_below", "-3.66", "theta is not proved"),
     ("one-fixed-point", "theta_below", "4.8", "theta is not proved"),
     ("fixed-point-elliptic", "theta", ["2.30867038629863620493595529693534352062"] * 2, "1e-30"),
@@ -59,9 +47,6 @@ K, G = Fraction(1, 5), Fraction(1, 25)
     ("twist-zero", "energy", "-1/250", "not allowed: above"),
     ("twist-zero", "energy", "0.0291977581390", ""),  # 1e-13 off
     ("curve-six", "loss", "0.02", "6 times the loss"),
-    ("horseshoe-outer", "leaves", 6, "saddles"),
-    ("entropy-lower", "growth", "1", "not above 1"),
-    ("entropy-lower", "weights", ["0", "1"], "not positive"),
 ])  # fmt: skip
 def test_a_number_outside_a_premise_or_the_statement_is_refused(name, field, value, reason):
     text = json.dumps(value)  # TOML has numbers, strings and lists in the same form
@@ -70,15 +55,9 @@ def test_a_number_outside_a_premise_or_the_statement_is_refused(name, field, val
 
 @pytest.mark.parametrize(("name", "field", "row", "columns", "values", "reason"), [
     ("entropy-lower", "sets", 0, (2, 3), None, "sides may be parallel"),
-    ("entropy-lower", "chains", 0, (4, 5), ("0", "0"), "sides may be parallel"),
-    ("entropy-lower", "connections", 0, (2, 3), ("0.5", "-0.5"), "not a part of its set"),
-    ("entropy-lower", "connections", 0, (2, 3), ("-2", "2"), "not a part of its set"),
-    ("entropy-lower", "connections", 0, (2, 3), ("-1", "1"), "overlap"),
-    ("entropy-lower", "connections", 0, (4, 0), ("0", "0"), "does not lead from a set"),
     ("no-circle", "chain", -1, (2, 3), None, "sides may be parallel"),
     ("no-circle", "saddles", 2, (0, 1), ("0.21107112", "0.03071019"), "Newton|floor|period"),
     ("horseshoe-outer", "approach", 0, (4, 5), ("0", "0"), "sides may be parallel"),
-    ("horseshoe-outer", "margins", 0, (0, 1), ("-1", "-1"), "below 0"),
     ("six-elliptic", "points", 3, (0, 1), ("0.6", "0.1"), "rim"),
 ])  # fmt: skip
 def test_rows_outside_a_premise_are_refused(name, field, row, columns, values, reason):
@@ -103,35 +82,12 @@ def test_a_statement_outside_a_premise_is_refused(name, bounds, reason):
     assert reason in refused(name, None, **bounds)
 
 
-def at_rest(c):
-    return Flight(arb(-1), -arb(c), arb(c), arb(0), arb(0))
-
-
 OUTSIDE = {
-    "flight: g = 0": lambda: at_rest(1).first_root(),
-    "flight: g < 0": lambda: Flight(arb(0), arb(-1), arb(0), arb(1), arb(-1)).first_root(),
-    "flight: s < 0": lambda: Flight(arb(0), arb(1), arb(0), arb(-1), arb(1)).first_root(),
-    "rim: x > -g": lambda: flight.flight_from_rim(arb("0.04"), arb("-0.13"), arb("-0.01")),
-    "surface: off the rim": lambda: PAPER.impact(arb("0.6"), arb(0)),
-    "surface: complex s": lambda: PAPER.speed(acb(2, 1), acb(0)),
-    "surface: width": lambda: Surface("1/5", "1/25", "1/100", "-1/100"),
-    "root: square < 0": lambda: jets.square_root(acb(-1, 1)),
-    "jet: a constant": lambda: Jet.plane(2, acb(0), acb(0))[0].at(*Jet.plane(2, acb(1), acb(0))),
     "energy: theta > pi": lambda: fixed_point.energy_at(arb(1), arb(1), arb(4)),
     "trace: theta > pi": lambda: fixed_point.trace_at(arb(1), arb(4)),
     "slope: theta about pi": lambda: fixed_point.slope_at(arb(1), arb(3.1, 0.1)),
     "band: beyond": lambda: one_zero.over_band(K, G, Fraction(5, 2), Fraction(13, 5)),
-    "box: radius < 0": lambda: box([Fraction(0)], Fraction(-1)),
-    "interval: backwards": lambda: holds_throughout(lambda t: True, arb(1), arb(0), arb(1)),
-    "interval: no exact end": lambda: holds_throughout(bool, arb(0), arb(1, 2), arb(1)),
-    "set: perhaps": lambda: HSet("N", (arb(0),) * 2, (arb(1), arb(0)), (arb(1), arb(0, 1e-9))),
-    "touch: no x < -g": lambda: jump._rim_point(Surface(K, G, "1/1000"), arb(1)),
-    "landing: x > -g": lambda: jump._landing_from_rim(PAPER, arb("-0.13835")),
-    "landing: no number": lambda: jump._landing_from_rim(PAPER, arb("nan")),
-    "landings: no x < -g": lambda: jump.check_landings(Surface(K, G, "1/1000")),
     "orbit: radius": lambda: periodic.prove(PAPER, [[Fraction(0), Fraction(0)]], Fraction(-1)),
-    "growth: below 1": lambda: graph.check_growth(None, Fraction(1, 2), []),
-    "apex: not clear": lambda: events._check_clear(PAPER.flight(arb(0), arb(0)), arb(10)),
 }
 
 
@@ -143,10 +99,12 @@ def test_nothing_is_enclosed_outside_a_premise(case):
 
 
 @pytest.mark.parametrize("place", range(4))
-def test_an_impact_that_is_no_number_has_no_bound(place):
+def test_an_impact_that_is_off_has_its_error_and_one_that_is_no_number_no_bound(place):
     before = np.array([[0.1], [0.05], [0.06]])
     exact = reference_solver.impact(ball_of(K), ball_of(G), *map(arb, before[:, 0]))
     impact = np.array([[float(a)] for a in exact])
     assert proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) < 1e-15
+    impact[place] += 1e-3
+    assert 1e-3 - 1e-15 < proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) < 1.1e-3
     impact[place] = np.nan
     assert proved_impacts.impact_errors(K, G, before, impact[:3], impact[3]) == np.inf

@@ -208,12 +208,6 @@ def test_the_length_of_the_jump_set_is_a_lower_bound(results):
         assert float(theorem.bounds["length"]) < few < many < arb("0.404858179457")  # CLAIMS.md
 
 
-def test_the_entropy_solves_its_equation(results):
-    loop = THEOREMS["horseshoe-outer"].prove().parts["loop"]
-    entropy = float(middle(results["horseshoe-outer"].digits["entropy"]))
-    assert np.exp(-6 * entropy) + np.exp(-loop * entropy) == pytest.approx(1, abs=1e-12)
-
-
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
     whole = theorem_verdict("six-elliptic").attrs
     assert whole["verdict"] == "proved"

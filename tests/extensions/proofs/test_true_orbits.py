@@ -1,14 +1,20 @@
 """Orbits of exact starts: against independent orbits of many digits, and refusals."""
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
 from exact_orbits import state_at
+from flint import arb, arb_mat, ctx
 from independent_solver import flight
 from sections import BALL
 
-from extensions.proofs import true_orbit
+from extensions.proofs import Surface, true_orbit
+from extensions.proofs.enclosure.surface import ball_of
+from extensions.proofs.true_orbits import enclosed_run
 from extensions.proofs.true_orbits import orbit as orbit_module
+from extensions.proofs.true_orbits.enclosed_run import Run, ShortOfBitsError, Start
 from extensions.proofs.true_orbits.orbit import true_scene_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
 
@@ -101,3 +107,127 @@ def test_a_start_that_grazes_is_refused(monkeypatch):
     x, y = "0.1500343560691206835267020387", "-0.1446215630131739871189398710"
     with pytest.raises(ValueError, match=r"impact 0: .* touch"):
         true_orbit(**PAPER, x=x, y=y, impacts=10)
+
+
+# ---- the bound on the error
+
+
+def test_the_true_point_stays_in_the_set_of_a_run():
+    """z + C e, |e_i| <= r_i: from exact starts too, and where roundings of z dominate."""
+    surface = Surface(**PAPER)
+    for start, bits in (({"x": "1/4", "y": "0"}, 130), ({"x": "2/5", "y": "1/100"}, 300)):
+        run, true = (Run(Start(surface, start), 40, n) for n in (bits, 2000))
+        for _ in range(40):
+            try:
+                run.step()
+            except ShortOfBitsError:
+                break
+            true.step()
+            with ctx.workprec(2000):
+                off = [(a - b) for a, b in zip(true.centre, run.centre, strict=True)]
+                sides = run.frame.inv() * arb_mat([[a] for a in off])
+                for side, radius in zip((sides[0, 0], sides[1, 0]), run.radii, strict=True):
+                    assert abs(side) <= radius + arb(2) ** -1500
+                for z, ball in zip(true.centre, run._box(bits), strict=True):
+                    assert ball.contains(z)
+        assert run.count > 10
+        assert 0 < max(run.radii) < arb(2) ** -70
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_start_at_the_edge_of_a_set_stays_in_it(side):
+    """The set is a segment along x or along y at first."""
+    surface, width = Surface(**PAPER), Fraction(1, 2**120)
+    at = [Fraction(1, 4), Fraction(1, 64)]
+    run = Run(Start(surface, dict(zip("xy", at, strict=True))), 5, 300)
+    run.radii[side] = ball_of(width)
+    at[side] += width
+    edge = Run(Start(surface, dict(zip("xy", at, strict=True))), 5, 300)
+    for _ in range(3):
+        run.step()
+        edge.step()
+        with ctx.workprec(300):
+            off = [[a - b] for a, b in zip(edge.centre, run.centre, strict=True)]
+            sides = run.frame.inv() * arb_mat(off)
+            assert all(abs(sides[i, 0]) <= run.radii[i] for i in (0, 1))
+
+
+def test_a_frame_is_orthogonal_along_the_longer_column():
+    columns = arb_mat([[3, 1], [4, 2]])
+    for radii, direction in (((1, 1), (3, 4)), ((0.01, 1), (1, 2))):
+        frame, inverse = enclosed_run._orthogonal_frame(columns, list(map(arb, radii)))
+        a, b = frame[0, 0], frame[1, 0]
+        assert abs(a * direction[1] - b * direction[0]) < 1e-14
+        assert (frame[0, 1], frame[1, 1]) == (-b, a)
+        assert abs(a * a + b * b - 1) < 1e-14
+        unit = frame * inverse
+        assert all(unit[i, j].contains(int(i == j)) for i in (0, 1) for j in (0, 1))
+
+
+@pytest.mark.parametrize(("row", "radii", "bound"), [
+    ((1, -2), (3, 4), 11), ((-1, 2), (-3, 4), 11), ((0, 1), (5, 0.5), 0.5), ((1, 1), (0, 0), 0),
+])  # fmt: skip
+def test_a_bound_takes_each_side_at_its_worst(row, radii, bound):
+    assert enclosed_run._bound(list(map(arb, row)), list(map(arb, radii))) == bound
+
+
+@pytest.mark.parametrize(("value", "exponent"), [
+    (1, 1), (0.75, 0), (2, 2), (3, 2), (2.0**-80, -79), (0, -enclosed_run.MOST_BITS),
+])  # fmt: skip
+def test_an_exponent_bounds_its_number(value, exponent):
+    found = enclosed_run._exponent(arb(value))
+    assert found == exponent
+    assert arb(value) <= arb(2) ** found
+
+
+TINY = Fraction(1, 2**1080)
+
+
+@pytest.mark.parametrize(("value", "width", "nearest"), [
+    (Fraction(1, 10), 0, 0.1), (1, Fraction(1, 2**60), 1.0), (-3, 0, -3.0),
+    (0, Fraction(1, 2**90), 0.0), (Fraction(1, 2**91), Fraction(1, 2**90), 0.0),
+    (1 + Fraction(1, 2**53) + TINY, 0, 1 + 2.0**-52), (1 + Fraction(1, 2**53) - TINY, 0, 1.0),
+    (1 + Fraction(1, 2**53), TINY, None), (0, Fraction(1, 2**70), None),
+    (1, Fraction(1, 2**50), None), (Fraction(1, 2**100), Fraction(1, 2**140), None),
+])  # fmt: skip
+def test_a_value_is_rounded_only_if_the_whole_ball_is(value, width, nearest):
+    """The midpoint between two doubles is not decided, nor a small number away from zero."""
+    with ctx.workprec(2000):
+        ball = ball_of(Fraction(value)) + arb(0, 1) * ball_of(Fraction(width))
+        if nearest is None:
+            with pytest.raises(ShortOfBitsError):
+                enclosed_run._nearest(ball)
+        else:
+            assert enclosed_run._nearest(ball) == nearest
+
+
+@pytest.mark.parametrize(("start", "inside"), [
+    ("0.999", True), ("-0.999", True), ("1", False), ("-1", False), ("2", False),
+    ({"x": "0.1", "y": "0.17"}, True), ({"x": "0.1", "y": "-0.18"}, False),
+    ({"x": "0.1", "y": "0.1"}, True), ({"x": "0.6", "y": "0"}, False),
+    ({"x": "0.2", "y": "0.2"}, False), ({"x": "0.2", "y": "-0.2"}, False),
+    ({"x": "0.1", "xdot": "0.1"}, True), ({"x": "0.1", "xdot": "-0.1"}, True),
+    ({"x": "0.1", "xdot": "-0.155"}, False), ({"x": "0.1", "xdot": "0.155"}, True),
+    ({"x": "0.1", "xdot": "0.17"}, False), ({"x": "0.1", "xdot": "-0.17"}, False),
+])  # fmt: skip
+def test_a_start_is_inside_the_rim_exactly_where_the_contact_speed_is_positive(start, inside):
+    surface = Surface(**PAPER)
+    if not inside:
+        with pytest.raises(ValueError, match="is not inside the section's rim"):
+            Start(surface, start)
+        return
+    x, y = Start(surface, start).balls()
+    v, w = surface.velocities(x, y)
+    assert v + w > 0
+    if isinstance(start, str):
+        centre, size = BALL.section(0.01)
+        assert (float(x), float(y)) == (pytest.approx(centre + float(start) * size), 0)
+    else:
+        assert x.overlaps(arb(start["x"]))
+        which, value = [*start.items()][1]
+        assert {"y": y, "xdot": v}[which].overlaps(arb(value))
+
+
+def test_a_run_that_needs_too_many_bits_is_refused():
+    with pytest.raises(ValueError, match="3 impacts of this orbit need 1000001 bits"):
+        Run(Start(Surface(**PAPER), "0.5"), 3, enclosed_run.MOST_BITS + 1)

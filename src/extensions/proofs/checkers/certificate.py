@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import inf
+from math import inf, nextafter
 from typing import Any
 
 from flint import arb
@@ -204,4 +204,4 @@ def box(centre: Sequence[Fraction], radius: Fraction) -> list[arb]:
 def lower_bound(value: arb) -> float:
     """Return a lower bound of a ball, rounded down."""
     low = float(value.lower())
-    return low if arb(low) <= value.lower() else float(arb(low) - abs(low) * 2.0**-52)
+    return low if arb(low) <= value.lower() else nextafter(low, -inf)

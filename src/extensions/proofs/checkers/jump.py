@@ -236,6 +236,7 @@ def check_landings(surface: Surface) -> None:
     g, last = surface.constants()[1], arb(_SHORT_FLIGHTS).acos()
     xdot, beyond = _rim_point(surface, arb(0).union(last))
     x = -g - beyond
+    # xdot > 0 holds at every energy, as the cosine of these angles is at least _SHORT_FLIGHTS
     if not (xdot > 0 and beyond < xdot * xdot / (4 * (x * x + xdot * xdot).sqrt())):
         raise NotProvedError("the shortest flights from the rim are not proved to land")
 

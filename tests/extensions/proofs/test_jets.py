@@ -1,0 +1,180 @@
+"""Truncated series: each operation against values at displaced points, and enclosures of sets."""
+
+from fractions import Fraction
+from itertools import product
+from math import prod
+
+import pytest
+from flint import acb, arb, ctx
+
+from extensions.proofs import Surface
+from extensions.proofs.enclosure import jets, surface
+from extensions.proofs.enclosure.jets import Jet, algebra, square_root
+from pseudorigid.verified.flight import launch
+
+PAPER = Surface("1/5", "1/25", "1/100")
+OPERATIONS = {
+    "+": lambda a, b: 2 + (a + b) + arb("0.5"), "-": lambda a, b: 3 - (a - b) - arb("0.5"),
+    "*": lambda a, b: arb("0.7") * (a * b) * 3, "/": lambda a, b: 2 / a + a / b + b / 7,
+    "negative": lambda a, b: -(a * a * b), "sqrt": lambda a, b: (a + b * b).sqrt(),
+    "square_root": lambda a, b: square_root(a * b + 1),
+    "sine": lambda a, b: (a * b).sin_cos()[0], "cosine": lambda a, b: (a - b * b).sin_cos()[1],
+    "impact x": lambda a, b: PAPER.impact(a / 10, b / 100).x,
+    "impact tau": lambda a, b: PAPER.impact(a / 10, b / 100).tau,
+}  # fmt: skip
+
+
+def value_of(jet, *steps):
+    """The sum of a series' terms at displacements."""
+    total = 0
+    for monomial, coefficient in zip(jet.algebra.monomials, jet.coefficients, strict=True):
+        powers = (step**power for step, power in zip(steps, monomial, strict=True))
+        total = total + prod(powers, start=coefficient)
+    return total
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_a_series_has_the_values_of_its_function_nearby(name, order):
+    """Up to terms of the next order, which are there."""
+    with ctx.workprec(500):
+        x, y, h = arb("0.8"), arb("1.3"), arb(10) ** -20
+        jet = OPERATIONS[name](*Jet.plane(order, x, y))
+        off = abs(value_of(jet, h, -2 * h) - OPERATIONS[name](x + h, y - 2 * h))
+        assert off < 1e4 * h ** (order + 1)
+        if name not in "+-" and not (name == "*" and order > 1) and order < 3:
+            assert off > 1e-4 * h ** (order + 1)
+        assert jet.constant.overlaps(OPERATIONS[name](x, y))
+
+
+def test_powers_of_a_parameter_are_kept_to_their_own_order():
+    plain, both = algebra(2, 2), algebra(2, 2, 1)
+    assert plain.monomials == ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+    assert {m[:2] for m in both.monomials} == {*plain.monomials}
+    assert sorted(m[2] for m in both.monomials) == [0] * 6 + [1] * 6
+    assert (plain.order, both.order) == (2, 3)
+    for table in (plain, both):
+        its = table.monomials
+        sums = {(i, j): tuple(map(sum, zip(its[i], its[j], strict=True)))
+                for i, j in product(range(len(its)), repeat=2)}  # fmt: skip
+        assert {(i, j): its[k] for i, j, k in table.products} == {
+            pair: total for pair, total in sums.items() if total in its
+        }
+    x, y, t = Jet.series(both, arb(2), arb(3), arb(5))
+    assert [jet.constant for jet in (x, y, t)] == [2, 3, 5]
+    assert [(x * y * t)[m] for m in ((0, 0, 0), (1, 1, 1), (0, 0, 1), (1, 0, 0))] == [30, 1, 6, 15]
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 5])
+def test_the_root_of_a_complex_series_is_its_square_root(order):
+    with ctx.workprec(300):
+        x, y = Jet.plane(order, acb(2, 1), acb(1, -3))
+        square = 2 + x * y + x * x * x
+        root = square_root(square)
+        for a, b in zip((root * root).coefficients, square.coefficients, strict=True):
+            assert abs(a - b) < 1e-80
+        assert root.constant.real > 0
+
+
+@pytest.mark.parametrize("width", [0.0, 1e-3, 0.3])
+def test_the_root_of_a_complex_set_contains_those_of_its_points(width):
+    square = acb(arb(2, width), arb(1, width))
+    root = square_root(square)
+    for p, q in product((-0.999, 0, 0.999), repeat=2):
+        assert root.contains(acb(2 + p * width, 1 + q * width).sqrt().mid()) or width == 0
+    assert root.rad() < 0.7 * width + 1e-14
+
+
+@pytest.mark.parametrize("square", [
+    acb(-1, 1), acb(0), acb(arb(1, 2)), arb(-1), arb(0), Jet.plane(1, acb(-1, 1), acb(0))[0],
+    Jet.plane(1, arb(0), arb(1))[0],
+])  # fmt: skip
+def test_a_root_that_may_not_be_analytic_is_refused(square):
+    with pytest.raises(ArithmeticError, match="not proved to be analytic"):
+        square_root(square)
+
+
+def test_series_are_substituted_for_the_variables():
+    x, y = Jet.plane(3, acb(0), acb(0))
+    first, second = x + 2 * y * y, y - x * y
+    found = (3 + x * x * y - 5 * y + x).at(first, second)
+    wanted = 3 + first * first * second - 5 * second + first
+    assert all(abs(a) < 1e-14 for a in (found - wanted).coefficients)
+    for place in ((first + 1, second), (first, second + acb(0, 1e-9))):
+        with pytest.raises(ValueError, match="not 0 at 0"):
+            x.at(*place)
+
+
+# ---- a surface
+
+
+def test_the_chart_is_that_of_the_energy():
+    """v + w = s, v - k w = y, and the energy is the surface's; also for sets of points."""
+    with ctx.workprec(200):
+        k, g, energy = PAPER.constants()
+        for point in (("0.1", "0.05"), ("-0.1", "-0.02"), ("0.5", "0.01")):
+            x, y = map(arb, point)
+            v, w = PAPER.velocities(x, y)
+            assert abs(v * v / 2 + k * w * w / 2 - g * x + k * x * x / 2 - energy) < 1e-55
+            assert abs(v - k * w - y) < 1e-55
+            assert abs(v + w - PAPER.speed(x, y)) < 1e-55
+            its, wanted = PAPER.flight(x, y), launch(k, g, x, v, w, v + w)
+            assert all(abs(getattr(its, a) - getattr(wanted, a)) < 1e-55 for a in "xbcsg")
+            after = PAPER.impact(x, y)
+            assert all(a.overlaps(b) for a, b in zip(
+                (after.x, after.y + k * (after.s - after.y) / (1 + k)), its.end(after.tau)[:2],
+                strict=True))  # fmt: skip
+        radius, middle = PAPER.radius(), g / k
+        for side in (-1, 1):
+            assert PAPER.speed(middle + side * radius * arb("0.999999"), arb(0)) > 0
+            with pytest.raises(ArithmeticError, match="inside the section's rim"):
+                PAPER.speed(middle + side * radius * arb("1.000001"), arb(0))
+        assert abs(PAPER.area() - arb.pi() * radius * radius * (k * (1 + k)).sqrt()) < 1e-55
+
+
+@pytest.mark.parametrize("edge", [arb(0), arb(0, 1e-9), acb(1, 1), acb(arb(0, 1e-9))])
+def test_a_point_that_may_lie_on_the_rim_is_undecided(edge):
+    """Above, at and next to the rim at y = 0: s^2 = 0 up to 1e-9, or has no positive real part."""
+    k, g = PAPER.constants()[:2]
+    with pytest.raises(ArithmeticError, match="inside the section's rim"):
+        PAPER.speed(g / k + PAPER.radius() + edge, arb(0) if isinstance(edge, arb) else acb(0))
+
+
+def test_a_wide_surface_has_each_energy_and_the_constants_of_each_precision():
+    band = Surface("1/5", "1/25", "1/100", Fraction(1, 1000))
+    for bits in (53, 200, 53):
+        with ctx.workprec(bits):
+            k, _, energy = band.constants()
+            assert k.rel_accuracy_bits() > bits - 5
+            for share in (0, 0.5, 1):
+                assert energy.contains(arb(1) / 100 + arb(share) / 1000)
+            assert energy.rad() < 1e-3 / 2 + 1e-9
+    for bits in range(60, 60 + 2 * surface._MOST_PRECISIONS):
+        with ctx.workprec(bits):
+            band.constants()
+    assert len(band._constants) <= surface._MOST_PRECISIONS
+
+
+@pytest.mark.parametrize(("numbers", "reason"), [
+    (("0", "1", "1"), "k = 0"), (("-1", "1", "1"), "k = -1"), (("1.01", "1", "1"), "k = 101/100"),
+    (("1", "0", "1"), "g = 0"), (("1", "-1", "1"), "g = -1"), (("1", "1", "-1/2"), "energy = -1/2"),
+    (("1", "1", "1", "-1"), "width = -1"), (("1", "1", "-0.4999999"), ""),
+    (("1", "1", "9", "0"), ""),
+])  # fmt: skip
+def test_a_surface_has_a_ball_and_an_energy_above_the_least(numbers, reason):
+    if reason:
+        with pytest.raises(ValueError, match=f"{reason} is not allowed"):
+            Surface(*numbers)
+    else:
+        Surface(*numbers)
+
+
+@pytest.mark.parametrize("text", ["1/3", "-2/7", "0", "1e-30", "12345678901234567890.5"])
+def test_a_fraction_lies_in_its_ball_and_comes_back_from_its_midpoint(text):
+    value = Fraction(text)
+    for bits in (53, 300):
+        with ctx.workprec(bits):
+            ball = surface.ball_of(value)
+            middle, radius = surface.fraction_of(ball), surface.fraction_of(arb(ball.rad()))
+            assert abs(middle - value) <= radius <= abs(value) / 2 ** (bits - 2)
+            assert jets.intersection(acb(ball), acb(arb(ball.mid(), 1))).real.contains(ball)
