@@ -107,7 +107,7 @@ CASES = [
     ),
     ("motion", {}, ["every impact (a dot) and"], []),
     ("motion", {"axes": HIGH_UP}, ["every impact and"], ["a dot"]),
-    ("rotation", {}, ["last regular one of 80"], ["plateau", "monotone", "triangle", "fraction"]),
+    ("rotation", {}, ["80 starts from the fixed point to the rim"], ["plateau", "monotone", "triangle", "fraction"]),
     ("spread", {}, ["a length. (b)"], ["triangle", "paper", "grey"]),
     ("spread", {"regular": [0.5]}, ["chaotic orbits are grey"], []),
     ("twist", {"energies": [0.0005, 0.002]}, ["At 2 energies"], ["ring"]),
