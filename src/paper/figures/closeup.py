@@ -49,8 +49,7 @@ def drawn(scene: dict[str, Any], manifolds: xr.Dataset) -> tuple[Figure, bool]:
     picture = empty_picture(scene)
     kinds, spans = manifolds["stable"].values, rows(manifolds)
     coincide = _coincide(picture, [(x[span], xdot[span]) for span in spans], kinds)
-    order = np.argsort(-kinds, kind="stable") if coincide else range(len(spans))
-    for i in order:
+    for i in np.argsort(-kinds * coincide, kind="stable"):
         wide = _THICK if coincide and kinds[i] else 0.5
         picture.line(x[spans[i]], xdot[spans[i]], color=style.MANIFOLDS[kinds[i]], lw=wide)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
@@ -72,13 +71,16 @@ def _coincide(
         parts = [dense(piece, picture.frame) for piece in pieces(*picture.place(*line))]
         across, up = np.floor(np.hstack([np.empty((2, 0)), *parts]))
         cells.append(across * _WIDEST + up)
+    near = []
     for kind in (0, 1):
-        others = np.hstack([np.empty(0), *(cells[i] for i in np.flatnonzero(kinds != kind))])
-        near = [others + across * _WIDEST + up for across in (-1, 0, 1) for up in (-1, 0, 1)]
-        for i in np.flatnonzero(kinds == kind):
-            if np.isin(cells[i], near).sum() > 0.5 * max(cells[i].size, _SHORT):
-                return True
-    return False
+        others = [np.empty(0), *(cells[i] for i in np.flatnonzero(kinds != kind))]
+        steps = (across * _WIDEST + up for across in (-1, 0, 1) for up in (-1, 0, 1))
+        near.append(np.concatenate([part + step for step in steps for part in others]))
+    shares = (
+        np.isin(c, near[kind]).sum() / max(c.size, _SHORT)
+        for c, kind in zip(cells, kinds, strict=True)
+    )
+    return any(share > 0.5 for share in shares)
 
 
 def hidden(scene: dict[str, Any], manifolds: xr.Dataset) -> Iterator[str]:

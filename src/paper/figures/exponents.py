@@ -1,6 +1,6 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import Any
 
@@ -22,6 +22,7 @@ _NARROW, _BROAD = 240, 380  # pixels: names of starts up to this width stand in 
 _INSET_ROOM = 150  # pixels: least distance between two lines that hold an inset between them
 _DASHES = "-", "--", "-.", ":"  # of orbits in turn
 _WIDTH = 0.8  # points
+Trace = tuple[np.ndarray, np.ndarray]  # across, up
 _NAMES = "Number of impacts", "Lyapunov exponents"
 empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
@@ -86,7 +87,8 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     reach = float(lengths[in_inset].max())
     ends = _ends(impact, exponent[:, in_inset & (lengths == reach)], reach)
     inset, up = None, panel.Axis(**scene["axes"]["largest"])
-    if has_data and (frame := _free_room(picture, impact, exponent, reach, ends, up)):
+    traces = [picture.place(impact, line) for line in exponent.reshape(len(impact), -1).T]
+    if has_data and (frame := _free_room(picture, traces, *picture.place(reach, ends), up)):
         refuse_empty(scene["axes"], {"largest": largest})
         marks, power = ticks(*window, 5), thousands(picture.across.ticks)
         labels = [style.number(mark, power) for mark in marks]
@@ -155,26 +157,26 @@ _LABELS = (_Inset.tick + _Inset.gap) * POINT  # pixels from the inset to its lab
 
 
 def _free_room(
-    picture: Plane,
-    impact: np.ndarray,
-    exponent: np.ndarray,
-    reach: float,
-    ends: np.ndarray,
-    up: panel.Axis,
+    picture: Plane, traces: Iterable[Trace], reach: np.ndarray, ends: np.ndarray, up: panel.Axis
 ) -> panel.Frame | None:
     """Return a frame for an inset with the vertical axis `up` that no line passes, or None.
 
     It lies between the first two of `ends`, at which the lines end at `reach`, if no line comes
-    between them, or else where there is room near the first.
+    between them, or else where there is room near the first. Lines and ends are pixels.
     """
     left, bottom, right, top = picture.frame
     start, end = left + 0.2 * (right - left), right - 0.05 * (right - left)
     label = max(width(text, _Inset.size) for text in up.texts())
-    lines = _passed(picture, impact, exponent, start - _LABELS - label, end + 0.5 * label)
-    if picture.place(reach, 0.0)[0] < end:  # names of the exponents stand there
+    sides = start - _LABELS - label, end + 0.5 * label
+    lines = []  # the heights from which to which each passes
+    for across, heights in traces:
+        x, y = across[~np.isnan(heights)], heights[~np.isnan(heights)]
+        if x.size and x[0] < sides[1] and x[-1] > sides[0]:
+            passed = [*y[inside([sides], [x])].tolist(), *np.interp(sides, x, y).tolist()]
+            lines.append((min(passed), max(passed)))
+    if reach[0] < end:  # names of the exponents stand there
         lines += [(y - 0.5 * STEP, y + 0.5 * STEP) for y in picture.spread(ends)]
-    second, first = picture.place(reach, ends[1::-1])[1].tolist()
-    bands, below = [], bottom
+    bands, below, (first, second, *_) = [], bottom, ends.tolist()
     for low, high in sorted([*lines, (top, top)]):
         bands.append((below, min(low, top)))
         below = max(below, high)
@@ -186,21 +188,6 @@ def _free_room(
         if high - low > _INSET_ROOM and not any(_meets(frame, *line) for line in lines):
             return frame
     return None
-
-
-def _passed(
-    picture: Plane, impact: np.ndarray, exponent: np.ndarray, start: float, end: float
-) -> list[tuple[float, float]]:
-    """Return the heights from which to which each line passes between two abscissae, in pixels."""
-    passed = []
-    for line in exponent.reshape(len(impact), -1).T:
-        across, up = picture.place(impact, line)
-        across, up = across[~np.isnan(up)], up[~np.isnan(up)]
-        if across.size and across[0] < end and across[-1] > start:
-            between = up[(start < across) & (across < end)]
-            between = np.append(between, np.interp([start, end], across, up))
-            passed.append((float(between.min()), float(between.max())))
-    return passed
 
 
 def _meets(frame: panel.Frame, low: float, high: float) -> bool:

@@ -73,34 +73,31 @@ class Plane(Panel):
 
         They stand right of the frame if there is no room in it.
         """
-        known = inside([self.up.limits], [y]).tolist()
-        heights, texts = self.spread(y), [*compress(texts, known)]
+        heights = self.place(0.0, y)[1]
+        texts = [*compress(texts, inside([self.frame[1::2]], [heights]).tolist())]
         right, gap = self.frame[2], 4 * POINT
         left = float(self.place(x, 0.0)[0][0]) + gap
         wide = max((width(text, self.size) for text in texts), default=0.0)
         within = left + wide + gap < right
-        for height, text in zip(heights, texts, strict=True):
+        for height, text in zip(self.spread(heights), texts, strict=True):
             if within:  # a line may pass there
                 ground = {"color": "white", "lw": self.size}
                 self.sheet.draw([left, left + wide], [height, height], **ground)
             self._text(left if within else right + gap, height, text, "left", "center")
 
-    def spread(self, y: np.ndarray) -> list[float]:
-        """Return the heights in pixels of texts beside those of falling y within the limits.
+    def spread(self, heights: np.ndarray) -> list[float]:
+        """Return heights of texts, in pixels, beside falling ones within the frame.
 
         Those that would collide are moved apart, as little as possible (least squares).
         """
         groups: list[list[float]] = []  # heights of texts that touch in the end
-        for height in self.place(0.0, y[inside([self.up.limits], [y])])[1].tolist():
+        for height in heights[inside([self.frame[1::2]], [heights])].tolist():
             groups.append([height])
             while len(groups) > 1 and _spaced(groups[-2])[-1] - _spaced(groups[-1])[0] < STEP:
                 groups[-2:] = [groups[-2] + groups[-1]]
-        heights = [height for group in groups for height in _spaced(group)]
-        last, (_, bottom, _, top) = len(heights) - 1, self.frame  # labels stand below the frame
-        return [
-            min(max(height, bottom + (last - i) * STEP), top - i * STEP)
-            for i, height in enumerate(heights)
-        ]
+        apart = [height for group in groups for height in _spaced(group)]
+        steps = STEP * np.arange(len(apart))  # labels stand below the frame
+        return np.clip(apart, self.frame[1] + steps[::-1], self.frame[3] - steps).tolist()
 
     def legend(self, *entries: Any) -> None:
         """Name lines and dots, (text, width in points, style), above the right end of the frame.
