@@ -68,6 +68,8 @@ def test_names_follow_lines_that_end_before_the_axis_or_leave_it():
     frame, lines = main_lines(figure)
     assert np.abs(names(figure) - [line[-1] + [4 * POINT, 0] for line in lines]).max() < 0.1
     assert_legible(figure)
+    edges = {"exponent": {"limits": [-0.15, 0.17], "ticks": [0]}}  # at the ends of lines
+    assert_legible(drawn(history(falling), impact={"limits": [0, 3000], "ticks": [0]}, **edges)[1])
     _, figure = drawn(history(falling), impact={"limits": [0, 450], "ticks": [0]})
     frame, lines = main_lines(figure)
     leave = [np.interp(frame.x1, *line.T) for line in lines]

@@ -175,7 +175,7 @@ def _free_room(
             passed = [*y[inside([sides], [x])].tolist(), *np.interp(sides, x, y).tolist()]
             lines.append((min(passed), max(passed)))
     if reach[0] < end:  # names of the exponents stand there
-        lines += [(y - 0.5 * STEP, y + 0.5 * STEP) for y in picture.spread(ends)]
+        lines += [(y - 0.5 * STEP, y + 0.5 * STEP) for y in picture.spread(ends, 0.5 * STEP)]
     bands, below, (first, second, *_) = [], bottom, ends.tolist()
     for low, high in sorted([*lines, (top, top)]):
         bands.append((below, min(low, top)))

@@ -79,16 +79,17 @@ class Plane(Panel):
         left = float(self.place(x, 0.0)[0][0]) + gap
         wide = max((width(text, self.size) for text in texts), default=0.0)
         within = left + wide + gap < right
-        for height, text in zip(self.spread(heights), texts, strict=True):
+        for height, text in zip(self.spread(heights, 0.5 * STEP * within), texts, strict=True):
             if within:  # a line may pass there
                 ground = {"color": "white", "lw": self.size}
                 self.sheet.draw([left, left + wide], [height, height], **ground)
             self._text(left if within else right + gap, height, text, "left", "center")
 
-    def spread(self, heights: np.ndarray) -> list[float]:
+    def spread(self, heights: np.ndarray, margin: float) -> list[float]:
         """Return heights of texts, in pixels, beside falling ones within the frame.
 
-        Those that would collide are moved apart, as little as possible (least squares).
+        They are at least `margin` from its ends. Those that would collide are moved apart, as
+        little as possible (least squares).
         """
         groups: list[list[float]] = []  # heights of texts that touch in the end
         for height in heights[inside([self.frame[1::2]], [heights])].tolist():
@@ -97,7 +98,8 @@ class Plane(Panel):
                 groups[-2:] = [groups[-2] + groups[-1]]
         apart = [height for group in groups for height in _spaced(group)]
         steps = STEP * np.arange(len(apart))  # labels stand below the frame
-        return np.clip(apart, self.frame[1] + steps[::-1], self.frame[3] - steps).tolist()
+        low, high = self.frame[1] + margin, self.frame[3] - margin
+        return np.clip(apart, low + steps[::-1], high - steps).tolist()
 
     def legend(self, *entries: Any) -> None:
         """Name lines and dots, (text, width in points, style), above the right end of the frame.
