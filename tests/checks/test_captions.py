@@ -98,7 +98,12 @@ CASES = [
         ["meet", "neighbour", "dots"],
     ),
     ("tangle", {"branches": {"outer": {"length": 0.05}}}, ["leave each"], ["inner"]),
-    ("closeup", {"period": 6}, ["(a black dot)"], ["of the point", "oscillate", "Each crossing", "thick"]),
+    (
+        "closeup",
+        {"period": 6},
+        ["(a black dot)"],
+        ["of the point", "oscillate", "Each crossing", "thick"],
+    ),
     (
         "closeup",
         {k: v for k, v in SADDLE.items() if k != "starts"} | {"point": 1, "length": 0.4},
@@ -107,7 +112,12 @@ CASES = [
     ),
     ("motion", {}, ["every impact (a dot) and"], []),
     ("motion", {"axes": HIGH_UP}, ["every impact and"], ["a dot"]),
-    ("rotation", {}, ["80 starts from the fixed point to the rim"], ["plateau", "monotone", "triangle", "fraction"]),
+    (
+        "rotation",
+        {},
+        ["80 starts from the fixed point to the rim"],
+        ["plateau", "monotone", "triangle", "fraction"],
+    ),
     ("spread", {}, ["a length. (b)"], ["triangle", "paper", "grey"]),
     ("spread", {"regular": [0.5]}, ["chaotic orbits are grey"], []),
     ("twist", {"energies": [0.0005, 0.002]}, ["At 2 energies"], ["ring"]),
