@@ -63,3 +63,21 @@ def test_a_name_without_room_is_left_out_and_a_small_curve_stays_whole():
     (text,) = sheet.figure.texts
     at = np.array([text.get_position()]).T * style.DPI
     assert np.abs(islet - at).max(axis=0).min() > 10
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_names_of_nested_islands_are_at_the_same_island(seed):
+    random, flat = np.random.default_rng(seed), circle(1.0, 0) * [[1.0], [0.3]]
+    grid = 150 + 300 * np.array([[i, j] for i in range(3) for j in range(3)])
+    middles = random.permutation(grid)[:5] + random.uniform(-50, 50, (5, 2))
+    radii = random.uniform(15, 25, 5)  # of flat islands, beside which a name fits
+    outer, inner = (
+        np.hstack([part * r * flat + at[:, None] for r, at in zip(radii, middles, strict=True)])
+        for part in (1.0, 0.7)
+    )
+    sheet = Sheet(900, 900)
+    curves = [outer, inner, circle(430)]
+    name_curves(sheet, curves, list("12"), style.ordered(2), FRAME, 10.0)
+    at = [np.array(text.get_position()) * style.DPI for text in sheet.figure.texts]
+    islands = {int(np.argmin(np.abs(middles - place).max(axis=1))) for place in at}
+    assert len(at) == 2 and len(islands) == 1

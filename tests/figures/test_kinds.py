@@ -3,7 +3,18 @@
 import numpy as np
 import pytest
 from keys import texts
-from samples import ATTRS, FLAT, SCENES, drawn, exponents, manifolds, module, motion, states
+from samples import (
+    ATTRS,
+    FLAT,
+    SCENES,
+    drawn,
+    exponents,
+    manifolds,
+    module,
+    motion,
+    states,
+    window,
+)  # fmt: skip
 from slowly import slowly
 
 from pseudorigid import Ball
@@ -119,3 +130,18 @@ def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
     assert {"0.5", "1.5"} <= {*texts(figure)}  # labels of the inset alone
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-7, 3e-5])
+def test_branches_that_coincide_are_both_seen(shift):
+    """The stable one is thick and lies below, unless it is seen beside the other."""
+    data, unstable = window(), slice(0, 500)
+    data["x"][500:], data["xdot"][500:] = data["x"][unstable], data["xdot"][unstable] + shift
+    figure = module("closeup").draw(SCENES["closeup"], data)
+    lines = [line for line in figure.artists if line.get_clip_box() is not None]
+    widths = {line.get_color(): line.get_linewidth() for line in lines}
+    if shift > 1e-6:
+        assert widths == {style.UNSTABLE: 0.5, style.STABLE: 0.5}
+    else:
+        assert [*widths] == [style.STABLE, style.UNSTABLE]
+        assert widths[style.STABLE] > 2 * widths[style.UNSTABLE]

@@ -12,18 +12,29 @@ from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes.limits import complete, hides, refuse_empty, ticks
 from pseudorigid.figures.axes.plane import Plane
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.names import dense
+from pseudorigid.figures.canvas.sheet import pieces
 
 _DOT = 3.4  # points
+_THICK = 1.5  # points: width of stable branches that would hide unstable ones
+_SHORT = 50  # pixels: pieces of lines that decide nothing
+_WIDEST = 10_000  # pixels, more than a picture has
 _NAMES = style.NAMES["x"], style.NAMES["xdot"]
 empty_picture = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
 
 
-@style.pinned()
 def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
     """Draw the branches inside a window around a saddle; stable ones green, unstable ones blue.
 
-    The scene's axes default to the window's. Raises ValueError if they or the window show nothing.
+    Where some of both coincide, stable ones are thick and lie below the others. The scene's axes
+    default to the window's. Raises ValueError if they or the window show nothing.
     """
+    return drawn(scene, manifolds)[0]
+
+
+@style.pinned()
+def drawn(scene: dict[str, Any], manifolds: xr.Dataset) -> tuple[Figure, bool]:
+    """Return the figure, and whether branches of both kinds coincide in it."""
     x, xdot = manifolds["x"].values, manifolds["xdot"].values
     if np.isnan(x).all():
         low, high = (manifolds.attrs[f"window_{name}"] for name in ("x", "xdot"))
@@ -36,16 +47,40 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset) -> Figure:
     scene = complete(scene, x=partial(window, "x"), xdot=partial(window, "xdot"))
     refuse_empty(scene["axes"], {"x": x, "xdot": xdot})
     picture = empty_picture(scene)
-    for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
-        picture.line(x[span], xdot[span], color=style.MANIFOLDS[stable], lw=0.5)
+    kinds, spans = manifolds["stable"].values, rows(manifolds)
+    coincide = _coincide(picture, [(x[span], xdot[span]) for span in spans], kinds)
+    for i in np.argsort(-kinds * coincide, kind="stable"):
+        wide = _THICK if coincide and kinds[i] else 0.5
+        picture.line(x[spans[i]], xdot[spans[i]], color=style.MANIFOLDS[kinds[i]], lw=wide)
     saddle = [manifolds.attrs["point_x"]], [manifolds.attrs["point_xdot"]]
     picture.dots(*saddle, style.BLACK, _DOT, mew=0.5, mec="white")
     picture.legend(
         picture.shows(*saddle) and ("saddle", 32, {"color": style.BLACK, "dots": _DOT}),
-        ("stable", 26, {"color": style.STABLE, "lw": 1.0}),
-        ("unstable", 36, {"color": style.UNSTABLE, "lw": 1.0}),
+        ("stable", 26, {"color": style.STABLE, "lw": _THICK if coincide else 1.0}),
+        ("unstable", 36, {"color": style.UNSTABLE, "lw": 0.5 if coincide else 1.0}),
     )
-    return picture.figure
+    return picture.figure, coincide
+
+
+def _coincide(
+    picture: Plane, lines: list[tuple[np.ndarray, np.ndarray]], kinds: np.ndarray
+) -> bool:
+    """Return whether one kind of lines hides more than half of what is seen of one of the other."""
+    cells = []
+    for line in lines:
+        parts = [dense(piece, picture.frame) for piece in pieces(*picture.place(*line))]
+        across, up = np.floor(np.hstack([np.empty((2, 0)), *parts]))
+        cells.append(across * _WIDEST + up)
+    near = []
+    for kind in (0, 1):
+        others = [np.empty(0), *(cells[i] for i in np.flatnonzero(kinds != kind))]
+        steps = (across * _WIDEST + up for across in (-1, 0, 1) for up in (-1, 0, 1))
+        near.append(np.concatenate([part + step for step in steps for part in others]))
+    shares = (
+        np.isin(c, near[kind]).sum() / max(c.size, _SHORT)
+        for c, kind in zip(cells, kinds, strict=True)
+    )
+    return any(share > 0.5 for share in shares)
 
 
 def hidden(scene: dict[str, Any], manifolds: xr.Dataset) -> Iterator[str]:

@@ -1,6 +1,6 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import Any
 
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.axes import panel
 from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
-from pseudorigid.figures.axes.plane import Plane, thousands
+from pseudorigid.figures.axes.plane import STEP, Plane, thousands
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, width
 
@@ -19,9 +19,10 @@ _INSET_START = 0.25  # share of the impacts before those that the inset shows
 _MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
 _MOST_NAMED = 12  # starts of orbits of one type in a key
 _NARROW, _BROAD = 240, 380  # pixels: names of starts up to this width stand in 3, in 2 columns
-_INSET_ROOM = 170  # pixels: least distance between the first two exponents that holds an inset
+_INSET_ROOM = 150  # pixels: least distance between two lines that hold an inset between them
 _DASHES = "-", "--", "-.", ":"  # of orbits in turn
 _WIDTH = 0.8  # points
+Trace = tuple[np.ndarray, np.ndarray]  # across, up
 _NAMES = "Number of impacts", "Lyapunov exponents"
 empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
@@ -41,25 +42,30 @@ def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
     """Say what the axes hide of the lines' ends: the first exponents may lie far beyond."""
     ends = {"impact": _lengths(lyapunov), "exponent": final_exponents(lyapunov)}
     yield from hides(scene, "the lines' ends", **ends)
-    yield from hides(scene, "the inset's lines", largest=drawn(scene, lyapunov)[1])
+    shown = drawn(scene, lyapunov)[1]
+    if "largest" in scene.get("axes", {}) and not shown.size:
+        why = "there is no inset, for lack of data or of room between the lines"
+        yield f"axes.largest is not used: {why}: leave axes.largest out"
+    yield from hides(scene, "the inset's lines", largest=shown)
 
 
 @style.pinned()
 def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
     """Return the figure, and the values of the inset, none without one."""
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
-    final, types = final_exponents(lyapunov), lyapunov["type"].values
+    types = lyapunov["type"].values
     chaotic = types == "chaotic"
     mixed = chaotic.any() and not chaotic.all()
     told = len({*types}) > 1 or types[0] not in ("chaotic", "regular")
     in_inset = chaotic if mixed else np.full(chaotic.shape, True)
-    largest = exponent[:, in_inset].max(axis=2)
-    scene = complete(
-        scene,
-        impact=lambda: of_data([0, int(impact[-1])], room=0.0),
-        exponent=lambda: of_data(exponent),
-        largest=lambda: of_data(largest[int(_INSET_START * len(largest)) :], most=4),
-    )
+    axes: dict[str, Any] = {"impact": lambda: of_data([0, int(impact[-1])], room=0.0)}
+    first, last = complete(scene, **axes)["axes"]["impact"]["limits"]
+    window = first + _INSET_START * (last - first), last
+    largest = exponent[inside([window], [impact])][:, in_inset].max(axis=2)
+    has_data = np.isfinite(largest).any()
+    axes["exponent"] = lambda: of_data(exponent)
+    axes["largest"] = lambda: of_data(largest if has_data else exponent, most=4)
+    scene = complete(scene, **axes)
     over = np.broadcast_to(impact[:, None, None], exponent.shape)
     refuse_empty(scene["axes"], {"impact": over, "exponent": exponent}, joined=True)
     _, orbits, indices = exponent.shape
@@ -77,11 +83,16 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     picture = empty_picture(scene, room=75 * -(-48 * -(-len(names) // columns) // 75))
     entries = [(name, hue, "", dash) for name, (hue, dash) in zip(names, lines, strict=False)]
     panel.key(picture.sheet, entries, picture.sheet.high - 85, columns, left=190, width=850)
-    ends = np.median(final[in_inset], axis=0)
-    inset = _inset(picture, scene["axes"]["largest"], ends[0], ends[1], impact[-1])
-    largest = largest[impact >= inset.across.limits[0]] if inset else largest[:0]
-    if inset:
+    lengths = np.minimum(_lengths(lyapunov), last)
+    reach = float(lengths[in_inset].max())
+    ends = _ends(impact, exponent[:, in_inset & (lengths == reach)], reach)
+    inset, up = None, panel.Axis(**scene["axes"]["largest"])
+    traces = [picture.place(impact, line) for line in exponent.reshape(len(impact), -1).T]
+    if has_data and (frame := _free_room(picture, traces, *picture.place(reach, ends), up)):
         refuse_empty(scene["axes"], {"largest": largest})
+        marks, power = ticks(*window, 5), thousands(picture.across.ticks)
+        labels = [style.number(mark, power) for mark in marks]
+        inset = _Inset(picture.sheet, frame, panel.Axis(window, marks, labels=labels), up)
     for orbit, (hue, dashes) in enumerate(lines):
         line_style = {"color": hue, "lw": _WIDTH, "ls": dashes}
         # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
@@ -90,10 +101,10 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
             picture.line(impact[known], exponent[known, orbit, index], **line_style)
         if inset and in_inset[orbit]:
             inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
-    picture.beside([(ends[index], rf"$\lambda_{index + 1}$") for index in range(indices)])
-    if orbits > 1 and not mixed:
-        _coincide(picture, ends, exponent, int(inset is not None))
-    return picture.figure, largest
+    picture.beside(reach, ends, [rf"$\lambda_{index + 1}$" for index in range(indices)])
+    if orbits > 1 and (lengths == reach).all() and not mixed:
+        _coincide(picture, reach, ends, exponent, inset)
+    return picture.figure, largest if inset else largest[:0]
 
 
 def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
@@ -109,47 +120,77 @@ def _key_text(start: Any, kind: str) -> str:
     return f"{text}: {kind}" if kind else text
 
 
-def _coincide(picture: Plane, ends: np.ndarray, exponent: np.ndarray, first: int) -> None:
-    """Write below lines from the `first` on that lie on one another that they do, if it fits."""
+def _ends(impact: np.ndarray, exponent: np.ndarray, reach: float) -> np.ndarray:
+    """Return the exponents of orbits at an impact, the middle one of each, the largest first."""
+    ends = []
+    for lines in exponent.transpose(1, 2, 0):
+        known = ~np.isnan(lines[0])
+        ends.append([np.interp(reach, impact[known], line[known]) for line in lines])
+    ordered = np.sort(np.sort(ends, axis=1), axis=0)
+    return np.asarray(ordered[(len(ends) - 1) // 2, ::-1])
+
+
+def _coincide(
+    picture: Plane, reach: float, ends: np.ndarray, exponent: np.ndarray, inset: "_Inset | None"
+) -> None:
+    """Write below lines up to `reach` that lie on one another that they do, if it fits."""
     known = exponent[~np.isnan(exponent).any(axis=(1, 2))]
     if not (len(known) and inside([picture.up.limits] * len(ends), ends).all()):
         return
     spread = np.median(np.ptp(known, axis=1), axis=0)
-    (_, heights), (_, tops) = (picture.place(0.0, values) for values in (ends, ends + spread))
+    (at, heights), (_, tops) = (picture.place(reach, values) for values in (ends, ends + spread))
     room = -np.diff([*heights, picture.frame[1]])
-    for height, top, below in np.transpose([heights, tops, room])[first:].tolist():
-        if top - height < _WIDTH * POINT and below > 2.0 * style.PLAIN * POINT:
-            text = f"{exponent.shape[1]} lines lie on one another"
-            across = picture.frame[2] - 3 * POINT
-            picture.sheet.text(across, height - 3 * POINT, text, 7.0, "right", "top")
+    for height, top, below in np.transpose([heights, tops, room]).tolist():
+        needed = 2.0 * style.PLAIN * POINT
+        free = below > needed and not (inset and _meets(inset.frame, height - needed, height))
+        text, right = f"{exponent.shape[1]} lines lie on one another", float(at[0]) - 3 * POINT
+        free = free and right - width(text, 7.0) > picture.frame[0]
+        if top - height < _WIDTH * POINT and free:
+            picture.sheet.text(right, height - 3 * POINT, text, 7.0, "right", "top")
 
 
 class _Inset(panel.Window):
     size = 7.0
 
 
-def _inset(
-    picture: Plane, largest: dict[str, Any], first: float, second: float, last: float
-) -> _Inset | None:
-    """Return a panel between the lines of the first two exponents, or None.
+_LABELS = (_Inset.tick + _Inset.gap) * POINT  # pixels from the inset to its labels
 
-    `first` and `second` are the values at which these lines end, `largest` is the panel's vertical
-    axis, and `last` the last number of impacts. There is no panel if a value is beyond the axis, if
-    the lines are too close, or if the orbits end before the first impact that it would show.
+
+def _free_room(
+    picture: Plane, traces: Iterable[Trace], reach: np.ndarray, ends: np.ndarray, up: panel.Axis
+) -> panel.Frame | None:
+    """Return a frame for an inset with the vertical axis `up` that no line passes, or None.
+
+    It lies between the first two of `ends`, at which the lines end at `reach`, if no line comes
+    between them, or else where there is room near the first. Lines and ends are pixels.
     """
-    left, _, right, _ = picture.frame
-    _, (high, low) = picture.place(0.0, [first, second])
-    shown = inside([picture.up.limits], [np.array([first, second])]).all()
-    if not (shown and high - low > _INSET_ROOM):
-        return None
-    start, end = picture.across.limits
-    start += _INSET_START * (end - start)
-    if last < start:
-        return None
-    marks = ticks(start, end, 5)
-    power = thousands(picture.across.ticks)
-    across = panel.Axis((start, end), marks, labels=[style.number(mark, power) for mark in marks])
-    bottom = low + (_Inset.tick + _Inset.gap + 1.6 * _Inset.size) * POINT
-    wide = right - left
-    frame = left + 0.2 * wide, bottom, right - 0.05 * wide, high - 0.18 * (high - low)
-    return _Inset(picture.sheet, frame, across, panel.Axis(**largest))
+    left, bottom, right, top = picture.frame
+    start, end = left + 0.2 * (right - left), right - 0.05 * (right - left)
+    label = max(width(text, _Inset.size) for text in up.texts())
+    sides = start - _LABELS - label, end + 0.5 * label
+    lines = []  # the heights from which to which each passes
+    for across, heights in traces:
+        x, y = across[~np.isnan(heights)], heights[~np.isnan(heights)]
+        if x.size and x[0] < sides[1] and x[-1] > sides[0]:
+            passed = [*y[inside([sides], [x])].tolist(), *np.interp(sides, x, y).tolist()]
+            lines.append((min(passed), max(passed)))
+    if reach[0] < end:  # names of the exponents stand there
+        lines += [(y - 0.5 * STEP, y + 0.5 * STEP) for y in picture.spread(ends, 0.5 * STEP)]
+    bands, below, (first, second, *_) = [], bottom, ends.tolist()
+    for low, high in sorted([*lines, (top, top)]):
+        bands.append((below, min(low, top)))
+        below = max(below, high)
+    bands.sort(key=lambda band: (band[0] >= first, -band[1]))  # downwards, then above the first
+    if bottom <= second and first <= top:
+        bands.insert(0, (second, first))
+    for low, high in bands:
+        frame = start, low + _LABELS + 1.6 * _Inset.size * POINT, end, high - 0.18 * (high - low)
+        if high - low > _INSET_ROOM and not any(_meets(frame, *line) for line in lines):
+            return frame
+    return None
+
+
+def _meets(frame: panel.Frame, low: float, high: float) -> bool:
+    """Return whether an inset or its labels reach between two heights."""
+    size = _Inset.size * POINT
+    return low < frame[3] + 0.5 * size and frame[1] - _LABELS - size < high

@@ -99,15 +99,20 @@ def closeup(block: dict[str, Any], periodic: xr.Dataset, manifolds: xr.Dataset) 
 
 
 def closeup_facts(block: dict[str, Any], manifolds: xr.Dataset, **_: xr.Dataset) -> dict[str, Any]:
-    """Say whether a branch oscillates: in all, it turns by more than two whole turns."""
+    """Say whether a branch oscillates and whether both kinds coincide, and so differ in width.
+
+    A branch oscillates if, in all, it turns by more than two whole turns.
+    """
     import numpy as np
 
     from pseudorigid.dynamics.variables import rows
 
+    from .closeup import drawn
+
     x, xdot = (manifolds[n] / np.ptp(manifolds.attrs[f"window_{n}"]) for n in ("x", "xdot"))
     steps = [np.diff((x + 1j * xdot).values[span]) for span in rows(manifolds)]
     turns = [np.nansum(np.abs(np.angle(step[1:] * step[:-1].conj()))) for step in steps]
-    return {"oscillates": bool(max(turns) > 4.0 * np.pi)}
+    return {"oscillates": bool(max(turns) > 4.0 * np.pi), "coincide": drawn(block, manifolds)[1]}
 
 
 def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:

@@ -133,3 +133,31 @@ def test_marks_of_a_control_stand_around_the_tick_of_their_strength(datasets, ra
     places = np.array([p for p in places if frame.x0 < p.min() and p.max() < frame.x1])
     assert len(places) >= 10
     assert (places.max(axis=0)[:-1] < places.min(axis=0)[1:]).all()
+
+
+def test_areas_of_lobes_stand_at_the_panels_that_show_the_lobes(datasets):
+    figure = flux_figure.draw(SCENE, datasets["flux/flux"])
+    whole, outer, inner = frames_of(figure)
+    at = {text.get_text(): np.array(text.get_position()) * figure.dpi for text in figure.texts}
+    letters = {text for text, place in at.items() if whole.contains(*place)}
+    assert letters == {"(b)", "(c)"}
+    areas = {text: place for text, place in at.items() if text.startswith("Area")}
+    for frame, area in zip((inner, outer), datasets["flux/flux"]["area"].values, strict=True):
+        (text,) = (text for text, (x, _) in areas.items() if abs(x - frame.x0) < 1)
+        assert f"{area:.3e}".partition("e")[0] in text
+    keys = [place[1] for text, place in at.items() if "branch" in text and "es" not in text]
+    assert len(keys) == 2 and keys[0] == keys[1] < min(at["grazing rim"][1], whole.y0)
+
+
+def test_the_panels_along_the_same_line_are_aligned(datasets):
+    figure = rotation_figure.draw(SCENE, datasets["rotation/rotation"])
+    frames = frames_of(figure)[:2]
+    grids = [
+        a for a in figure.artists if a.get_color() == style.GRID and np.ptp(a.get_xdata()) == 0
+    ]
+    lines = [
+        sorted(a.get_xdata()[0] for a in grids if abs(a.get_ydata()[0] * figure.dpi - frame.y0) < 1)
+        for frame in frames
+    ]
+    assert len(lines[0]) > 4 and lines[0] == lines[1]
+    assert (frames[0].x0, frames[0].x1) == (frames[1].x0, frames[1].x1)

@@ -119,3 +119,15 @@ def test_the_symmetry_line_is_whole(sides):
     apart = np.abs(ends[:, None] - ends).max(axis=2)
     free = ends[np.sum(apart < 1.0, axis=1) == 1]
     assert len(free) == 2
+
+
+def test_panels_of_further_energies_follow_one_another_with_falling_energy():
+    orbits = scene_orbits(BALL, ENERGY, [0.1], 50)
+    scene = {"ball": {"k": 0.2, "g": 0.04}, "energy": ENERGY}
+    further = [0.004, 0.001, 0.009, 0.0025, 0.003]  # at 0.001 there is no curve
+    data = jumps(BALL, ENERGY, further, 40).assign_attrs(k=0.2, g=0.04)
+    found = [text for text in draw(scene, data, orbits).texts if text.get_text().startswith("$E$")]
+    found = sorted(
+        (text.get_position()[0], text.get_text()) for text in found if text.get_position()[1] < 2
+    )
+    assert [text for _, text in found] == [f"$E$ = {energy}" for energy in (0.004, 0.003, 0.0025)]

@@ -10,7 +10,7 @@ from pseudorigid.figures.axes import section
 from pseudorigid.figures.axes.limits import around, linear
 from pseudorigid.figures.axes.panel import Panel, corner, key, letters, title, vacant
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
+from pseudorigid.figures.canvas.sheet import Sheet
 
 from . import Figure, Frame, Scene
 
@@ -23,21 +23,25 @@ _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the err
 def draw(scene: Scene, flux: xr.Dataset) -> Figure:
     """Draw regions and lobes of the inner and the outer branches, and both crossings."""
     sheet = Sheet(style.COLUMN, 1725)
+    lobes = (section.LEFT, 112, 505, 405), (680, 112, 1005, 405)
     frame = _regions(sheet, scene, flux)
     corner(sheet, frame, style.setting(scene))
-    entries: list[tuple[Any, ...]] = [
+    entries: list[tuple[Any, ...] | None] = [
         (_edge_name(flux, side), hue if _has_edge(flux, side) else "white", "", False, wide)
         for side, hue, wide in reversed(_SIDES)  # white: the text alone
     ]
     entries.append(("grazing rim", style.BLACK))
-    entries.append(("crossing, and its lobe's area", style.FRAME, "o"))
+    crossing = ("crossing, enlarged below", style.FRAME, "o")
+    entries.append(crossing if np.isfinite(flux["area"].values).any() else None)
+    entries += [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
     key(sheet, entries, frame[1] - 130, 2, section.LEFT + 10, section.SIDE)
-    entries = [("stable branch", style.STABLE), ("unstable branch", style.UNSTABLE)]
-    key(sheet, entries, 568, 2, section.LEFT + 10, section.SIDE)
-    lobes = (section.LEFT, 112, 505, 405), (680, 112, 1005, 405)
     letters(sheet, frame, *lobes)
     for side, frame in zip((1, 0), lobes, strict=True):
-        title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18)
+        area = float(flux["area"].values[side])
+        title(sheet, frame, _lobe(sheet, frame, side, flux), rise=18 if np.isnan(area) else 28)
+        if np.isfinite(area):
+            digits, _, power = f"{area:.3e}".partition("e")
+            title(sheet, frame, rf"Area of a lobe: ${digits}\times 10^{{{int(power)}}}$", rise=18)
     return sheet.figure
 
 
@@ -65,22 +69,10 @@ def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
             continue
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
         panel.line(x, y, color=hue, lw=wide)
-        digits, _, power = f"{float(flux['area'].values[side]):.3e}".partition("e")
-        text = rf"area ${digits}\times 10^{{{int(power)}}}$"
         crossing = float(flux["crossing_x"].values[side].max())
         panel.dots([crossing], [0.0], hue)
-        left = panel.centre - panel.radius if np.isnan(x[0]) else x.min()
-        ends = [left, panel.centre + panel.radius]
-        (end, dot), _ = panel.place([ends[side], crossing], [0.0, 0.0])
-        ha, sign = ("left", 1.0) if side else ("right", -1.0)
-        if abs(end - dot) > width(text, panel.small) + 8.0 * POINT:
-            panel.note(crossing, 0.0, text, ha=ha, shift=(sign * 4.0, 0.0))
-        else:  # no room inside the rim or the region: outside, in a corner
-            left, _, right, top = panel.frame
-            across, ha = (right, "right") if side else (left, "left")
-            across, up = across - sign * 3.0 * POINT, top - 3.0 * POINT
-            text = f"{flux['side'].values[side]}: {text}"
-            sheet.text(across, up, text, ha=ha, va="top", size=panel.small)
+        name, ha, shift = ("(b)", "left", 4.0) if side else ("(c)", "right", -4.0)
+        panel.note(crossing, 0.0, name, ha=ha, shift=(shift, 0.0))
     if not any(_has_edge(flux, side) for side, *_ in _SIDES):
         text = "neither region has an edge that can be drawn"
         panel.note(panel.centre, 0.5 * panel.high * panel.radius, text, ha="center")

@@ -52,15 +52,16 @@ def _curves(panel: section.Section, jumps: xr.Dataset, row: int) -> None:
 
 
 def _births(sheet: Sheet, jumps: xr.Dataset) -> list[Frame]:
-    """Draw sections at energies above that of the birth, each on its own scale; return frames."""
+    """Draw sections at falling energies above the birth's, each on its own scale; return frames."""
     energies = jumps["energy"].values
     born = jumps["length"].values > 0.0
     rising = [row for row in np.argsort(energies, kind="stable").tolist() if row and born[row]]
+    shown = rising[: len(_LEFTS)]
     if not rising:
         text = f"no further energy above $E$ = {jumps.attrs['first_energy']:.6g}, where jumps begin"
         vacant(sheet, (section.LEFT, 60, section.LEFT + section.SIDE, 60 + _SMALL), text)
-    frames: list[Frame] = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(rising)]]
-    for frame, row in zip(frames, rising, strict=False):
+    frames: list[Frame] = [(left, 75, left + _SMALL, 75 + _SMALL) for left in _LEFTS[: len(shown)]]
+    for frame, row in zip(frames, reversed(shown), strict=True):
         radius = float(jumps["radius"].values[row])
         panel = section.Section(sheet, frame, jumps.attrs, radius, 1.08, 4, ("", ""))
         panel.rim()

@@ -19,7 +19,7 @@ _FAR = 4.0  # a curve longer than this times the median does not set the lowest 
 @style.pinned()
 def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
-    sheet = Sheet(style.COLUMN, 2100)
+    sheet = Sheet(style.COLUMN, 2025)
     good = rotation["type"].values[0] == "regular"
     detail = _regular_detail(rotation)
     entries: list[Entry] = []
@@ -31,7 +31,7 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     if rotation.sizes["plateau"]:
         entries.append(("islands", style.BLACK, "", False, 1.6))
     key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
-    spans = (1640, 1950), (1265, 1465), (715, 1065), (112, 515)
+    spans = (1545, 1875), (1265, 1465), (715, 1065), (112, 515)
     frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in spans]
     letters(sheet, *frames)
     _first_energy(sheet, frames[:2], scene, rotation)
@@ -41,17 +41,15 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
 
 
 def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.Dataset) -> None:
-    """Draw rotation numbers up to the last regular start, and exponents, at the first energy."""
+    """Draw rotation numbers and, below them, exponents at the first energy."""
     start, turns, growth = (rotation[name].values[0] for name in ("place", "rotation", "exponent"))
     good = rotation["type"].values[0] == "regular"
     at, fixed = (float(rotation[f"fixed_{name}"].values[0]) for name in ("place", "rotation"))
     regular_turns = turns[good] if good.any() else turns
-    last = min(start[good].max() + 0.03, 1.0) if good.any() else 1.0
     detail, place = _regular_detail(rotation), rotation["detail_place"].values
-    first, last = max(min(at, place[0]) - 0.03, -1.0), max(last, min(place[-1] + 0.03, 1.0))
-    across = linear(first, last, 10, _STARTS)
+    across = linear(max(min(at, place[0]) - 0.03, -1.0), 1.0, 10, _STARTS)
     up = around(np.hstack([regular_turns, fixed, detail[1]]), 0.1, 5, "Rotation number")
-    panel = Panel(sheet, frames[0], across, up)
+    panel = Panel(sheet, frames[0], across.blank(), up)
     middle = 0.5 * (place[0] + place[-1])
     panel.line([middle] * 2, up.limits, color=style.BACKDROP, lw=0.7, zorder=0.8)
     panel.note(middle, up.limits[1], "(c)", (3, -5), va="top")
@@ -63,7 +61,7 @@ def _first_energy(sheet: Sheet, frames: list[Frame], scene: Scene, rotation: xr.
     corner(sheet, frames[0], style.setting(scene))
     top = max(np.ceil(10.0 * growth.max()), 1.0) / 10.0
     up = linear(min(-top / 15.0, growth.min()), top, 5, "Exponent")
-    panel = Panel(sheet, frames[1], linear(at - 0.03, 1.0, 10, _STARTS), up)
+    panel = Panel(sheet, frames[1], across, up)
     panel.dots(start[~good], growth[~good], style.SEA, size=1.6)
     panel.dots(start[good], growth[good], style.BLUE, size=1.6)
 

@@ -1,18 +1,19 @@
 """A figure of one panel with the limits and ticks of a scene."""
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import compress
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..canvas import style
-from ..canvas.sheet import POINT, Sheet
+from ..canvas.sheet import POINT, Sheet, width
 from .limits import inside
 from .panel import Axis, Panel
 
 _LEFT, _BOTTOM, _TOP = 180, 135, 150  # pixels around the frame
+STEP = 1.3 * style.PLAIN * POINT  # pixels: the least between texts beside the frame
 
 
 class Plane(Panel):
@@ -67,20 +68,38 @@ class Plane(Panel):
         """Return whether each point lies within the limits."""
         return inside((self.across.limits, self.up.limits), np.array([x, y]))
 
-    def beside(self, entries: Sequence[tuple[float, str]]) -> None:
-        """Write (y, text), in falling order, right of the frame if y is within the limits.
+    def beside(self, x: float, y: np.ndarray, texts: Sequence[str]) -> None:
+        """Write texts right of points at x with falling y, those within the limits.
 
-        They are moved apart if need be.
+        They stand right of the frame if there is no room in it.
         """
-        entries = [entry for entry in entries if inside([self.up.limits], [entry[0]])]
-        if not entries:
-            return
-        heights = self.place(0, [y for y, _ in entries])[1].tolist()
-        middle, step = sum(heights) / len(heights), 1.3 * style.PLAIN * POINT
-        if any(above - below < step for above, below in pairwise(heights)):
-            heights = [middle + (0.5 * (len(heights) - 1) - i) * step for i in range(len(heights))]
-        for height, (_, text) in zip(heights, entries, strict=True):
-            self._text(self.frame[2] + 4 * POINT, height, text, "left", "center")
+        heights = self.place(0.0, y)[1]
+        texts = [*compress(texts, inside([self.frame[1::2]], [heights]).tolist())]
+        right, gap = self.frame[2], 4 * POINT
+        left = float(self.place(x, 0.0)[0][0]) + gap
+        wide = max((width(text, self.size) for text in texts), default=0.0)
+        within = left + wide + gap < right
+        for height, text in zip(self.spread(heights, 0.5 * STEP * within), texts, strict=True):
+            if within:  # a line may pass there
+                ground = {"color": "white", "lw": self.size}
+                self.sheet.draw([left, left + wide], [height, height], **ground)
+            self._text(left if within else right + gap, height, text, "left", "center")
+
+    def spread(self, heights: np.ndarray, margin: float) -> list[float]:
+        """Return heights of texts, in pixels, beside falling ones within the frame.
+
+        They are at least `margin` from its ends. Those that would collide are moved apart, as
+        little as possible (least squares).
+        """
+        groups: list[list[float]] = []  # heights of texts that touch in the end
+        for height in heights[inside([self.frame[1::2]], [heights])].tolist():
+            groups.append([height])
+            while len(groups) > 1 and _spaced(groups[-2])[-1] - _spaced(groups[-1])[0] < STEP:
+                groups[-2:] = [groups[-2] + groups[-1]]
+        apart = [height for group in groups for height in _spaced(group)]
+        steps = STEP * np.arange(len(apart))  # labels stand below the frame
+        low, high = self.frame[1] + margin, self.frame[3] - margin
+        return np.clip(apart, low + steps[::-1], high - steps).tolist()
 
     def legend(self, *entries: Any) -> None:
         """Name lines and dots, (text, width in points, style), above the right end of the frame.
@@ -88,8 +107,8 @@ class Plane(Panel):
         An entry that is not true is left out.
         """
         across, up = self.frame[2], self.frame[3] + 8.5 * POINT
-        for text, width, line_style in filter(None, reversed(entries)):
-            across -= width * POINT
+        for text, wide, line_style in filter(None, reversed(entries)):
+            across -= wide * POINT
             self._text(across, up, text, "left", "center")
             start, end = across - 18 * POINT, across - 4 * POINT
             if "dots" in line_style:
@@ -103,6 +122,12 @@ class Plane(Panel):
         """Move a label to the left if it would leave the sheet."""
         half_width = 0.32 * len(text) * style.PLAIN * POINT  # an upper bound
         return min(x, style.COLUMN - half_width - 6)
+
+
+def _spaced(heights: Sequence[float]) -> list[float]:
+    """Return heights that are a step apart, with the same mean."""
+    middle = sum(heights) / len(heights)
+    return [middle + (0.5 * (len(heights) - 1) - i) * STEP for i in range(len(heights))]
 
 
 def thousands(ticks: Sequence[float]) -> int:

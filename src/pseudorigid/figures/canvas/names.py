@@ -13,6 +13,7 @@ _GAP = 1.8  # points from a curve to its name
 _CELL = 4  # pixels: points of curves that share a cell of this size count once
 _LEAST = 0.4  # of this gap: least distance to other curves and names
 _HIDDEN = 0.3  # largest share of the nearby part of a curve that its name may hide
+_SEPARATE = 12  # pixels: parts of a curve that are farther apart are its islands
 _TRIED = 60  # points of a curve beside which its name is tried
 _HIGH = 0.68  # height of digits and capitals, in sizes of the text
 
@@ -30,7 +31,8 @@ def name_curves(
     It interrupts its curve, or stands beside it if it would hide a large share of the curve.
     Curves are points (2, n) in pixels, so dense that a name does not fit between two of them; one
     beyond the last name has none. A name that would lie on a curve or another name, or beyond the
-    frame (left, bottom, right, top), is left out.
+    frame (left, bottom, right, top), is left out. Names of curves that lie within the islands of
+    one another are at the same island, if there is room.
     """
     cells = [(np.unique(np.floor(c / _CELL), axis=1) + 0.5) * _CELL for c in curves]
     gap, places = _GAP * POINT, []
@@ -51,11 +53,18 @@ def name_curves(
                 break
         places.append((i, half, centres[:, free], room[free]))
     taken = np.empty((2, 0))
+    named: list[tuple[np.ndarray, np.ndarray]] = []  # place and islands
     for i, half, centres, to_curves in sorted(places, key=lambda place: place[3].size):
         room = np.minimum(to_curves, _room(centres, half, taken).min(axis=1, initial=np.inf))
         if room.max(initial=0.0) <= _LEAST * gap:
             continue
+        islands = _islands(cells[i])
+        for place, others in named:
+            same = _at_same(centres, islands, place, others, 2.0 * half[1] + gap)
+            if np.max(room[same], initial=0.0) > _LEAST * gap:
+                room = np.where(same, room, 0.0)
         x, y = centres[:, int(np.argmax(room))].tolist()
+        named.append((np.array([[x, y]]), islands))
         sheet.draw([x - half[0], x + half[0]], [y, y], color="white", lw=2.0 * half[1] / POINT)
         sheet.text(x, y, names[i], ha="center", va="center_baseline", size=size, color=colors[i])
         across, up = np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
@@ -92,3 +101,38 @@ def _room(centres: np.ndarray, half: tuple[float, float], points: np.ndarray) ->
     """Return how far each point is from a text around each centre, (centre, point), in pixels."""
     apart = np.abs(centres[:, :, None] - points[:, None])
     return np.maximum(apart[0] - half[0], apart[1] - half[1])
+
+
+def _islands(cells: np.ndarray) -> np.ndarray:
+    """Return the frame of each separate part of a curve, (part, 4)."""
+    rest = {(int(x), int(y)) for x, y in np.floor(cells.T / _SEPARATE)}
+    frames = []
+    while rest:
+        part, new = set(), {rest.pop()}
+        while new:
+            part |= new
+            steps = product((-1, 0, 1), repeat=2)
+            new = {(x + i, y + j) for i, j in steps for x, y in new} & rest
+            rest -= new
+        across, up = zip(*part, strict=True)
+        frames.append((min(across), min(up), max(across) + 1, max(up) + 1))
+    return _SEPARATE * np.array(frames, dtype=float).reshape(-1, 4)
+
+
+def _at_same(
+    centres: np.ndarray, islands: np.ndarray, place: np.ndarray, others: np.ndarray, reach: float
+) -> np.ndarray:
+    """Return which centres are at an island nested with one at `place`, all if none are nested."""
+    nested = _lies_in(islands, others) | _lies_in(others, islands).T
+    if min(nested.shape) < 2 or not (nested.any(axis=0).all() or nested.any(axis=1).all()):
+        return np.full(centres.shape[1], True)
+    wide = np.array([-reach, -reach, reach, reach])
+    there = _lies_in(np.tile(place, 2), others + wide)[0]
+    own = islands[nested[:, there].any(axis=1)] + wide
+    return np.any(_lies_in(np.tile(centres.T, 2), own), axis=1)
+
+
+def _lies_in(frames: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return whether each frame (n, 4) lies in each of the others (m, 4)."""
+    beyond = (frames[:, None] - others) * [1.0, 1.0, -1.0, -1.0]
+    return np.all(beyond >= 0.0, axis=2)
