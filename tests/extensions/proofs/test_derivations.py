@@ -30,7 +30,7 @@ NOT_PRINTED = {"softness", "smooth", "reversible"}
 
 def test_the_misprints_are_found_and_no_others(derived):
     names = derived["formula"].values.tolist()
-    assert len(names) == len(set(names)) == 26
+    assert len(names) == len(set(names)) == 27
     for name in names:
         row = derived.sel(formula=name)
         expected = (0, 1) if name in MISPRINTED else (-1, 1) if name in NOT_PRINTED else (1, -1)
@@ -62,6 +62,9 @@ def test_a_wrong_flight_is_noticed(monkeypatch, strain):
 def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
     monkeypatch.setattr(model, "rebound", lambda v, w: (rebound(v, w)[0], -rebound(v, w)[1]))
     assert not model.jump_conditions().printed
+    stiffness = model._stiffness
+    monkeypatch.setattr(model, "_stiffness", lambda young, nu: (2 * stiffness(young, nu)[0], 0))
+    assert not model.momentum_balances().printed
     monkeypatch.setattr(forms, "action", lambda x, b, c, t: symbols.action(x, b, c, t) + x * t)
     assert not forms.area().printed
     monkeypatch.setattr(motion, "energy", lambda x, v, w: symbols.energy(x, v, w) + v * w)

@@ -11,9 +11,9 @@ from pseudorigid.dynamics.variables import of_rows
 # Module -> its functions that derive a formula each, in the order of the dataset.
 FORMULAS = {
     "model": (
-        "equations_of_motion", "euler_tensor", "shell", "uncoupled", "modes", "softness", "impulse",
-        "impulse_without_stiffness", "jump_conditions", "impulsive_forces", "scaled_impulse",
-        "scaling",
+        "equations_of_motion", "momentum_balances", "euler_tensor", "shell", "uncoupled", "modes",
+        "softness", "impulse", "impulse_without_stiffness", "jump_conditions", "impulsive_forces",
+        "scaled_impulse", "scaling",
     ),
     "motion": (
         "flights", "flow", "impact_map", "conserved_energy", "bound", "bound_in_flight", "smooth",

@@ -55,6 +55,55 @@ def _stiffness(young: sp.Symbol, nu: sp.Symbol) -> tuple[sp.Matrix, sp.Expr]:
     return sp.Matrix(3, 3, lambda i, j: lame + (2 * shear if i == j else 0)), shear
 
 
+def momentum_balances() -> Formula:
+    """Derive (2), and (10) with (9), from the balances of momentum of a pseudo-rigid body.
+
+    Its points move like c + F X, with a matrix F. Cauchy's law rho a = div P + rho b, integrated
+    over the body as it stands and times X, gives the balances of momentum and of its first moment
+    (Cohen and Muncaster, reference [13]). The ball is linearly elastic with Poisson's ratio 0, and
+    the floor pushes with the force `load` at X = (0, 0, R).
+    """
+    places = sp.symbols("X_1:4", real=True)
+    stress = sp.Matrix(3, 3, lambda i, j: sp.Function(f"P_{i}{j}")(*places))
+
+    def divergence(row: sp.Matrix) -> sp.Expr:
+        return sum(component.diff(a) for component, a in zip(row, places, strict=True))
+
+    # In the integral of (div P) X only the load on the edge and the mean of P are left.
+    by_parts = [
+        divergence(stress[i, :] * places[j]) - divergence(stress[i, :]) * places[j] - stress[i, j]
+        for i in range(3)
+        for j in range(3)
+    ]
+    theta, phi = sp.symbols("theta phi", positive=True)
+    way = sp.Matrix([sp.sin(theta) * f(phi) for f in (sp.cos, sp.sin)] + [sp.cos(theta)])
+    first, second = (
+        sp.integrate(a * sp.sin(theta), (theta, 0, sp.pi), (phi, 0, 2 * sp.pi)) / (4 * sp.pi)
+        for a in (way, way * way.T)  # means over each shell, of which the ball consists
+    )
+    inertia = 3 * E0 * second
+    young, nu, load = sp.symbols("Y nu f", positive=True)
+    position, strain = sp.Function("X")(T), sp.Function("U")(T)
+    along = sp.Matrix([0, 0, 1])
+    centre, deformation = position * along, sp.eye(3) + strain * along * along.T
+    mean_stress = sp.diag(*(_stiffness(young, nu)[0].subs(nu, 0) * strain * along))
+    relative, bend = centre.diff(T, 2) - GRAVITY * along, deformation.diff(T, 2)
+    momentum = M * (relative + bend * first) + load * along
+    moment = M * relative * first.T + bend * inertia + load * R * along * along.T
+    moment += EV0 / young * mean_stress  # EV0 is Young's modulus times the volume
+    speed, rate = centre.diff(T), deformation.diff(T)
+    kinetic = (M * speed.dot(speed) + (rate * inertia * rate.T).trace()) / 2
+    kinetic += M * speed.dot(rate * first)
+    printed_momentum = M * position.diff(T, 2) - M * GRAVITY + load
+    printed_moment = E0 * strain.diff(T, 2) + EV0 * strain + R * load
+    return Formula(zero(
+        *by_parts,
+        *(momentum - printed_momentum * along),
+        *(moment - printed_moment * along * along.T),
+        kinetic - M * position.diff(T) ** 2 / 2 - E0 * strain.diff(T) ** 2 / 2,
+    ))  # fmt: skip
+
+
 def uncoupled() -> Formula:
     """Check that a force along an axis strains that axis alone only if Poisson's ratio is 0."""
     young, nu = sp.symbols("Y nu", positive=True)
