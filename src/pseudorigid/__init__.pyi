@@ -4,6 +4,7 @@ from .dynamics.ball import Ball as Ball
 from .dynamics.lyapunov import lyapunov_spectrum as lyapunov_spectrum
 from .dynamics.manifolds import trace_manifold as trace_manifold
 from .dynamics.motion import motion as motion
+from .dynamics.newton import periodic_orbits as periodic_orbits
 from .dynamics.orbits import orbit as orbit
 from .dynamics.periodic import symmetric_orbits as symmetric_orbits
 from .dynamics.quantities import classify_orbits as classify_orbits

@@ -18,6 +18,7 @@ from pseudorigid import (
     lyapunov_spectrum,
     motion,
     orbit,
+    periodic_orbits,
     residue,
     rotation_number,
     symmetric_orbits,
@@ -89,6 +90,7 @@ NUMBERS = [
     *cases(lambda step, tolerance: ImpactMap((step, tolerance)), step=0.25, tolerance=0.5),
     *cases(partial(BALL.state, 0.125, 0.9375, 0.5), branch=-1.0),
     *cases(partial(symmetric_orbits, BALL, period=1), energy=0.25),
+    *cases(partial(periodic_orbits, BALL, period=1), energy=0.25),
     *cases(trace, length=0.125, distance=0.0625, bend=32.0),
 ]
 COUNTS = [
@@ -97,6 +99,7 @@ COUNTS = [
     *cases(partial(BALL.chart_jacobian, *START), impacts=3),
     *cases(partial(lyapunov_spectrum, BALL, START), impacts=9, records=3),
     *cases(partial(symmetric_orbits, BALL, 0.25), period=1),
+    *cases(partial(periodic_orbits, BALL, 0.25), period=1),
     *cases(trace, saddle=3),
 ]
 INVALID = (
@@ -204,6 +207,7 @@ OF_A_BALL = [
     ),
     partial(motion, start=START, duration=1.0),
     partial(symmetric_orbits, energy=0.01, period=1),
+    partial(periodic_orbits, energy=0.01, period=1),
     partial(trace_manifold, energy=0.01, orbit=SADDLE),
 ]
 

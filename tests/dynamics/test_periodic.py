@@ -4,65 +4,17 @@ Fixed points are those of the closed form in 40 digits, and brute force over the
 no symmetric orbit that the search misses.
 """
 
-from functools import reduce
-
 import mpmath
 import numpy as np
 import pytest
-from cycles import NAMES, PERIODS, SETTINGS, points_of
-from independent_solver import exact_map, judge, periodic_point
+from cycles import NAMES, PERIODS, SETTINGS, check, check_last_bits, points_of
+from independent_solver import judge, periodic_point
 from mpmath import mpf
 from sections import BALL
 from slowly import slowly
 
 from pseudorigid import Ball, orbit, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
-
-
-def check(ball, energy, period, orbits):
-    """Check what holds for every result."""
-    k = ball.k
-    radius = ball.section(energy)[1]
-    count = orbits.sizes["orbit"]
-    assert orbits.sizes["point"] == period
-    assert (orbits.attrs["energy"], orbits.attrs["period"]) == (energy, period)
-    assert np.all(np.diff(np.abs(orbits["multiplier"])) >= 0)
-    seen = []
-    for i in range(count):
-        points = points_of(orbits, i)
-        trace = float(orbits["trace"][i])
-        multiplier = float(orbits["multiplier"][i])
-        # The orbit closes under single impacts, to rounding.
-        after = np.stack(ball.impact(*points[:3]))
-        gap = np.max(np.abs(after[:3] - np.roll(points[:3], -1, axis=1)))
-        slopes = np.max(np.abs(ball.jacobian(*points[:3])))
-        assert gap <= 1e-14 * max(1.0, slopes / 10.0), (period, trace, gap)
-        assert np.allclose(after[3], points[3], rtol=1e-14 * max(1.0, slopes / 10.0), atol=0.0)
-        assert np.max(np.abs(ball.energy(*points[:3]) - energy)) < 1e-14 * (1 + radius)
-        # The period is prime, and no orbit occurs twice.
-        x, y = points[0], points[1] - k * points[2]
-        distances = np.hypot(x[:, None] - x, y[:, None] - y) + np.eye(period)
-        assert period == 1 or np.min(distances) > 1e-8 * radius
-        for other_x, other_y in seen:
-            assert np.min(np.hypot(x[:, None] - other_x, y[:, None] - other_y)) > 1e-8 * radius
-        seen.append((x, y))
-        # The orbit is symmetric under (x, y) -> (x, -y).
-        mirrored = np.min(np.hypot(x[:, None] - x, y[:, None] + y), axis=1)
-        assert np.max(mirrored) < 1e-9 * radius
-        # Trace, type, multiplier and rotation number follow from the Jacobians.
-        product = reduce(lambda before, jacobian: jacobian @ before, ball.jacobian(*points[:3]))
-        size = 1.0 + np.max(np.abs(product))
-        assert abs(np.trace(product) - 1.0 - trace) < 1e-12 * size * size
-        assert abs(np.linalg.det(product) - 1.0) < 1e-12 * size * size
-        kind = "elliptic" if abs(trace) < 2 else "hyperbolic" if trace > 0 else "inverse hyperbolic"
-        assert str(orbits["type"].values[i]) == kind
-        half = max(abs(trace) / 2.0, 1.0)
-        size = half + np.sqrt(half * half - 1.0)
-        assert abs(multiplier) == pytest.approx(size, rel=1e-14)
-        assert multiplier * trace > 0.0 or kind == "elliptic"
-        rotation = np.arccos(np.clip(trace / 2, -1, 1)) / (2 * np.pi)
-        assert float(orbits["rotation_number"][i]) == pytest.approx(rotation, abs=1e-9)
-        assert float(orbits["total_time"][i]) == pytest.approx(np.sum(points[3]), rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -138,21 +90,7 @@ def test_unstable_and_almost_parabolic_orbits_are_right_to_the_last_bit(
 ):
     orbits = symmetric_orbits(Ball(k, g), energy, period)
     i = int(np.argmin(np.abs(orbits["trace"].values - trace)))
-    points = points_of(orbits, i)
-    state, moved = points[:3, 0], 1.0
-    while moved > 1e-30:
-        before = state
-        state, product = periodic_point(Ball(k, g), energy, before, period)
-        moved = max(abs(a - b) for a, b in zip(state, before, strict=True))
-    expected = product[0, 0] + product[1, 1] + product[2, 2] - 1
-    found = float(orbits["trace"][i])
-    assert abs(found - expected) <= 0.51 * np.spacing(abs(found))
-    state = tuple(state)
-    for point in points.T.tolist():
-        *after, tau = exact_map(mpf(k), mpf(g), *state)
-        for number, exact in zip(point, (*state, tau), strict=True):
-            assert abs(number - exact) <= 0.51 * np.spacing(abs(number)), (number, exact)
-        state = tuple(after)
+    check_last_bits(Ball(k, g), energy, period, orbits, i)
 
 
 def test_orbits_on_a_chain_alternate_in_type_although_their_traces_are_2_to_rounding():

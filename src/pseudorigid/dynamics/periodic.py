@@ -3,11 +3,11 @@
 Let P be the map and R the reversor, (x, y) -> (x, -y). A symmetric orbit of even period 2m starts
 on Fix R (y = 0) and returns to it after m impacts, or does so on Fix RP. An orbit of odd period 2m
 + 1 starts on Fix R and is on Fix RP after m impacts. On Fix RP the flight that follows is symmetric
-in time: b + g tau/2 = 0. Orbits without that symmetry are not searched for.
+in time: b + g tau/2 = 0. `newton` searches for orbits without that symmetry.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import SupportsFloat
 
@@ -86,9 +86,17 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
     """
     require_ball(ball)
     period, energy = whole_number("period", period), number("energy", energy)
+    orbits = ((orbit, True) for orbit in distinct_orbits(ball, energy, period))
+    return dataset_of(ball, energy, period, orbits)
+
+
+def dataset_of(
+    ball: Ball, energy: float, period: int, orbits: Iterable[tuple[np.ndarray, bool]]
+) -> xr.Dataset:
+    """Solve for orbits (4, period), each with whether it is symmetric, and return their dataset."""
     _, radius = ball.section(energy)
     solved, unsolved = [], 0
-    for orbit in _distinct_orbits(ball, energy, period, radius):
+    for orbit, symmetric in orbits:
         # One of the three eigenvalues of the product of the Jacobians, eq. (33), is 1.
         x, xdot, udot, _ = orbit
         jacobians = ball.jacobian(x, xdot, udot, period)
@@ -99,7 +107,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
                 solved.append((trace, _orbit_from(ball, first, period)))
                 continue
         try:
-            solved.append(polished(ball, energy, orbit, radius))
+            solved.append(polished(ball, energy, orbit, radius, symmetric))
         except ArithmeticError:
             unsolved += 1
     solved.sort(key=lambda orbit: (abs(_multiplier(orbit[0])), orbit[1][0, 0]))
@@ -123,8 +131,9 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
     return xr.Dataset(of_points | described(of_orbits), attrs=attrs)
 
 
-def _distinct_orbits(ball: Ball, energy: float, period: int, radius: float) -> Iterator[np.ndarray]:
+def distinct_orbits(ball: Ball, energy: float, period: int) -> Iterator[np.ndarray]:
     """Yield the points (4, period) of each orbit of this prime period on the symmetry lines."""
+    _, radius = ball.section(energy)
     seen = np.empty((3, 0))
     for line in _lines(ball, energy, period):
         for state in _solutions(ball, line, period, radius):

@@ -1,4 +1,4 @@
-"""A symmetric orbit to the last bit, by Newton's method on all of its points in decimal arithmetic.
+"""A periodic orbit to the last bit, by Newton's method on all of its points in decimal arithmetic.
 
 Along an unstable orbit the map multiplies the error of the first point. Therefore all points, in
 the chart (x, y = xdot - k udot), and all times of flight are unknowns. Their linear equations,
@@ -21,11 +21,12 @@ _Flight = tuple[_Numbers, _Numbers, _Numbers, _Numbers]
 
 
 def polished(
-    ball: Ball, energy: float, orbit: np.ndarray, radius: float
+    ball: Ball, energy: float, orbit: np.ndarray, radius: float, symmetric: bool
 ) -> tuple[float, np.ndarray]:
-    """Return trace and points (4, n) of the orbit near one, (4, n), that starts on a symmetry line.
+    """Return trace and points (4, n) of the orbit near one, (4, n).
 
-    Raises ArithmeticError if Newton's method does not converge.
+    One that is symmetric starts on a symmetry line. Raises ArithmeticError if Newton's method does
+    not converge.
     """
     n = orbit.shape[1]
     with localcontext(Context(prec=DIGITS)):
@@ -35,13 +36,15 @@ def polished(
         # Points i and (line - i) % n are mirror images; `line` is 1 for a start on Fix RP. Their y
         # have the sum 0: this keeps the equations of half the orbit regular where the trace is 2.
         line = int(abs(points[0][1]) > abs(points[0][1] + points[1 % n][1]))
-        half = (n + line + 1) // 2
+        half = (n + line + 1) // 2 if symmetric else n
         points = [points[i % n] for i in range(half + 1)]
         for _ in range(NEWTON_STEPS):
             flights = [_flight(k, g, e, *point) for point in points[:half]]
             x, y, _ = points[0]
             (p, q), (a, c), (b, d) = (
                 (path[0][1] + path[line][1], path[half][1] + path[(line - half) % n][1])
+                if symmetric
+                else (path[n][0] - path[0][0], path[n][1] - path[0][1])
                 for path in _paths(flights, x, y)
             )
             a, b, c, d = a - p, b - p, c - q, d - q

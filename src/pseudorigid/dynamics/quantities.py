@@ -70,7 +70,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     orbits : xarray.Dataset
-        One or more orbits of `symmetric_orbits`.
+        One or more orbits of `symmetric_orbits` or `periodic_orbits`.
 
     Returns
     -------
