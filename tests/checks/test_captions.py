@@ -118,7 +118,7 @@ CASES = [
         ["80 starts from the fixed point to the rim"],
         ["plateau", "monotone", "triangle", "fraction"],
     ),
-    ("spread", {}, ["a length. (b)"], ["triangle", "paper", "grey"]),
+    ("spread", {}, ["a length. Bars"], ["triangle", "paper", "grey"]),
     ("spread", {"regular": [0.5]}, ["chaotic orbits are grey"], []),
     ("twist", {"energies": [0.0005, 0.002]}, ["At 2 energies"], ["ring"]),
     ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0012]}, [], ["and after it"]),

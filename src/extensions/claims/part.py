@@ -40,7 +40,7 @@ PART = Part(
     },
     report="extensions.claims.report",
     seconds={
-        "results/claims/spread_spread.nc": 50,
+        "results/claims/spread_spread.nc": 90,
         "results/claims/rotation_rotation.nc": 8,
         "results/claims/control_control.nc": 8,
         "results/claims/flux_flux.nc": 6,

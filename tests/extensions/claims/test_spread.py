@@ -4,13 +4,16 @@ import math
 
 import numpy as np
 import pytest
+import scipy.stats
 import xarray as xr
 from sections import BALL
+from slowly import slowly
 
 from extensions.claims.analyses.sea import section_points
 from extensions.claims.analyses.spread import spread
-from extensions.claims.analyses.stretches import in_sea, stretches
+from extensions.claims.analyses.stretches import in_sea, long_run, spread_of_runs, stretches
 from extensions.claims.ledger import chaos
+from extensions.claims.ledger.outcomes import FALSE, HOLDS
 from pseudorigid import lyapunov_spectrum, orbit
 
 ENERGY = 0.01
@@ -95,3 +98,75 @@ def test_the_largest_exponent_of_a_stretch_is_the_largest_by_value():
     blocks["type"] = "orbit", ["chaotic"] * 2
     long = stretches(blocks.assign_attrs(block_impacts=100), 100)
     assert np.array_equal(long, [1.2, 1.3])
+
+
+def second_table(ball, energy, states, length, block):
+    """Exponents of runs by renormalizing one tangent vector, and by scipy their two moments.
+
+    The vector is carried by the Jacobians of single impacts, and the errors are those of leaving
+    out an orbit at a time, computed one by one.
+    """
+    paths = [ball.history(state, length)[0] for state in states]
+    rows = []
+    for state, path in zip(states, paths, strict=True):
+        before = np.vstack((state, path[:-1, :3]))
+        jacobians, vector, grown = ball.jacobian(*before.T), np.array([1.0, 0.0, 0.0]), []
+        for jacobian in jacobians:
+            vector = jacobian @ vector
+            grown.append(math.log(np.linalg.norm(vector)))
+            vector = vector / np.linalg.norm(vector)
+        rows.append(np.reshape(grown, (-1, block)).mean(axis=1))
+    rows, table = np.array(rows), []
+    for count in (1, 2, 5, 10, 20):
+        runs = rows[:, : rows.shape[1] // count * count].reshape(len(rows), -1, count).mean(axis=2)
+        left_out = [np.delete(runs, i, axis=0).ravel() for i in range(len(runs))]
+        pairs = [(values.std(), scipy.stats.skew(values)) for values in (runs.ravel(), *left_out)]
+        errors = np.std(pairs[1:], axis=0) * math.sqrt(len(runs) - 1)
+        table.append((pairs[0][0], errors[0], pairs[0][1], errors[1]))
+    return np.array(table)
+
+
+@pytest.mark.parametrize(("orbits", "length"), [(6, 4000), *slowly((24, 200_000))])
+def test_the_table_of_runs_is_that_of_a_second_implementation(orbits, length):
+    data = spread(BALL, ENERGY, orbits, length, 20, [0.1], 16, 2, 2)
+    names = ["deviation", "deviation_error", "skewness", "skewness_error"]
+    found = np.stack([data[name].values for name in names], axis=1)
+    sea = np.transpose(starts(data))[in_sea(data)]
+    assert data["run"].values.tolist() == [length // 20 * n for n in (1, 2, 5, 10, 20)]
+    expected = second_table(BALL, ENERGY, sea, length, length // 20)
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
+
+
+def test_independent_blocks_have_the_spread_of_independent_runs():
+    rng = np.random.default_rng(1)
+    block = np.sort(rng.normal(0.2, 0.01, (1000, 100, 3)))[..., ::-1]
+    data = spread_of_runs(block, 10)
+    length, deviation, error, skewness, skewness_error = (data[name][1] for name in data)
+    scaled = deviation * np.sqrt(length / length[0]) / deviation[0]
+    assert np.all(np.abs(scaled - 1.0) < 4.0 * error / deviation)
+    assert np.all(np.abs(skewness[3:]) < 4.0 * skewness_error[3:])
+    assert error[0] / deviation[0] == pytest.approx(math.sqrt(0.5 / 1e5), rel=0.3)
+
+
+def test_one_orbit_and_one_run_have_no_error():
+    data = spread_of_runs(np.ones((2, 1, 3)), 10)
+    assert data["run"][1].tolist() == [10, 20]
+    assert np.isnan(data["deviation_error"][1]).all() and np.isnan(data["skewness"][1]).all()
+
+
+def test_an_orbit_that_stays_at_an_island_does_not_differ_from_the_others():
+    """Others spread by 0.004 a block; it has the exponent 0 in three of its fifty blocks."""
+    exponent = np.random.default_rng(1).normal(0.23, 0.004, (50, 100, 1))
+    data = xr.Dataset({"exponent": (("block", "orbit", "index"), exponent)})
+    data["type"] = "orbit", ["chaotic"] * 100
+    exponent[10:13, 7] = 0.0
+    assert chaos.independent_of_start(data).verdict == HOLDS
+    exponent[:, 7] = exponent[:, 8] - 0.01
+    assert chaos.independent_of_start(data).verdict == FALSE
+
+
+def test_the_long_run_has_two_standard_errors_between_orbits(spreading):
+    orbits = spreading["exponent"].values[:, in_sea(spreading), 0].mean(axis=0)
+    mean, error = long_run(spreading)
+    assert mean == pytest.approx(orbits.mean(), rel=1e-12)
+    assert error == pytest.approx(2.0 * orbits.std(ddof=1) / math.sqrt(orbits.size), rel=1e-12)

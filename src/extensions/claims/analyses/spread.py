@@ -2,7 +2,8 @@
 
 Orbits start uniformly over the whole section, and their exponents decide which of them are chaotic.
 The dataset holds means over blocks, from which means over longer stretches follow. So one run gives
-the long-run value, its error, and the distribution of the short runs that it consists of.
+the long-run value, its error, and the distribution of the short runs that it consists of. If blocks
+were independent, the spread of runs would fall like the reciprocal square root of their length.
 """
 
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from pseudorigid.dynamics.regularity import orbit_types
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
 
 from .sea import as_array, half_axes, section_points
+from .stretches import spread_of_runs
 
 _CHUNK = 4000  # impacts of each orbit in memory at once: 8 MB for 64 orbits
 
@@ -70,6 +72,7 @@ def spread(
         "regular_type": ("island", types_of_regular, "regular or chaotic"),
     }
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
+    data |= spread_of_runs(block[:, chaotic], length // blocks)
     attributes: dict[str, Any] = {"block_impacts": length // blocks}
     if (energy, {"k": ball.k, "g": ball.g}) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
         attributes["printed_exponent"] = paper.EXPONENT

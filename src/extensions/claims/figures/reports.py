@@ -14,13 +14,17 @@ from paper.figures.reports import listing
 
 
 def spread(block: dict[str, Any], spread: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:
-    """Give the largest exponent's mean over all chaotic orbits, with its standard error."""
-    from ..analyses.stretches import in_sea
+    """Give the largest exponent's mean over all chaotic orbits, and the spread of runs."""
+    from ..analyses.stretches import long_run
 
-    # the mean over an orbit's blocks, then its largest exponent
-    largest = spread["exponent"].values[:, in_sea(spread)].mean(axis=0).max(axis=-1)
-    error = largest.std(ddof=1) / largest.size**0.5
-    return {"long-run exponent": f"{largest.mean():.5f} \N{PLUS-MINUS SIGN} {error:.5f}"}
+    mean, error = long_run(spread)
+    decades = spread.isel(run=slice(None, None, 3))
+    template = "{:.5f} \N{PLUS-MINUS SIGN} {:.5f} of {:,} impacts"
+    runs = listing(decades, template, "deviation", "deviation_error", "run")
+    return {
+        "long-run exponent": f"{mean:.5f} \N{PLUS-MINUS SIGN} {error:.5f} (95 %)",
+        "standard deviations of runs": runs,
+    }
 
 
 def clusters(block: dict[str, Any], clusters: xr.Dataset) -> dict[str, str]:

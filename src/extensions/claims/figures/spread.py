@@ -14,37 +14,44 @@ from . import Figure, Frame, Scene
 
 _LEFT, _RIGHT = 135, 1005  # pixels
 _BAR = 0.001  # width of a bar of the histogram in the paper's case
-_LONGEST = 3.0  # quartile distances below the quartiles that the axis shows
+_LONGEST = 3.0  # distances of the quartiles, below the lower one, that an axis shows
 _LN10 = 2.302585092994046
 
 
 @style.pinned()
 def draw(scene: Scene, spread: xr.Dataset, lyapunov: xr.Dataset) -> Figure:
-    """Draw exponents against length, the distribution of short runs, and regular orbits."""
-    sheet = Sheet(style.COLUMN, 1575)
+    """Draw exponents against length, their spread, short runs, and regular orbits."""
+    sheet = Sheet(style.COLUMN, 2025)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
-    frames: list[Frame] = [
-        (_LEFT, low, _RIGHT, high) for low, high in ((1075, 1425), (605, 905), (112, 435))
-    ]
+    rows = (1525, 1875), (1075, 1355), (605, 905), (112, 435)
+    frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in rows]
     letters(sheet, *frames)
     _lengths(sheet, frames[0], spread)
-    _short_runs(sheet, frames[1], spread, lyapunov)
-    _regular(sheet, frames[2], spread)
+    _spread(sheet, frames[1], spread)
+    _short_runs(sheet, frames[2], spread, lyapunov)
+    _regular(sheet, frames[3], spread)
     return sheet.figure
+
+
+def _across(lengths: list[int]) -> Axis:
+    """Return an axis of lengths with whole decades around them."""
+    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))
+    return decades((low - 0.1, high + 0.1), "Length in impacts")
+
+
+def _without_tail(values: np.ndarray) -> np.ndarray:
+    """Return values of which those far below the lower quartile are raised to _LONGEST below it."""
+    values = np.sort(values)
+    low, high = values[values.size // 4], values[3 * (values.size - 1) // 4]
+    return np.clip(values, low - _LONGEST * (high - low), None)
 
 
 def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     """Draw range, quartiles and mean against the length; a triangle if the range is cut off."""
-    first, blocks = int(spread.attrs["block_impacts"]), spread.sizes["block"]
-    lengths = [first << i for i in range((blocks - 1).bit_length())] + [first * blocks]
-    low, high = len(str(lengths[0])) - 1, len(str(lengths[-1] - 1))  # whole decades around them
-    across = decades((low - 0.1, high + 0.1), "Length in impacts")
-    shortest = np.sort(stretches(spread, first))
-    low, high = shortest[shortest.size // 4], shortest[3 * (shortest.size - 1) // 4]
-    axis = of_data(np.clip(shortest, low - _LONGEST * (high - low), None))
-    panel = Panel(
-        sheet, frame, across, Axis(axis["limits"], axis["ticks"], "Largest exponent in the sea")
-    )
+    lengths = spread["run"].values.tolist()
+    axis = of_data(_without_tail(stretches(spread, lengths[0])))
+    up = Axis(axis["limits"], axis["ticks"], "Largest exponent in the sea")
+    panel = Panel(sheet, frame, _across(lengths), up)
     if printed := spread.attrs.get("printed_exponent"):
         panel.line([1.0, 1e30], [printed] * 2, color=style.BLUE, lw=0.7, ls="--")
         panel.note(lengths[-1], printed, f"the paper: {printed}", ha="right", shift=(0, 5))
@@ -59,6 +66,20 @@ def _lengths(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     corner(sheet, frame, "thin: range, thick: quartiles, dot: mean")
 
 
+def _spread(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
+    """Draw the standard deviation of runs times the square root of their length n."""
+    lengths, root = spread["run"].values, np.sqrt(spread["run"].values)
+    scaled, error = root * spread["deviation"].values, root * spread["deviation_error"].values
+    ends = scaled + np.array([-1.0, 1.0])[:, None] * np.where(np.isnan(error), 0.0, error)
+    axis = of_data(ends, most=5)
+    up = Axis(axis["limits"], axis["ticks"], r"Their standard deviation times $\sqrt{n}$")
+    panel = Panel(sheet, frame, _across(lengths.tolist()), up)
+    panel.line([1.0, 1e30], [scaled[0]] * 2, color=style.BLACK, lw=1.0, ls="--")
+    panel.bars(lengths, *ends, color=style.VERMILION, lw=1.0)
+    panel.dots(lengths, scaled, style.VERMILION, size=2.4)
+    corner(sheet, frame, "dashes: falls like $n^{-1/2}$")
+
+
 def _short_runs(sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dataset) -> None:
     """Draw the histogram of short runs, with their mean and the marked orbits."""
     marked = final_exponents(lyapunov)[:, 0]
@@ -67,7 +88,7 @@ def _short_runs(sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dat
     short = block * min(max(int(lyapunov["impact"].values[-1]) // block, 1), blocks)
     runs = stretches(spread, short)
     printed = spread.attrs.get("printed_exponent") if short == 200_000 else None
-    axis = of_data(runs, marked)
+    axis = of_data(_without_tail(runs), marked)
     low, high = axis["limits"]
     bar = _BAR if printed else (high - low) / 50
     edges = low + bar * np.arange(round((high - low) / bar) + 1)
