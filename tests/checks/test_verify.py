@@ -198,3 +198,15 @@ def test_a_pixel_that_differs_from_the_results_or_the_commit_is_shown(moved):
     edited_lists.cache_clear()
     note = "paper_figures/MANIFEST.json: not the committed one, see git diff"
     assert note in verified(moved).notes
+
+
+def test_without_an_answer_of_git_the_lists_are_not_known_to_be_committed(moved, monkeypatch):
+    """As in a tree of another user, whose repository git refuses to read."""
+    commit(moved.path, "paper_figures")
+    assert verified(moved).notes == []
+    edited_lists.cache_clear()
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    found = verified(moved)
+    lists = "paper_figures/SHA256SUMS, paper_figures/MANIFEST.json"
+    assert found.notes == [f"{lists}: not known to be the committed one, see git status"]
+    assert (found.status, verified(moved, strict=True).status) == (0, 1)

@@ -34,7 +34,7 @@ class Findings:
     # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
-    edited: list[str] = field(default_factory=list)  # manifest or sums that are not committed
+    edited: dict[str, str] = field(default_factory=dict)  # manifest or sums not as committed -> how
     problems: list[str] = field(default_factory=list)  # of manifest, sums, text files, surplus
     # A line about drawings of the paper that were not computed here, if they have to be.
     uncomputed: list[str] = field(default_factory=list)
@@ -60,7 +60,7 @@ class Findings:
     @property
     def notes(self) -> list[str]:
         """Lines about differences that leave the committed bytes."""
-        notes = [(file, "not the committed one, see git diff") for file in self.edited]
+        notes = [*self.edited.items()]
         for name, layers in self.layers.items():
             if layers is None:
                 notes.append((name, NEW))
@@ -163,7 +163,8 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
     }
     published_set = published_set.without(refused)
     folder, findings = published_set.folder, Findings(published_set)
-    findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
+    of_set = (f"{folder}/{SUMS}", f"{folder}/{MANIFEST}")
+    findings.edited = {f: why for f, why in edited_lists(root).items() if f in of_set}
     try:
         findings.committed = committed = manifest.read(root, folder)
         comparison = Comparison(freshness, published_set, committed)
