@@ -9,7 +9,7 @@ from project import fresh_tree, of_scenes, run
 
 from pipeline.cli.packages import logical_lines
 
-# Python runs this file of a tree at each start. It takes away what macOS lacks, and the user's name.
+# Python runs this file at each start. It takes away what macOS lacks, and the user's name.
 SITE = """
 import os, pwd, select, signal
 

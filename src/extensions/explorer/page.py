@@ -44,7 +44,7 @@ APP = (
 
 
 def render(checked: config.Config, root: Path = ROOT) -> str:
-    """Return the page with the data of a config; ValueError if the committed copy is not current."""
+    """Return the page with a config's data; ValueError if the committed copy is not current."""
     if page := _current_copy():
         return _with_data(page, checked, root)
     raise ValueError(f"{COPY} was made from other files than these: run {RENEW}")

@@ -72,6 +72,15 @@ class Findings:
         """Return whether the tree is not as committed; notes count if `strict`."""
         return bool(self.differences or self.failures or (strict and self.notes))
 
+    def why(self, strict: bool = False) -> Iterator[str]:
+        """Yield lines that repeat why the tree fails."""
+        folder = self.published_set.folder
+        if self.differences:
+            yield f"exit status 1: {folder}/: {_listed([*self.differences])} differ"
+        for line in [*self.failures, *(self.notes if strict else ())]:
+            named = "/" in line.partition(":")[0]
+            yield f"exit status 1: {line if named else f'{folder}/: {line}'}"
+
     def _harmless(self, name: str) -> bool:
         """Return whether the layers of a listed file leave its committed bytes."""
         # Another config does not matter once results made with it have the committed bytes.
