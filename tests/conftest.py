@@ -24,7 +24,9 @@ def pytest_cmdline_main(config):
     option = config.option
     chosen = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
     if not (chosen or hasattr(config, "workerinput")):
-        option.numprocesses, option.dist = len(os.sched_getaffinity(0)), "worksteal"
+        on_linux = hasattr(os, "sched_getaffinity")
+        cores = len(os.sched_getaffinity(0)) if on_linux else os.cpu_count()
+        option.numprocesses, option.dist = cores, "worksteal"
 
 
 def pytest_configure(config):

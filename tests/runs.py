@@ -12,9 +12,9 @@ VARIANTS = {"low": {"energy": 0.0017}, "doubled": {"scale": 2}}
 
 
 def rows(output):
-    """File -> recomputed or current, from the tables at the end of a run."""
+    """File -> recomputed, current or published again, from the tables at the end of a run."""
     states, folder = {}, ""
-    row = r"(\S+) +((?:\w{3} +[\d,]+ kB +)+)(recomputed|current)\b"
+    row = r"(\S+) +((?:\w{3} +[\d,]+ kB +)+)(recomputed|current|published again)\b"
     for line in output.splitlines():
         folder = line if re.fullmatch(r"\S+/", line) else folder
         if match := re.match(row, line):

@@ -143,9 +143,9 @@ class OfChaoticOrbits(OfOrbits):
         allowed("a list of places in starts, counted from 0, none of them twice"),
         Predicate(distinct),
     ] = []
-    """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. It changes no
-    picture: those whose tangent vectors grow exponentially are called chaotic, and drawn first, in
-    grey."""
+    """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. (The numbers in
+    a picture are places counted from 1.) It changes no picture: those whose tangent vectors grow
+    exponentially are called chaotic, and drawn first, in grey."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that places in `sea` are places in `starts`."""
@@ -153,7 +153,7 @@ class OfChaoticOrbits(OfOrbits):
         last = len(self.starts) - 1
         for place in self.sea:
             if place > last:
-                yield ("sea",), place, f"a place in starts, from 0 to {last}"
+                yield ("sea",), place, f"a place in starts, counted from 0, at most {last}"
 
 
 class OfRecords(OfOrbits):

@@ -1,5 +1,6 @@
 """The workflow: it turns config.yaml into files and checks them."""
 
+import getpass
 import os
 import sys
 
@@ -17,3 +18,11 @@ from pseudorigid.kernel import compiled  # loaded from its text
 from .records import sources
 
 compiled.subfolder = sources.compiled_subfolder
+
+# Snakemake asks for the user's name and makes a cache. In a container, a user may be a number that
+# has no name, and no home.
+os.environ.setdefault("XDG_CACHE_HOME", str(sources.ROOT / ".venv" / "cache"))
+try:
+    getpass.getuser()
+except (KeyError, OSError):
+    os.environ["LOGNAME"] = str(os.getuid())

@@ -12,7 +12,7 @@ from .checks import figures_page
 from .checks.published_sets import ChecksumError
 from .config import ConfigError, json_schema, reference
 from .declaration import RENEW, SCHEMA, SRC, SourceError, imported, parts
-from .records.files import FileError, read_text, write_whole
+from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
 BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. -->\n"
@@ -58,7 +58,7 @@ def main() -> int:
             (ROOT / name).parent.mkdir(exist_ok=True)
             write_whole(ROOT / name, texts[name])
             print(f"{name}: renewed")
-    except (ConfigError, ChecksumError, FileError, SourceError, ValueError) as error:
+    except (ConfigError, ChecksumError, SourceError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
     if not outdated:

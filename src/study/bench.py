@@ -49,7 +49,8 @@ def run(args: Arguments) -> int:
 
     A module that a part declares as `benchmark` adds calls(), and lines(seconds) on them.
     """
-    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
+    if hasattr(os, "sched_setaffinity"):  # macOS has none
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
     more = [import_module(part.benchmark) for part in parts().values() if part.benchmark]
     timed = calls()
     for module in more:

@@ -80,7 +80,8 @@ def machine() -> dict[str, str]:
 
 def _processor() -> str:
     """Return the name of the processor and its widest SIMD instructions."""
-    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    known = Path("/proc/cpuinfo")  # Linux has it
+    lines = known.read_text(encoding="utf-8").splitlines() if known.exists() else []
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     flags = next((line for line in lines if line.startswith(("flags", "Features"))), "")
     simd = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"

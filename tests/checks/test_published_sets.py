@@ -94,7 +94,9 @@ def test_an_added_scene_is_a_note_until_it_is_accepted(moved, edited):
 
 
 @pytest.mark.parametrize("with_git", [True, False])
-def test_a_file_is_the_committed_one_by_its_bytes_and_a_list_as_git_says(tmp_path, with_git):
+def test_a_file_is_the_committed_one_by_its_bytes_and_a_list_as_git_says(
+    tmp_path, monkeypatch, with_git
+):
     folder = tmp_path / "inside another repository" / "paper_figures"
     folder.mkdir(parents=True)
     digest = hashlib.sha256(b"true").hexdigest()
@@ -115,10 +117,15 @@ def test_a_file_is_the_committed_one_by_its_bytes_and_a_list_as_git_says(tmp_pat
     figure.write_text("edited")
     assert state("fig2") == "differs"
     sums.write_text(f"{hashlib.sha256(b'edited').hexdigest()}  fig2.png\n")
-    words = "unknown: {} by SHA256SUMS, which is not as committed" if with_git else "{}"
-    assert state("fig2") == words.format("identical")
+    words = "unknown: {} by SHA256SUMS, which is " * with_git + "{}"
+    edited = "not the committed one, see git diff"
+    assert state("fig2") == words.format("identical", edited)
     figure.write_text("true")
-    assert state("fig2") == words.format("differs")
+    assert state("fig2") == words.format("differs", edited)
+    # As if the repository were of another user, so that git refuses to read it.
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    unknown = "not known to be the committed one, see git status"
+    assert state("fig2") == words.format("differs", unknown)
 
 
 # ---- accept ----

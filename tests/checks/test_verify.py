@@ -15,7 +15,7 @@ from verdicts import commit, verified
 
 from pipeline import config
 from pipeline.checks import manifest
-from pipeline.checks.published_sets import edited_lists
+from pipeline.checks.published_sets import WHAT_TO_DO, edited_lists
 from pipeline.cli import arguments
 from pipeline.records import pictures
 from pipeline.records.record import public_record
@@ -48,7 +48,9 @@ def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     shutil.rmtree(moved.path / "results")
     status, lines = command("verify")
     assert status == 1
-    assert "not computed here: run ./reproduce, or verify --committed" in "\n".join(lines)
+    words = "and 10 more: not computed here: run ./reproduce, or verify --committed"
+    assert lines[-2] == "14 of 14 files identical; 1 other finding"
+    assert lines[-1].startswith("exit status 1: paper_figures/: fig2.png") and words in lines[-1]
     status, lines = command("verify", "--committed")
     assert status == 0
     assert lines[-3].startswith("no results here: only the committed files were checked")
@@ -69,6 +71,21 @@ def test_manifest_and_records_have_no_folder_and_no_date(accepted):
         whole = manifest.record_of(committed, path)
         assert whole == record | {"output": whole["output"] | record["output"]}
     assert all({"commit", "dirty"} <= json.loads(record).keys() for record in records)
+
+
+def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
+    spoil_pixel(moved.path / FIGURE)
+    (moved.path / "paper_figures/mine.png").write_text("x")
+    moved.edit("fig7", records=5)
+    status, lines = command("verify")
+    end = lines[lines.index("11 of 14 files identical; 2 other findings") + 1 :]
+    assert status == 1 and end[0] == (
+        "exit status 1: paper_figures/: fig3.png, fig7.png, fig7.svg differ"
+    )
+    assert end[1].startswith("exit status 1: paper_figures/mine.png: no scene makes it")
+    assert end[2].startswith("exit status 1: results/paper/lyapunov_fig7.nc")
+    assert end[3:] == [WHAT_TO_DO]
+    assert WHAT_TO_DO in command("list")[1]
 
 
 # ---- one fault for each layer ----
@@ -198,3 +215,15 @@ def test_a_pixel_that_differs_from_the_results_or_the_commit_is_shown(moved):
     edited_lists.cache_clear()
     note = "paper_figures/MANIFEST.json: not the committed one, see git diff"
     assert note in verified(moved).notes
+
+
+def test_without_an_answer_of_git_the_lists_are_not_known_to_be_committed(moved, monkeypatch):
+    """As in a tree of another user, whose repository git refuses to read."""
+    commit(moved.path, "paper_figures")
+    assert verified(moved).notes == []
+    edited_lists.cache_clear()
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    found = verified(moved)
+    lists = "paper_figures/SHA256SUMS, paper_figures/MANIFEST.json"
+    assert found.notes == [f"{lists}: not known to be the committed one, see git status"]
+    assert (found.status, verified(moved, strict=True).status) == (0, 1)

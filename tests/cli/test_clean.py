@@ -126,6 +126,15 @@ def test_a_result_that_is_committed_stays(root):
     assert left(root) == KEPT | {"results/paper/motion_fig3.nc"}
 
 
+def test_nothing_is_deleted_if_git_does_not_say_what_is_committed(root, monkeypatch):
+    """As in a tree of another user, whose repository git refuses to read."""
+    commit(root, "results/paper/motion_fig3.nc")
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    with pytest.raises(UsageError, match="git does not say which files in results are committed"):
+        run("--yes", root=root)
+    assert left(root) == {*FILES}
+
+
 def test_records_that_do_not_name_a_result_delete_nothing(root):
     """A folder that no set or variant has may have files of such names."""
     for name, text in {"x.txt": "{}", "orbits.nc": "mine"}.items():

@@ -102,7 +102,7 @@ BAD = [
     ("a_portrait.impacts", [10], ": [10] is not allowed: expected one number for each of the 2"),
     ("a_portrait.impacts", 6_000_000, ": 6000000 is not allowed: expected at most 10000000"),
     ("a_portrait.impacts", [10, 2.5], "[1]: 2.5 is not allowed: expected a whole number"),
-    ("a_portrait.sea", [2], ": 2 is not allowed: expected a place in starts, from 0 to 1"),
+    ("a_portrait.sea", [2], ": 2 is not allowed: expected a place in starts, counted from 0, at m"),
     ("a_portrait.axes.udot", {"limits": [0, 100], "ticks": [0]},
      ".limits: [0, 100] is not allowed: expected limits that make the box in this view 0.1 to"),
     ("a_tangle.branches.outer.length", 4167, ": 4167 is not allowed: expected at most 10000000 "

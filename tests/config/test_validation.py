@@ -1,6 +1,7 @@
 """Any file named config.yaml is a correct config or is refused in lines that name it."""
 
 import json
+import re
 
 import pytest
 import yaml
@@ -11,6 +12,8 @@ from project import SHIPPED, shipped
 from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
+from pipeline.config.schema.sets import MAIN, SETS
+from pipeline.config.validation import document
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -21,7 +24,10 @@ def test_something_else_than_a_config_is_refused(document):
 @pytest.mark.parametrize(
     ("text", "part"),
     [
-        (b"", "nothing is not allowed"),
+        (b"", "is empty"),
+        (b"\n# only a comment\n", "is empty"),
+        (b"---\n", "nothing is not allowed"),
+        (b"ball:\n\tk: 0.2", "config.yaml: line 2: begins with a tab: indent it with spaces"),
         (b"ball: {k: 0.2\nscenes: [", "line 2, column"),
         (b"ball: {k: 0.2}\nball: {k: 0.3}", "line 2, column 1: not valid YAML: the key ball"),
         (b"ball: \xff", "not UTF-8"),
@@ -81,3 +87,116 @@ def test_an_added_scene_changes_no_path():
     after = config.check(document).datasets
     assert after["paper", "a", "periodic"] == "results/paper/periodic_a.nc"
     assert before.items() <= after.items()
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("012", 10), ("-0_7", -7), ("00", 0), ("1:30", 90), ("1:30.5", 90.5)]
+    + [(word, str(word.lower() in ("yes", "on")).lower()) for word in ("yes", "No", "ON", "off")],
+)
+def test_a_value_that_yaml_takes_for_another_one_is_refused_with_a_hint(tmp_path, text, value):
+    """Also in a list and in a block of a part; in quotes it is a text, as in `formats`."""
+    path = tmp_path / "config.yaml"
+    for line in ("ball: {k: %s, g: 0.04}", "ball: {k: 0.2, g: 0.04}\nclaims: {a: [%s]}"):
+        path.write_text(f"{line % text}\nscenes: {{}}\n")
+        with pytest.raises(config.ConfigError) as raised:
+            config.load(path)
+        words = f"{text} means {value} in YAML 1.1: write {value} or what you mean; a text is"
+        pattern = rf"config\.yaml: line [12], column \d+: {re.escape(words)} '{text}', in quotes"
+        assert re.fullmatch(pattern, str(raised.value))
+    path.write_text(f"ball: {{k: '{text}', g: 0.04}}\nscenes: {{}}\n")
+    with pytest.raises(config.ConfigError, match=f"ball.k: '{text}' is not allowed"):
+        config.load(path)
+
+
+@pytest.mark.parametrize("key", ["yes", "NO", "012", "1", "1:30", "null", "~", "2001-01-01", "1.5"])
+def test_a_key_that_is_no_text_to_yaml_is_refused_with_a_hint(tmp_path, key):
+    path = tmp_path / "config.yaml"
+    path.write_text(f"ball: {{k: 0.2, g: 0.04}}\nscenes:\n  {key}: {{picture: motion}}\n")
+    words = f"line 3, column 3: the key {key} is no text in YAML 1.1: write '{key}'"
+    with pytest.raises(config.ConfigError, match=re.escape(words)):
+        config.load(path)
+
+
+DOCUMENT = """\
+ball: {k: 0.2, g: 0.04}
+scenes:
+  fig2: &fig2
+    picture: portrait
+    energy: 0.01
+    starts: [0.1,
+             0.2,
+             STARTS]
+    impacts: 10
+    view: {elevation: 40,
+           azimuth: AZIMUTH}
+  again:
+    <<: *fig2
+    impacts: IMPACTS
+variants:
+  low:
+    energy: ENERGY
+    scenes:
+      fig2:
+        impacts: VARIED
+      SCENE: {impacts: 3}
+KEY:
+  SPREAD: {picture: spread, ENERGIES: 0.01}
+"""
+VALUES = {
+    "STARTS": 0.3, "AZIMUTH": 115, "IMPACTS": 10, "ENERGY": 0.009, "VARIED": 20, "SCENE": "again",
+    "KEY": "variants2", "\n  SPREAD: {picture: spread, ENERGIES: 0.01}": "",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("mark", "value", "words"),
+    [
+        ("STARTS", 3, "line 8: scenes.fig2.starts[2]: 3 is not allowed"),
+        ("AZIMUTH", "x", "line 11: scenes.fig2.view.azimuth: 'x' is not allowed"),
+        ("IMPACTS", "-1", "line 14: scenes.again.impacts: -1 is not allowed"),
+        ("    energy: 0.01\n", "", "line 3: scenes.fig2.energy: missing"),
+        ("fig2: &fig2", "a b: &fig2", "line 3: scenes: 'a b' is not allowed"),
+        ("  again:", "  list:", "line 12: scenes: 'list' is not allowed"),
+        ("ENERGY", 9, "line 17: variants.low.energy: 9 is not allowed"),
+        ("VARIED", 0, "line 20: variants.low.scenes.fig2.impacts: 0 is not allowed"),
+        ("SCENE", "fog2", "line 21: variants.low.scenes.fog2: no scene fog2"),
+        ("  low:", "  paper:", "line 16: variants: 'paper' is not allowed"),
+        ("KEY", "scnes", "line 22: scnes: unknown key: did you mean scenes?"),
+        ("ball: {k: 0.2, g: 0.04}", "", "ball: missing"),
+    ],
+)
+def test_a_mistake_names_the_line_of_its_key(tmp_path, mark, value, words):
+    """In mappings, lists, variants and what `<<` repeats."""
+    text = DOCUMENT.replace(mark, str(value))
+    for name, good_value in VALUES.items():
+        text = text.replace(name, str(good_value))
+    if mark != "KEY":
+        text = text.replace("variants2:", "")
+    path = tmp_path / "config.yaml"
+    path.write_text(text)
+    with pytest.raises(config.ConfigError) as raised:
+        config.load(path)
+    assert raised.value.lines[0].startswith(f"config.yaml: {words}")
+    if mark == "STARTS":  # repeated below
+        assert raised.value.lines[1].startswith("config.yaml: line 8: scenes.again.starts[2]")
+
+
+def test_a_mistake_in_a_block_of_a_part_says_what_it_concerns(tmp_path, monkeypatch):
+    """It stops every command. Shipped blocks have files of their own."""
+    sets = [each for name, each in SETS.items() if each.key and name != MAIN]
+    path = tmp_path / "config.yaml"
+    for each in sets:
+        path.write_text(f"{SHIPPED.read_text()}{each.key}:\n  mine: {{picture: nothing}}\n")
+        with pytest.raises(config.ConfigError) as raised:
+            config.load(path)
+        (line,) = raised.value.lines
+        number = len(path.read_text().splitlines())
+        assert line.startswith(f"config.yaml: line {number}: {each.key}.mine.picture: 'nothing'")
+        assert line.endswith(f" (this concerns {each.command} alone)")
+        shipped_file = tmp_path / "scenes.yaml"
+        shipped_file.write_text(f"{each.key}:\n  mine: {{picture: nothing}}\n")
+        monkeypatch.setattr(document, "files", lambda name, file=shipped_file: {"part": file})
+        with pytest.raises(config.ConfigError, match=r"scenes\.yaml: line 2: \w+\.mine\.picture"):
+            config.load(SHIPPED)
+        monkeypatch.undo()

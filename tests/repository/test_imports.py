@@ -213,6 +213,7 @@ def test_the_engine_has_no_name_of_a_part():
 ADDED = {
     "src/extensions/atlas/gpu/card.py": "gpu",
     "src/study/methods/libraries.py": "study",
+    "src/extensions/explorer/page.py": "explorer",
     "src/extensions/publication/article/typesetting.py": "article",
 }
 # Modules whose package has another name.

@@ -89,11 +89,11 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
     monkeypatch.setattr(figures, "ROOT", tmp_path)
     with monkeypatch.context() as patch:
         patch.setattr(Path, "write_bytes", write_half)
-        problems = figures._publish({"published.png": "drawing.png"})
+        problems, _ = figures._publish({"published.png": "drawing.png"})
     assert problems == {"published.png": "cannot be written: Input/output error"}
     assert published.read_text() == "before"
     assert sorted(tmp_path.iterdir()) == [drawing, published]
-    assert figures._publish({"published.png": "drawing.png"}) == {}
+    assert figures._publish({"published.png": "drawing.png"})[0] == {}
     assert published.read_text() == "after"
 
 

@@ -6,6 +6,8 @@ import shutil
 
 from runs import FIG3, contents, rows
 
+from pipeline.checks.published_sets import WHAT_TO_DO
+
 PAPER = "results/paper"
 
 
@@ -107,11 +109,17 @@ def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
         figure.write_text("x")
         os.utime(figure, (4e9, 4e9))
     single = done.run("paper_figures/fig3.png")
-    assert rows(single.stdout) == {"paper_figures/fig3.png": "current"}
+    assert rows(single.stdout) == {"paper_figures/fig3.png": "published again"}
+    words = "published again: it differed from results/paper/figures/fig3.png"
+    assert f"paper_figures/fig3.png: {words}" in single.stdout.splitlines()
     assert contents(done) == before | {"fig7.svg": b"x"}
+    (done.path / "paper_figures/fig2.png").unlink()
     everything = done.run()
-    assert set(rows(everything.stdout).values()) == {"current"}
+    again = [path for path, state in rows(everything.stdout).items() if state != "current"]
+    assert again == ["paper_figures/fig2.png", "paper_figures/fig7.svg"]
+    assert "paper_figures/fig2.png: published again: it was missing" in everything.stdout
     assert contents(done) == before
+    assert set(rows(done.run().stdout).values()) == {"current"}
 
 
 def test_results_alone_are_enough_and_only_what_differs_is_made(edited, accepted):
@@ -146,6 +154,7 @@ def test_the_closing_table_and_the_list_say_what_is_committed(edited):
     assert {name for name in state if state[name] == "differs"} == {"fig3", "fig4", "fig7"}
     assert "paper_figures/fig9.png: no scene makes it: delete it, or put" in output
     listed = edited.run("list").stdout
+    assert WHAT_TO_DO in output and listed.count(WHAT_TO_DO) == 1
     assert "./reproduce: paper_figures/" in listed.splitlines()
     row = r"^(fig[27]) +png svg +(identical|differs)$"
     assert re.findall(row, listed, re.M) == [("fig2", "identical"), ("fig7", "differs")]

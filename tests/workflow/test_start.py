@@ -18,14 +18,80 @@ from slowly import slowly
 def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     tree.edit("fig5", energy=0.9)
     tree.edit("fig7", impact=3)
+    text = [line.strip() for line in tree.config.read_text().splitlines()]
+    energy, impact = (text.index(line) + 1 for line in ("energy: 0.9", "impact: 3"))
     lines = (
-        "config.yaml: scenes.fig5.energy: 0.9 is not allowed: expected a number below "
-        "k/2 - g = 0.06, where the ball could flatten to nothing\n"
-        "config.yaml: scenes.fig7.impact: unknown key: did you mean impacts?\n"
+        f"config.yaml: line {energy}: scenes.fig5.energy: 0.9 is not allowed: expected a number "
+        "below k/2 - g = 0.06, where the ball could flatten to nothing\n"
+        f"config.yaml: line {impact}: scenes.fig7.impact: unknown key: did you mean impacts?\n"
     )
     result = tree.run()
     assert (result.returncode, result.stdout) == (1, lines)
     assert not (tree.path / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "text", "status", "line"),
+    [
+        (
+            "verify fig3",
+            "",
+            2,
+            "reproduce verify: no argument fig3: usage: ./reproduce verify [-h]",
+        ),
+        ("fig2 --cores x", "", 2, "reproduce: argument -c/--cores: 'x' is not allowed"),
+        ("fig2", None, 1, "reproduce: config.yaml: cannot be read: No such file or directory"),
+        ("fig2", "ball:\n\tk: 0.2\n", 1, "reproduce: config.yaml: line 2: begins with a tab"),
+        ("fig2", "# nothing\n", 1, "reproduce: config.yaml: is empty"),
+        ("fig2", "\udcff", 1, "reproduce: config.yaml: is not UTF-8 text: byte 0"),
+        ("--version", None, 0, "pseudorigid "),
+    ],
+)
+def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_installed(
+    tree, words, text, status, line
+):
+    if text is None:
+        tree.config.unlink()
+    elif text:
+        tree.config.write_bytes(text.encode(errors="surrogateescape"))
+    path = f"{Path(sys.base_prefix) / 'bin'}:/usr/bin:/bin"
+    result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
+    assert (result.returncode, result.stderr.count("\n")) == (status, int(status > 0))
+    assert (result.stdout + result.stderr).startswith(line)
+    assert not (tree.path / ".venv").exists()
+
+
+def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path, monkeypatch):
+    """In a folder of another user; the .venv that is there is used as it is."""
+    tree = finished.copy(tmp_path / "tree")
+    tree.warm()
+    site = "import os\nmay, opens = os.access, os.open\n"
+    site += "os.access = lambda path, mode: mode != os.W_OK and may(path, mode)\n"
+    site += "def refuse(path, flags, *how, **more):\n"
+    site += f"    if flags & os.O_RDWR and str(path).startswith({str(tree.path)!r}):\n"
+    site += "        raise PermissionError(13, 'Permission denied', str(path))\n"
+    site += "    return opens(path, flags, *how, **more)\n"
+    site += "os.open = refuse\n"
+    (tree.path / "src/sitecustomize.py").write_text(site)
+    for words in ("list", "verify", "help", "-n", "fig3 -n", "--version"):
+        result = tree.run(*words.split())
+        assert "annot" not in result.stdout and "Traceback" not in result.stdout, result.stdout
+        assert result.returncode == int(words == "verify")  # nothing is committed here
+    assert "cannot write in" in tree.run("fig3").stdout
+    # A .venv that is complete, but of another folder or machine.
+    venv = tree.path / ".venv"
+    (venv / "bin").mkdir(parents=True)
+    (venv / "stamp").write_text("another")
+    program = "#!/bin/sh\nexec " + sys.executable + ' "$@"\n'
+    (venv / "bin/python").write_text(program)
+    (venv / "bin/python").chmod(0o755)
+    monkeypatch.setenv("PYTHONPATH", str(tree.path / "src"))
+    set_up = "import os; os.access = lambda path, mode: mode != os.W_OK; import pipeline; "
+    set_up += "from pipeline.cli import packages; packages.set_up('this', 'list')"
+    result = run(sys.executable, "-c", set_up)
+    assert result.stdout == tree.run("list").stdout, result.stderr
+    line = f"reproduce: nothing can be written in {tree.path}: .venv is used as it is\n"
+    assert result.stderr == line
 
 
 @pytest.mark.slow

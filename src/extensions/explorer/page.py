@@ -2,7 +2,8 @@
 
 Its bytes depend on the tree alone: config.yaml, the kernel, the committed manifest and `web/`. The
 content security policy allows the page's own scripts, by their hashes, and nothing from elsewhere.
-src/extensions/explorer/explorer.html is a copy. Renew it after a change:
+Every page is the committed copy, src/extensions/explorer/explorer.html, with the data of a config.
+Renew it after a change, for which a package is installed that packs scripts:
 
     .venv/bin/python -m pipeline.renew
 """
@@ -14,6 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from pipeline import config
+from pipeline.cli.packages import add_packages
+from pipeline.cli.session import UsageError
+from pipeline.declaration import RENEW
 from pipeline.processors.build import CompiledFile
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
@@ -28,6 +32,7 @@ KERNEL = CompiledFile(
     "wasm",
 )
 PRESETS = "presets.js of parts"
+_DATA = '<script type="application/json" id="data">'
 # Scripts of both, those of the worker, and of the page, in their order.
 BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "worker.js")
@@ -39,7 +44,36 @@ APP = (
 
 
 def render(checked: config.Config, root: Path = ROOT) -> str:
-    """Return the page."""
+    """Return the page with a config's data; ValueError if the committed copy is not current."""
+    if page := _current_copy():
+        return _with_data(page, checked, root)
+    raise ValueError(f"{COPY} was made from other files than these: run {RENEW}")
+
+
+def _current_copy() -> str:
+    """Return the committed page, or nothing if it was made from other files than the present."""
+    page = read_text(ROOT / COPY) if (ROOT / COPY).exists() else ""
+    return page if _made_from() in page else ""
+
+
+def _made_from() -> str:
+    """Return an element of the page with a hash of all that it is made from, but for its data."""
+    files = [Path(__file__), ROOT / "requirements" / "explorer.txt"]
+    files += [WEB / name for name in ("index.html", "style.css")]
+    texts = [*map(read_text, files), kernel_scripts(), *map(script, (*WORKER, *APP))]
+    digest = hashlib.sha256("\0".join(texts).encode()).hexdigest()
+    return f'<meta name="made-from" content="{digest}">'
+
+
+def _with_data(page: str, checked: config.Config, root: Path) -> str:
+    """Return a page with the data of a config in the place of those that it has."""
+    before, begin, rest = page.partition(_DATA)
+    _, end, after = rest.partition("</script>")
+    return f"{before}{begin}{_json(data.collect(checked, root))}{end}{after}"
+
+
+def _packed() -> str:
+    """Return the page without data."""
     kernel_script = kernel_scripts()
     worker_script, app_script = (_minified("application/javascript", p) for p in (WORKER, APP))
     style = _minified("text/css", ("style.css",))
@@ -54,11 +88,11 @@ def render(checked: config.Config, root: Path = ROOT) -> str:
             "form-action 'none'",
         ]
     )
-    stored = _json(data.collect(checked, root))
+    security = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
     parts = {
-        "POLICY": f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        "POLICY": f"{security}\n{_made_from()}",
         "STYLE": f"<style>{style}</style>",
-        "DATA": f'<script type="application/json" id="data">{stored}</script>',
+        "DATA": f"{_DATA}</script>",
         "SCRIPT": f'<script id="kernel">{kernel_script}</script>\n'
         f'<script type="text/plain" id="worker">{worker_script}</script>\n'
         f"<script>{app_script}</script>",
@@ -105,6 +139,13 @@ def _json(value: Any) -> str:
 
 
 def committed() -> dict[str, str]:
-    """Return the committed copy by its path; compile the kernel for it first if it was edited."""
+    """Return the committed copy by its path; what it is made from is compiled and packed first."""
     KERNEL.renew()
-    return {COPY: render(config.load(ROOT / "config.yaml"))}
+    page = _current_copy()
+    if not page:
+        try:
+            add_packages("explorer")
+        except UsageError as error:
+            raise ValueError(str(error)) from None
+        page = _packed()
+    return {COPY: _with_data(page, config.load(ROOT / "config.yaml"), ROOT)}

@@ -155,7 +155,9 @@ def _sources(root: Path) -> list[str]:
     """Return the paths of the files that git tracks in this tree."""
     listed = git("ls-files", "-z", root=root)
     if listed is None:
-        raise ArchiveError("an archive with packages needs git, which lists this tree's sources")
+        raise ArchiveError(
+            "an archive with packages has the sources that git lists: see git status"
+        )
     return [path for path in listed.decode().split("\0") if path and (root / path).is_file()]
 
 

@@ -15,11 +15,15 @@ from ..config.results import SHOWN, drawn, is_measured, with_dependencies
 from ..config.schema.sets import PUBLISHED, SETS
 from ..records.build_spec import BuildSpec
 from ..records.files import ABSENT, file_hash, read_text
-from ..records.record import git
+from ..records.record import git, git_refuses
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"
-IDENTICAL = "identical"  # to the committed one
+IDENTICAL, DIFFERS = "identical", "differs"  # from the committed one
+WHAT_TO_DO = (
+    "What differs: to keep it, run ./reproduce accept; to undo it, git checkout what you edited, "
+    "and run again; to have both, make it a variant in config.yaml (README.md)."
+)
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 
@@ -111,7 +115,7 @@ def read_sums(root: Path, folder: str) -> dict[str, str]:
 def committed_state(root: Path, path: str) -> str:
     """Say how a published file compares with the checksum list of its folder.
 
-    If git says that the list was edited, the words name the list after ": ".
+    If git says that the list was edited, or nothing, the words say so after ": ".
     """
     folder, _, name = path.rpartition("/")
     digest, sums = file_hash(root / path), read_sums(root, folder)
@@ -119,17 +123,23 @@ def committed_state(root: Path, path: str) -> str:
         return "missing"
     if name not in sums:
         return "not committed"
-    state = IDENTICAL if digest == sums[name] else "differs"
-    edited = f"{folder}/{SUMS}" in edited_lists(root)
-    return f"unknown: {state} by {SUMS}, which is not as committed" if edited else state
+    state = IDENTICAL if digest == sums[name] else DIFFERS
+    why = edited_lists(root).get(f"{folder}/{SUMS}")
+    return f"unknown: {state} by {SUMS}, which is {why}" if why else state
 
 
 @cache
-def edited_lists(root: Path) -> list[str]:
-    """Return the checksum lists and manifests that git says differ from the last commit."""
+def edited_lists(root: Path) -> dict[str, str]:
+    """Map each checksum list and manifest that may not be the committed one to words about that.
+
+    Without a repository, as in an unpacked archive, there are none.
+    """
     files = [f"{folder}/{name}" for folder in PUBLISHED.values() for name in (SUMS, MANIFEST)]
-    names = git("diff", "--name-only", "--relative", "-z", "HEAD", "--", *files, root=root) or b""
-    return names.decode().split("\0")[:-1]
+    names = git("diff", "--name-only", "--relative", "-z", "HEAD", "--", *files, root=root)
+    if names is None and git_refuses(root):
+        return dict.fromkeys(files, "not known to be the committed one, see git status")
+    edited = (names or b"").decode().split("\0")[:-1]
+    return dict.fromkeys(edited, "not the committed one, see git diff")
 
 
 def unlisted_files(

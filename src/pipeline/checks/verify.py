@@ -34,7 +34,7 @@ class Findings:
     # manifest.
     layers: dict[str, dict[str, str] | None] = field(default_factory=dict)
     stale: dict[str, str] = field(default_factory=dict)  # result -> why this tree makes another
-    edited: list[str] = field(default_factory=list)  # manifest or sums that are not committed
+    edited: dict[str, str] = field(default_factory=dict)  # manifest or sums not as committed -> how
     problems: list[str] = field(default_factory=list)  # of manifest, sums, text files, surplus
     # A line about drawings of the paper that were not computed here, if they have to be.
     uncomputed: list[str] = field(default_factory=list)
@@ -60,7 +60,7 @@ class Findings:
     @property
     def notes(self) -> list[str]:
         """Lines about differences that leave the committed bytes."""
-        notes = [(file, "not the committed one, see git diff") for file in self.edited]
+        notes = [*self.edited.items()]
         for name, layers in self.layers.items():
             if layers is None:
                 notes.append((name, NEW))
@@ -71,6 +71,15 @@ class Findings:
     def fails(self, strict: bool = False) -> bool:
         """Return whether the tree is not as committed; notes count if `strict`."""
         return bool(self.differences or self.failures or (strict and self.notes))
+
+    def why(self, strict: bool = False) -> Iterator[str]:
+        """Yield lines that repeat why the tree fails."""
+        folder = self.published_set.folder
+        if self.differences:
+            yield f"exit status 1: {folder}/: {_listed([*self.differences])} differ"
+        for line in [*self.failures, *(self.notes if strict else ())]:
+            named = "/" in line.partition(":")[0]
+            yield f"exit status 1: {line if named else f'{folder}/: {line}'}"
 
     def _harmless(self, name: str) -> bool:
         """Return whether the layers of a listed file leave its committed bytes."""
@@ -163,7 +172,8 @@ def inspect(root: Path, published_set: PublishedSet, partial: bool = True) -> Fi
     }
     published_set = published_set.without(refused)
     folder, findings = published_set.folder, Findings(published_set)
-    findings.edited = [file for file in edited_lists(root) if file.startswith(f"{folder}/")]
+    of_set = (f"{folder}/{SUMS}", f"{folder}/{MANIFEST}")
+    findings.edited = {f: why for f, why in edited_lists(root).items() if f in of_set}
     try:
         findings.committed = committed = manifest.read(root, folder)
         comparison = Comparison(freshness, published_set, committed)

@@ -112,7 +112,7 @@ def explain(parser: argparse.ArgumentParser, message: str) -> str:
     owners = [name for name in all_commands() if first in dict(_arguments(name))]
     after = ": options of snakemake follow --" if "--cores" in known and first[0] == "-" else ""
     after = f": {owners[0]} has it" if owners and first[0] == "-" else after
-    return f"no argument {first}{hint(first, known) or after}"
+    return f"no argument {first}{hint(first, known) or after or f': usage: {parser.usage}'}"
 
 
 def hint(name: str, known: Iterable[str]) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from ..checks.freshness import MISSING, REFUSED, Freshness
-from ..checks.published_sets import committed_state, unlisted_files
+from ..checks.published_sets import DIFFERS, WHAT_TO_DO, committed_state, unlisted_files
 from ..config import Config, unknown
 from ..config.results import drawn, stages, with_dependencies
 from ..config.schema.sets import PUBLISHED
@@ -77,13 +77,15 @@ def make(
         status = status or 1
         _print_missing([path for path in outdated if path not in refused], len(results))
     made = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
-    unpublished = _publish(made)
+    unpublished, replaced = _publish(made)
     _delete([*(refused & {*drawings.values()}), *left_out])  # the present config has none
     rows = []
     for path, drawing in drawings.items():
         state = _state(specs, drawing, outdated.get(drawing), inode(drawing) != inodes[drawing])
         if path in unpublished:
             state = f"not published: {unpublished[path]}"
+        elif state == "current" and path in replaced:
+            state = f"published again: {replaced[path]}"
         if not (brief and state == "current"):
             rows.append(_row(PUBLISHED.get(group), path, state))
     rows += [_row(None, path, reason) for path, reason in left_out.items()]
@@ -94,6 +96,8 @@ def make(
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
+        if any(cells[1] == DIFFERS for _, _, cells in rows):
+            notes.append(WHAT_TO_DO)
         compared = any(cells[1] for _, _, cells in rows)
         header = ("figure", "files", "state", "as committed" if compared else "")
         print_files("", rows, header, notes)
@@ -141,25 +145,30 @@ def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, rep
     return "not made" if reason == MISSING else f"not current: {reason}"
 
 
-def _publish(drawings: Drawings) -> dict[str, str]:
-    """Copy drawings to their published files if these differ; map each failed path to a reason."""
-    problems = {}
+def _publish(drawings: Drawings) -> tuple[dict[str, str], dict[str, str]]:
+    """Copy drawings to their published files if these differ.
+
+    Returns the paths where that failed, with the reasons, and all that differed, with how.
+    """
+    problems, replaced = dict[str, str](), dict[str, str]()
     for path, drawing in drawings.items():
         published = ROOT / path
         if reason := why_not_a_file(published):
             problems[path] = reason
         elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
+            there = published.is_file()
+            replaced[path] = f"it differed from {drawing}" if there else "it was missing"
             try:
                 write_whole(published, read_bytes(ROOT / drawing))
             except FileError as error:
                 problems[path] = str(error).removeprefix(f"{published}: ")
-    return problems
+    return problems, replaced
 
 
 def _row(folder: str | None, path: str, state: str) -> FileRow:
     """Return a file's row of the table; files in a published `folder` are compared."""
     size = compared = ""
-    if state in ("current", "recomputed"):
+    if state.startswith(("current", "recomputed", "published again")):
         size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
         compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
     return path, size, (state, compared)

@@ -16,9 +16,10 @@ from collections.abc import Sequence
 from contextlib import chdir, suppress
 from pathlib import Path
 
-from ..records.files import FileError, file_hash, write_whole
+from ..records.files import FileError, file_hash, read_yaml, write_whole
 from ..records.sources import ROOT
-from .session import UsageError, interruptible, locked, print_error
+from .arguments import read
+from .session import UsageError, interruptible, locked, one_line, print_error
 
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
@@ -70,18 +71,24 @@ def add_packages(name: str) -> None:
 def set_up(stamp: str, *arguments: str) -> None:
     """Make .venv, then replace this process by `python -m pipeline` with the arguments.
 
-    `stamp` is the text of STAMP: what .venv is made from and for.
+    `stamp` is the text of STAMP: what .venv is made from and for. Mistakes that need no package to
+    be seen are reported first. Where nothing can be written, .venv is used as it is.
     """
+    read([*arguments])
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:  # nohup ignores SIGHUP
             signal.signal(number, signal.default_int_handler)
     try:
-        with chdir(ROOT), locked():
-            starts = shutil.which(PYTHON) and subprocess.call([PYTHON, "-I", "-S", "-c", ""]) == 0
-            # Another process may have made it meanwhile.
-            if not (starts and STAMP.is_file() and STAMP.read_text() == stamp):
-                _make()
-                write_whole(STAMP, stamp)
+        with one_line("config.yaml: "):
+            read_yaml(ROOT / "config.yaml")
+        if not os.access(ROOT, os.W_OK) and _starts():
+            print_error(f"nothing can be written in {ROOT}: .venv is used as it is")
+        else:
+            with chdir(ROOT), locked():
+                # Another process may have made it meanwhile.
+                if not (_starts() and STAMP.read_text() == stamp):
+                    _make()
+                    write_whole(STAMP, stamp)
     except KeyboardInterrupt:
         with suppress(OSError):  # Popen, if interrupted, leaves the process that it has started
             for child in Path("/proc/thread-self/children").read_text().split():
@@ -92,6 +99,12 @@ def set_up(stamp: str, *arguments: str) -> None:
         print_error(str(error))
         sys.exit(1)
     os.execv(PYTHON, [PYTHON, "-P", "-m", "pipeline", *arguments])
+
+
+def _starts() -> bool:
+    """Return whether .venv is complete and its Python starts."""
+    call = [PYTHON, "-I", "-S", "-c", ""]
+    return STAMP.is_file() and bool(shutil.which(PYTHON)) and subprocess.call(call) == 0
 
 
 def _make() -> None:

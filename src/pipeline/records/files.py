@@ -15,6 +15,9 @@ from pathlib import Path
 
 _Path = str | os.PathLike[str]
 ABSENT = (FileNotFoundError, NotADirectoryError)  # errors of a path without a file
+# Largest size of a YAML file, in bytes. A larger file is a slip and would take long to parse. (The
+# faster parser of libyaml is not used: it crashes on deeply nested text.)
+LARGEST_YAML = 500_000
 _FULL_MB = 1.0  # a disk with less free space counts as full
 # What Python and the system's loader say where memory is short.
 _LEAST_MEMORY = 600e6  # bytes of addresses that a run takes on two cores; fewer end in tracebacks
@@ -71,6 +74,26 @@ def read_bytes(path: _Path) -> bytes:
 def read_text(path: _Path) -> str:
     """Return the text of a regular UTF-8 file; also raises UnicodeDecodeError."""
     return read_bytes(path).decode("utf-8")
+
+
+def read_yaml(path: Path) -> str:
+    """Return the text of a YAML file; ValueError if it is none, as far as its text shows that."""
+    try:
+        if path.is_file() and path.stat().st_size > LARGEST_YAML:
+            raise ValueError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_YAML}")
+        text = read_text(path)
+    except OSError as error:
+        raise ValueError(f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ValueError(f"is not UTF-8 text: byte {error.start}") from None
+    except FileError as error:
+        raise ValueError(str(error).removeprefix(f"{path}: ")) from None
+    if tab := re.search(r"^ *\t", text, re.MULTILINE):
+        line = text.count("\n", 0, tab.start()) + 1
+        raise ValueError(f"line {line}: begins with a tab: indent it with spaces")
+    if not re.search(r"^\s*[^#\s]", text, re.MULTILINE):
+        raise ValueError("is empty")
+    return text
 
 
 def disk_is_full(path: _Path) -> str | None:

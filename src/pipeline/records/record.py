@@ -157,6 +157,13 @@ def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
     return None
 
 
+def git_refuses(root: str | os.PathLike[str] = ".") -> bool:
+    """Return whether git cannot read the repository around a folder, as one of another owner."""
+    folder = Path(root).resolve()
+    there = any((each / ".git").exists() for each in (folder, *folder.parents))
+    return there and git("rev-parse", "--git-dir", root=root) is None
+
+
 def _commit() -> tuple[str | None, bool | None]:
     """Return the commit, and whether tracked files other than figures differ from it."""
     commit = git("rev-parse", "HEAD")

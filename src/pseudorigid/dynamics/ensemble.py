@@ -19,7 +19,10 @@ MIN_ORBITS_PER_THREAD = 32  # fewer orbits leave vectors of lanes incomplete
 def threads() -> int:
     """Return OMP_NUM_THREADS, or the number of cores of this process."""
     setting = os.environ.get("OMP_NUM_THREADS", "")
-    return max(1, int(setting)) if setting.isdigit() else len(os.sched_getaffinity(0))
+    if setting.isdigit():
+        return max(1, int(setting))
+    # The cores of this process; macOS knows those of the machine alone.
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def in_threads(work: Callable[..., int], impacts: int, *arrays: np.ndarray) -> int:

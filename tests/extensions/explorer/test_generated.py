@@ -36,9 +36,30 @@ def scenes_of(text):
     return json.loads(stored)["scenes"]
 
 
+def packed(checked):
+    """The page, made from its sources."""
+    return page._with_data(page._packed(), checked, ROOT)
+
+
 def test_the_committed_copy_is_current(text):
     """Renew it by .venv/bin/python -m pipeline.renew."""
     assert (ROOT / page.COPY).read_text(encoding="utf-8") == text
+    pytest.importorskip("minify")  # it has no wheel for some machines
+    assert packed(config.load(SHIPPED)) == text
+
+
+@pytest.mark.parametrize("place", ["WEB", "ROOT"])
+def test_a_copy_of_other_sources_is_refused(monkeypatch, tmp_path, place):
+    """Without the package that packs a page, since no other command than renew has it."""
+    monkeypatch.setitem(sys.modules, "minify", None)
+    checked = config.load(SHIPPED)
+    page.render(checked)
+    file = getattr(page, place) / {"WEB": "main.js", "ROOT": "requirements/explorer.txt"}[place]
+    edited = file.read_text() + "\n// edited\n"
+    whole = page.read_text
+    monkeypatch.setattr(page, "read_text", lambda path: edited if path == file else whole(path))
+    with pytest.raises(ValueError, match=r"explorer.html was made from other files .*renew$"):
+        page.render(checked)
 
 
 def test_only_the_scripts_of_the_page_may_run(text):
@@ -68,12 +89,14 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     machine_code = shutil.ignore_patterns("*.nb?")
     shutil.copytree(ROOT / "src", tree / "src", ignore=machine_code)
     shutil.copytree(ROOT / "paper_figures", tree / "paper_figures")
+    shutil.copytree(ROOT / "requirements", tree / "requirements")
     for file in ("pyproject.toml", "CITATION.cff"):
         shutil.copy(ROOT / file, tree)
     shutil.copy(SHIPPED, tree / "config.yaml")
     settings = {"PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONUTF8": "0"}
+    pytest.importorskip("minify")
     program = "import sys, extensions.explorer.page as page\n"
-    program += "sys.stdout.buffer.write(page.committed()[page.COPY].encode())"
+    program += "sys.stdout.buffer.write(page._packed().encode())"
     made = subprocess.run(
         [sys.executable, "-c", program],
         env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
@@ -81,7 +104,7 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
         check=True,
         stdout=subprocess.PIPE,
     )
-    assert made.stdout == text.encode()
+    assert made.stdout == page._packed().encode()
 
 
 def test_the_page_follows_config_and_manifest(text, tmp_path):

@@ -82,8 +82,6 @@ def requirements_for(name: str, python: str) -> list[str]:
     Pip would evaluate the conditions for the Python that runs it.
     """
     target = {"python_version": python, "python_full_version": f"{python}.0"}
-    target |= {"sys_platform": "linux", "platform_system": "Linux"}
-    target["platform_machine"] = platform.machine()
     needed = []
     for line in logical_lines(name):
         pin, _, marker = line.partition(" --hash")[0].partition(";")

@@ -10,7 +10,7 @@ from pathlib import Path
 from ...config import ConfigError
 from ...config.schema.sets import SETS
 from ...declaration import SourceError, parts
-from ...records.record import RecordError, git, read_record, record_path
+from ...records.record import RecordError, git, git_refuses, read_record, record_path
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
 from ..session import CommandLineError, UsageError, locked, print_error
@@ -102,6 +102,8 @@ def _kept(names: list[str], deleted: set[Path]) -> Iterator[str]:
 def _generated_files(args: Arguments, names: list[str]) -> list[Path]:
     """Return the files in these folders that the workflow wrote and git does not track."""
     # The folder may be in another repository.
+    if git_refuses(RESULTS):
+        raise UsageError("git does not say which files in results are committed, see git status")
     tracked = (git("ls-files", "-z", root=RESULTS) or b"").decode().split("\0")
     candidates, known = set[Path](), {*SETS}
     with suppress(ConfigError, SourceError):  # records alone then say which files are results

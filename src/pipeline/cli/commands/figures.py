@@ -1,6 +1,7 @@
 """./reproduce [FIGURE ...], variant, and commands that make a set of scenes, by snakemake."""
 
 import os
+from contextlib import nullcontext
 from pathlib import PurePath
 
 from ...commands import DEFAULT_COMMAND, all_commands
@@ -21,7 +22,8 @@ def run(args: Arguments) -> int:
         data = config.data_only(group)
     else:
         targets = _variant(args) if args.word else _named(args)
-    with locked():
+    # Plain -n reads only, also where nothing can be written.
+    with nullcontext() if args.dry_run and not args.options else locked():
         for name, drawings in targets.items():
             status = figures.make(config, name, drawings, args, data) or status
             if status == running.INTERRUPTED:

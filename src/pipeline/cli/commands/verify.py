@@ -1,9 +1,10 @@
 """./reproduce verify: whether everything here is as committed."""
 
+from ...checks.published_sets import WHAT_TO_DO
 from ...checks.verify import summary, verify
 from ...records.sources import ROOT
 from ..arguments import Arguments
-from ..table import print_lines
+from ..table import print_lines, wrapped
 
 
 def run(args: Arguments) -> int:
@@ -11,5 +12,8 @@ def run(args: Arguments) -> int:
     findings = verify(ROOT, args.config, args.committed)
     for each in findings:
         print_lines([f"{each.published_set.folder}/", *each.report(), ""])
-    print_lines([summary(findings)])
-    return int(any(each.fails(args.strict) for each in findings))
+    failed = [each for each in findings if each.fails(args.strict)]
+    print_lines([summary(findings), *(line for each in failed for line in each.why(args.strict))])
+    if any(each.differences for each in failed):
+        print_lines(wrapped(WHAT_TO_DO))
+    return int(bool(failed))

@@ -1,7 +1,8 @@
 """Reading of config.yaml, and its validation: a complete config, or all mistakes at once."""
 
+import os
 import re
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,20 +10,17 @@ import yaml
 from pydantic import create_model
 
 from ...commands import all_commands
-from ...declaration import SourceError, files, imported, parts
+from ...declaration import SRC, SourceError, files, imported, parts
 from ...loading import note_loaded
-from ...records.files import FileError, read_bytes
+from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.scene import Picture
 from ..schema.sets import MAIN, SETS
 from ..schema.variant import Variant
 from . import scenes
-from .mistakes import ConfigError, refusal, validate
+from .mistakes import ConfigError, Mistake, refusal, validate
 
-# Largest size of a config, in bytes. A larger file is a slip and would take long to parse. (The
-# faster parser of libyaml is not used: it crashes on deeply nested text.)
-LARGEST_FILE = 500_000
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
 _AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_length=1)
 _VARIANTS = Annotated[
@@ -55,43 +53,81 @@ def load(path: str | Path) -> Config:
     try:
         return check(with_shipped(_parse(path)))
     except ConfigError as error:
-        raise ConfigError(*(f"{path.name}: {line}" for line in error.lines)) from None
+        raise ConfigError(*(_located(path, mistake) for mistake in error.mistakes)) from None
     except RecursionError:
         raise ConfigError(f"{path.name}: nested too deeply") from None
+
+
+def _located(path: Path, mistake: Mistake | str) -> str:
+    """Return a line about a mistake, with the file and the line of its key, or of the key above.
+
+    The file is config.yaml or the shipped one that has the block. If the block is that of a part,
+    the line says which command it concerns.
+    """
+    if isinstance(mistake, str):
+        return f"{path.name}: {mistake}"
+    keys, name = [*mistake.place, *filter(None, [mistake.key])], path.name
+    key, among_others = keys[0] if keys else "", keys[:1] == ["variants"] and len(keys) > 1
+    for file in (path, *(files("scenes.yaml").values() if key != "ball" else ())):
+        found = [*_lines_of(keys, yaml.compose(read_text(file), _Loader))]
+        if len(found) > among_others:
+            name = path.name if file == path else os.path.relpath(file, SRC.parent)
+            name += f": line {found[-1]}"
+            break
+    owners = [each.command for n, each in SETS.items() if n != MAIN and each.key == key]
+    owners += [f"the part {n}" for n, part in parts().items() if key in part.settings]
+    of = "".join(f" (this concerns {each} alone)" for each in owners)
+    return f"{name}: {mistake}{of}"
+
+
+def _lines_of(keys: Sequence[int | str], node: yaml.Node | None) -> Iterator[int]:
+    """Yield the line of each of the nested keys and indices, as far as a YAML node has them."""
+    for key in keys:
+        if isinstance(node, yaml.SequenceNode):
+            items = {i: (item, item) for i, item in enumerate(node.value)}
+        elif isinstance(node, yaml.MappingNode):
+            _Loader("").flatten_mapping(node)  # puts what `<<` names among its keys
+            items = {each.value: (each, value) for each, value in node.value}
+        else:
+            return
+        if key not in items:
+            return
+        at, node = items[key]
+        yield at.start_mark.line + 1
 
 
 def check(given: object) -> Config:
     """Return the complete config of a parsed YAML document.
 
-    Raises ConfigError with a line for each mistake.
+    Raises ConfigError with all mistakes.
     """
-    document, lines = validate(Document, given, ())
+    document, mistakes = validate(Document, given, ())
     blocks = given.items() if isinstance(given, dict) else ()
     mappings = {key: block for key, block in blocks if isinstance(block, dict)}
     ball, _ = validate(BallBlock, mappings.get("ball"), ())
     if ball and not ball.g < ball.k:
-        lines.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
+        mistakes.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
         ball = None
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()
     for name in SETS:
         variants[name], more = _scenes_of_set(name, mappings, own_ball)
-        lines += more
-    if document and own_ball and not lines:
+        mistakes += more
+    if document and own_ball and not mistakes:
         for name, variant in document.variants.items():
             derived = scenes.derive_variant(mappings["scenes"], own_ball, name, variant)
             variants[name], left_out[name], more = derived
-            lines += more
-    if lines or document is None:
-        raise ConfigError(*dict.fromkeys(lines))
+            mistakes += more
+    if mistakes or document is None:
+        raise ConfigError(*dict.fromkeys(mistakes))
     return Config(variants, left_out, {k: v for k, v in document if k in BLOCKS and v})
 
 
 def _scenes_of_set(
     name: str, mappings: YamlMapping, ball: YamlMapping | None
-) -> tuple[dict[str, Picture], list[str]]:
-    """Return the scenes of a set that can be checked, and a line for each mistake."""
-    declared, found, lines = SETS[name], dict[str, Picture](), list[str]()
+) -> tuple[dict[str, Picture], list[Mistake]]:
+    """Return the scenes of a set that can be checked, and the mistakes in all."""
+    declared, found, mistakes = SETS[name], dict[str, Picture](), list[Mistake]()
     key = declared.key or name
     given = imported(declared.scenes)() if declared.scenes else mappings.get(key, {})
     if declared.kind:
@@ -100,15 +136,17 @@ def _scenes_of_set(
             s: kind | block if isinstance(block, dict) else block for s, block in given.items()
         }
     for scene, block in given.items():
-        checked, mistakes = scenes.check_scene(block, ball, (key, scene), given)
-        lines += mistakes
+        checked, more = scenes.check_scene(block, ball, (key, scene), given)
+        mistakes += more
         if scene in all_commands() or scene == "all":
-            lines.append(refusal((key,), scene, "a name that is no command of ./reproduce"))
+            words = "a name that is no command of ./reproduce"
+            mistakes.append(refusal((key,), scene, words, key=scene))
         if name != MAIN and scene in mappings.get("scenes", {}):
-            lines.append(refusal((key,), scene, f"a name that no scene of the {MAIN} has"))
+            words = f"a name that no scene of the {MAIN} has"
+            mistakes.append(refusal((key,), scene, words, key=scene))
         if checked:
             found[scene] = checked
-    return found, lines
+    return found, mistakes
 
 
 def with_shipped(document: object) -> object:
@@ -144,36 +182,57 @@ def _with_ball(scene: Any, ball: YamlMapping | None) -> Any:
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader that refuses duplicate keys, and reads 1e-3 as a number, as YAML 1.2 does."""
+    """A YAML loader that refuses duplicate keys, keys that are no text, and what misleads.
+
+    It reads 1e-3 as a number, as YAML 1.2 does. What YAML 1.1 takes for another value than 1.2, or
+    than a reader, misleads: 012 is 10, 1:30 is 90, and yes is true.
+    """
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
         seen: set[str] = set()
         for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
             if isinstance(key, yaml.ScalarNode):  # PyYAML itself refuses lists and mappings
                 if key.value in seen:
-                    problem = f"the key {key.value} is given twice"
-                    raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
+                    raise _mistake(key, f"not valid YAML: the key {key.value} is given twice")
+                if key.tag.rpartition(":")[2] not in ("str", "merge"):
+                    words = f"the key {key.value} is no text in YAML 1.1: write '{key.value}'"
+                    raise _mistake(key, words)
                 seen.add(key.value)
         return super().construct_mapping(node, deep)
 
+    def construct_scalar(self, node: yaml.ScalarNode | yaml.MappingNode) -> Any:
+        text = super().construct_scalar(node)
+        misleading = _MISLEADING.get(node.tag.rpartition(":")[2])
+        if misleading and isinstance(node, yaml.ScalarNode) and misleading.fullmatch(text):
+            value = str(yaml.safe_load(text)).lower()
+            words = f"{text} means {value} in YAML 1.1: write {value} or what you mean"
+            raise _mistake(node, f"{words}; a text is '{text}', in quotes")
+        return text
 
+
+def _mistake(node: yaml.Node, words: str) -> ConfigError:
+    """Return the error of a mistake at a node."""
+    mark = node.start_mark
+    return ConfigError(f"line {mark.line + 1}, column {mark.column + 1}: {words}")
+
+
+_MISLEADING = {
+    "int": re.compile("[-+]?0[0-7_]+|.*:.*"),  # octal, or to base 60
+    "float": re.compile(".*:.*"),
+    "bool": re.compile("(?i)yes|no|on|off"),
+}
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)[eE][-+]?[0-9]+$")
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", _NUMBER, [*"-+.0123456789"])
 
 
 def _parse(path: Path) -> object:
     try:
-        if path.is_file() and path.stat().st_size > LARGEST_FILE:
-            raise ConfigError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_FILE}")
-        data = read_bytes(path)
-        note_loaded(path, data)
-        return yaml.load(data.decode("utf-8"), _Loader)
-    except FileError as error:
-        raise ConfigError(str(error).removeprefix(f"{path}: ")) from None
-    except OSError as error:
-        raise ConfigError(f"cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise ConfigError(f"is not UTF-8 text: byte {error.start}") from None
+        text = read_yaml(path)
+    except ValueError as error:
+        raise ConfigError(str(error)) from None
+    note_loaded(path, text.encode())
+    try:
+        return yaml.load(text, _Loader)
     except (yaml.YAMLError, ValueError) as error:  # ValueError: an impossible date
         mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""

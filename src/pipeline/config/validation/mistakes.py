@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
@@ -24,35 +24,48 @@ _KINDS = {"extra_forbidden": _UNKNOWN_KEY, "invalid_key": _UNKNOWN_KEY, "missing
 AnyBlock = TypeVar("AnyBlock", bound=Block)
 
 
+class Mistake(NamedTuple):
+    """A mistake in the config: its place, words about it, and the key if the mistake is a key."""
+
+    place: Place
+    words: str
+    key: str | None = None
+
+    def __str__(self) -> str:
+        return f"{dotted(self.place)}: {self.words}" if self.place else self.words
+
+
 class ConfigError(Exception):
     """Mistakes in the config, a line for each: place, value, and what is allowed."""
 
-    def __init__(self, *lines: str) -> None:
+    def __init__(self, *mistakes: Mistake | str) -> None:
+        self.mistakes = mistakes
         # A key may contain line breaks, but a mistake must stay on its line.
         self.lines = tuple(
-            "".join(c if c.isprintable() else repr(c)[1:-1] for c in line) for line in lines
+            "".join(c if c.isprintable() else repr(c)[1:-1] for c in line)
+            for line in map(str, mistakes)
         )
         super().__init__("\n".join(self.lines))
 
 
 def validate(
     model: type[AnyBlock], given: object, place: Place
-) -> tuple[AnyBlock | None, list[str]]:
-    """Return a block and a line for each mistake in it, the topmost first.
+) -> tuple[AnyBlock | None, list[Mistake]]:
+    """Return a block and the mistakes in it, the topmost first.
 
     The block is None if a value has the wrong type, so that no check between fields is possible.
     """
     try:
         return model.model_validate(given), []
     except ValidationError as error:
-        lines = list(_lines(model, error, place))
+        mistakes = list(_mistakes(model, error, place))
     with suppress(ValidationError):
-        return model.model_validate(given, context=TYPES_ALONE), lines
-    return None, lines
+        return model.model_validate(given, context=TYPES_ALONE), mistakes
+    return None, mistakes
 
 
-def _lines(model: type[Block], error: ValidationError, place: Place) -> Iterator[str]:
-    """Yield a line for each mistake in a block, which stands at `place`."""
+def _mistakes(model: type[Block], error: ValidationError, place: Place) -> Iterator[Mistake]:
+    """Yield each mistake in a block, which stands at `place`."""
     mistakes = []
     for each in error.errors(include_url=False, include_context=False):
         loc, kind = each["loc"], _KINDS.get(each["type"], _WRONG)
@@ -68,15 +81,15 @@ def _lines(model: type[Block], error: ValidationError, place: Place) -> Iterator
             node = _node(model, loc[:-1])
             known = list(node.get("properties") or node["propertyNames"]["enum"])
             hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
-            yield f"{dotted(where)}: unknown key: {hint}"
+            yield Mistake(where, f"unknown key: {hint}")
         elif any(loc[: len(key)] == key for key in unknown_keys):
             continue
         elif loc[-1:] == ("[key]",):
-            yield refusal(where[:-2], value, NAME)
+            yield refusal(where[:-2], value, NAME, key=value)
         elif kind == _WRONG:
             yield refusal(where, value, allowed_at(model, loc))
         elif loc[:-1] not in misspelt:
-            yield f"{dotted(where)}: missing: expected {allowed_at(model, loc)}"
+            yield Mistake(where, f"missing: expected {allowed_at(model, loc)}")
 
 
 def allowed_at(model: type[Block], loc: Place) -> str:
@@ -112,10 +125,9 @@ def _node(model: type[Block], loc: Place) -> dict[str, Any]:
     return node
 
 
-def refusal(place: Place, value: object, allowed: str) -> str:
-    """Return the line for a value that is not allowed."""
-    where = f"{dotted(place)}: " if place else ""
-    return f"{where}{_shown(value)} is not allowed: expected {allowed}"
+def refusal(place: Place, value: object, allowed: str, key: str | None = None) -> Mistake:
+    """Return the mistake of a value, or of a `key` in the mapping there, that is not allowed."""
+    return Mistake(place, f"{_shown(value)} is not allowed: expected {allowed}", key)
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:

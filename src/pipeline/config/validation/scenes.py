@@ -19,7 +19,7 @@ from ..schema.kinds import KINDS
 from ..schema.scene import CompletionError, Picture, Scene, exact
 from ..schema.sets import SETS
 from ..schema.variant import Variant
-from .mistakes import Place, dotted, refusal, unknown, validate
+from .mistakes import Mistake, Place, refusal, unknown, validate
 
 
 def reserved_names() -> list[str]:
@@ -31,8 +31,8 @@ def reserved_names() -> list[str]:
 
 def check_scene(
     given: object, ball: YamlMapping | None, place: Place, others: Mapping[str, Any]
-) -> tuple[Picture | None, list[str]]:
-    """Return a complete scene and a line for each mistake; None if its values have wrong types.
+) -> tuple[Picture | None, list[Mistake]]:
+    """Return a complete scene and each mistake in it; None if its values have wrong types.
 
     `ball` is the ball of a scene without one, or None if it has mistakes itself. `others` are the
     scenes of its set, over one of which it may be drawn.
@@ -41,12 +41,14 @@ def check_scene(
         return None, [refusal(place, given, "a mapping that begins with picture")]
     words, picture = f"one of {', '.join(KINDS)}", (*place, "picture")
     if "picture" not in given:
-        return None, [f"{dotted(picture)}: missing: expected {words}"]
+        return None, [Mistake(picture, f"missing: expected {words}")]
     if not isinstance(given["picture"], str) or given["picture"] not in KINDS:
         return None, [refusal(picture, given["picture"], words)]
-    scene, lines = _read_scene(_with_ball(given, ball), place, others)
+    scene, mistakes = _read_scene(_with_ball(given, ball), place, others)
     errors = scene.cross_field_errors() if scene else ()
-    return scene, lines + [refusal((*place, *at), value, allowed) for at, value, allowed in errors]
+    return scene, mistakes + [
+        refusal((*place, *at), value, allowed) for at, value, allowed in errors
+    ]
 
 
 def _with_ball(given: YamlMapping, ball: YamlMapping | None) -> YamlMapping:
@@ -57,16 +59,16 @@ def _with_ball(given: YamlMapping, ball: YamlMapping | None) -> YamlMapping:
 
 def _read_scene(
     given: YamlMapping, place: Place, others: Mapping[str, Any]
-) -> tuple[Picture | None, list[str]]:
-    """Return a scene with shorthands written out, or None, and a line for each wrong field."""
-    scene, lines = validate(KINDS[given["picture"]], given, place)
+) -> tuple[Picture | None, list[Mistake]]:
+    """Return a scene with shorthands written out, or None, and the mistakes in its fields."""
+    scene, mistakes = validate(KINDS[given["picture"]], given, place)
     if scene is None or (isinstance(scene, Scene) and scene.ball is None):
-        return None, lines
+        return None, mistakes
     try:
-        return (_drawn_over(scene, others) if scene.drawn_over else scene).completed(), lines
+        return (_drawn_over(scene, others) if scene.drawn_over else scene).completed(), mistakes
     except CompletionError as error:
         at, value, allowed = error.args
-        return None, [*lines, refusal((*place, *at), value, allowed)]
+        return None, [*mistakes, refusal((*place, *at), value, allowed)]
 
 
 def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
@@ -76,8 +78,8 @@ def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
     given = others.get(name)
     if not isinstance(given, dict) or given.get("picture") != scene.drawn_over:
         raise CompletionError(("over",), name, f"a scene of kind {scene.drawn_over}")
-    below, lines = validate(over, given, ())
-    if below is None or lines:
+    below, mistakes = validate(over, given, ())
+    if below is None or mistakes:
         raise CompletionError(("over",), name, "a scene without mistakes")
     both: type[Picture] = create_model(kind.__name__, __base__=(kind, over))
     fields = below.completed().as_mapping() | scene.as_mapping()
@@ -86,8 +88,8 @@ def _drawn_over(scene: Picture, others: Mapping[str, Any]) -> Picture:
 
 def derive_variant(
     scenes: YamlMapping, ball: YamlMapping, name: str, variant: Variant
-) -> tuple[dict[str, Picture], dict[str, str], list[str]]:
-    """Return the scenes of a variant, why others are left out, and a line for each mistake.
+) -> tuple[dict[str, Picture], dict[str, str], list[Mistake]]:
+    """Return the scenes of a variant, why others are left out, and the mistakes in it.
 
     `scenes` are those of the paper as they are given, and `ball` is theirs. A scene is left out if
     the values that the variant gives for all scenes do not suit it. It is a mistake if they suit no
@@ -95,28 +97,29 @@ def derive_variant(
     """
     place = ("variants", name)
     if name in (reserved := reserved_names()):
-        return {}, {}, [refusal(place[:-1], name, f"a name other than {', '.join(reserved)}")]
-    lines: list[str] = []
+        words = f"a name other than {', '.join(reserved)}"
+        return {}, {}, [refusal(place[:-1], name, words, key=name)]
+    mistakes: list[Mistake] = []
     changes = variant.scenes or {}
     for scene, change in changes.items():
         where = (*place, "scenes", scene)
         if scene not in scenes:
-            lines.append(f"{dotted(where)}: {unknown('scene', scene, list(scenes))}")
+            mistakes.append(Mistake(where, unknown("scene", scene, list(scenes))))
             continue
         picture = scenes[scene]["picture"]
         if change.get("picture", picture) != picture:
             words = f"{picture}, which a variant does not change"
-            lines.append(refusal((*where, "picture"), change["picture"], words))
-    if lines:
-        return {}, {}, lines
+            mistakes.append(refusal((*where, "picture"), change["picture"], words))
+    if mistakes:
+        return {}, {}, mistakes
     derived, left_out = dict[str, Picture](), {}
-    mistaken: dict[str, list[str]] = {}  # line -> the scenes that the value does not suit
-    unsuitable: dict[str, list[str]] = {}
+    mistaken: dict[Mistake, list[str]] = {}  # with the scenes that the value does not suit
+    unsuitable: dict[Mistake, list[str]] = {}
     for scene, given in scenes.items():
         change, where = changes.get(scene, {}), (*place, "scenes", scene)
         block = _with_ball(given, ball)
         merged, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
-        lines += wrong
+        mistakes += wrong
         if merged is None:
             continue
         errors = [*merged.cross_field_errors()]
@@ -126,17 +129,18 @@ def derive_variant(
         own = [error for error in errors if error[0][0] not in before - change.keys()]
         for at, value, allowed in own or errors:
             shared = at[0] in variant.model_fields_set and at[0] not in change
-            line = refusal((*(place if shared else where), *at), value, allowed)
-            (mistaken if own else unsuitable).setdefault(line, []).extend([scene] * shared)
+            mistake = refusal((*(place if shared else where), *at), value, allowed)
+            (mistaken if own else unsuitable).setdefault(mistake, []).extend([scene] * shared)
         if errors and not own:
             left_out[scene] = f"left out: {refusal(*errors[0])}"
         else:
             derived[scene] = _scaled(merged, variant.scale or 1)
     if not derived:
         mistaken |= unsuitable
-    for line, names in mistaken.items():
-        lines.append(f"{line}, for {', '.join(names)}" if names else line)
-    return derived, left_out, lines
+    for mistake, names in mistaken.items():
+        more = f", for {', '.join(names)}" if names else ""
+        mistakes.append(mistake._replace(words=mistake.words + more))
+    return derived, left_out, mistakes
 
 
 def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
