@@ -15,8 +15,9 @@ from verdicts import commit, verified
 
 from pipeline import config
 from pipeline.checks import manifest
-from pipeline.checks.published_sets import WHAT_TO_DO, edited_lists
+from pipeline.checks.published_sets import edited_lists
 from pipeline.cli import arguments
+from pipeline.cli.table import WHAT_TO_DO
 from pipeline.records import pictures
 from pipeline.records.record import public_record
 from pipeline.records.sources import syntax_hash

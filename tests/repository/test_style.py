@@ -65,18 +65,21 @@ def test_every_package_is_pinned_and_hashed():
         assert "://" not in text
 
 
-@pytest.mark.parametrize(("requested", "lock"), [("main", "lock"), ("test", "test")])
+@pytest.mark.parametrize(
+    ("requested", "lock"), [("main", "lock"), ("test", "test"), ("explorer", "explorer")]
+)
 def test_the_locks_hold_the_requested_packages(requested, lock):
     locked = pins(f"requirements/{lock}.txt")
     for line in (ROOT / "requirements" / f"{requested}.in").read_text().splitlines():
         if line and not line.startswith("#"):
-            name, _, version = line.lower().replace("_", "-").partition("==")
+            pin = line.partition(";")[0].strip()  # without its condition
+            name, _, version = pin.lower().replace("_", "-").partition("==")
             assert locked[name].startswith(version)
 
 
 def test_additional_packages_have_the_versions_of_the_lock():
     locked = pins("requirements/lock.txt")
-    for file in ("test", "study", "slurm"):
+    for file in ("test", "study", "slurm", "explorer"):
         pinned = pins(f"requirements/{file}.txt")
         assert pinned and {name: locked.get(name, pinned[name]) for name in pinned} == pinned
     locked |= pins("requirements/study.txt")

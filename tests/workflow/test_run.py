@@ -6,7 +6,7 @@ import shutil
 
 from runs import FIG3, contents, rows
 
-from pipeline.checks.published_sets import WHAT_TO_DO
+from pipeline.cli.table import WHAT_TO_DO
 
 PAPER = "results/paper"
 

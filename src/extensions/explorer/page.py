@@ -11,6 +11,7 @@ Renew it after a change, for which a package is installed that packs scripts:
 import base64
 import hashlib
 import json
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -45,15 +46,10 @@ APP = (
 
 def render(checked: config.Config, root: Path = ROOT) -> str:
     """Return the page with a config's data; ValueError if the committed copy is not current."""
-    if page := _current_copy():
-        return _with_data(page, checked, root)
-    raise ValueError(f"{COPY} was made from other files than these: run {RENEW}")
-
-
-def _current_copy() -> str:
-    """Return the committed page, or nothing if it was made from other files than the present."""
     page = read_text(ROOT / COPY) if (ROOT / COPY).exists() else ""
-    return page if _made_from() in page else ""
+    if _made_from() not in page:
+        raise ValueError(f"{COPY} was made from other files than these: run {RENEW}")
+    return _with_data(page, checked, root)
 
 
 def _made_from() -> str:
@@ -141,11 +137,11 @@ def _json(value: Any) -> str:
 def committed() -> dict[str, str]:
     """Return the committed copy by its path; what it is made from is compiled and packed first."""
     KERNEL.renew()
-    page = _current_copy()
-    if not page:
-        try:
-            add_packages("explorer")
-        except UsageError as error:
-            raise ValueError(str(error)) from None
-        page = _packed()
-    return {COPY: _with_data(page, config.load(ROOT / "config.yaml"), ROOT)}
+    checked = config.load(ROOT / "config.yaml")
+    with suppress(ValueError):
+        return {COPY: render(checked)}
+    try:
+        add_packages("explorer")
+    except UsageError as error:
+        raise ValueError(str(error)) from None
+    return {COPY: _with_data(_packed(), checked, ROOT)}

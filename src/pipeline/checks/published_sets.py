@@ -19,11 +19,7 @@ from ..records.record import git, git_refuses
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"
-IDENTICAL, DIFFERS = "identical", "differs"  # from the committed one
-WHAT_TO_DO = (
-    "What differs: to keep it, run ./reproduce accept; to undo it, git checkout what you edited, "
-    "and run again; to have both, make it a variant in config.yaml (README.md)."
-)
+IDENTICAL = "identical"  # to the committed one
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 
@@ -123,7 +119,7 @@ def committed_state(root: Path, path: str) -> str:
         return "missing"
     if name not in sums:
         return "not committed"
-    state = IDENTICAL if digest == sums[name] else DIFFERS
+    state = IDENTICAL if digest == sums[name] else "differs"
     why = edited_lists(root).get(f"{folder}/{SUMS}")
     return f"unknown: {state} by {SUMS}, which is {why}" if why else state
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from ..checks.freshness import MISSING, REFUSED, Freshness
-from ..checks.published_sets import DIFFERS, WHAT_TO_DO, committed_state, unlisted_files
+from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, unknown
 from ..config.results import drawn, stages, with_dependencies
 from ..config.schema.sets import PUBLISHED
@@ -96,8 +96,6 @@ def make(
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
-        if any(cells[1] == DIFFERS for _, _, cells in rows):
-            notes.append(WHAT_TO_DO)
         compared = any(cells[1] for _, _, cells in rows)
         header = ("figure", "files", "state", "as committed" if compared else "")
         print_files("", rows, header, notes)

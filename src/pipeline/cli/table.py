@@ -11,6 +11,10 @@ from pathlib import PurePath
 from ..records.differences import columns
 
 FileRow = tuple[str, str, tuple[str, ...]]  # path, size or nothing, what is said about the file
+WHAT_TO_DO = (
+    "What differs: to keep it, run ./reproduce accept; to undo it, git checkout what you edited, "
+    "and run again; to have both, make it a variant in config.yaml (README.md)."
+)
 _VERDICTS = {32: r"\b(identical|proved)\b", 31: r"\b(differs|missing|stale|refused|not \w+)\b"}
 
 
@@ -19,9 +23,10 @@ def print_files(
 ) -> None:
     """Print one row for all files of a figure that say the same, below their folder, and notes.
 
-    The words that follow ": " in a cell stand below the table, once for all their files.
+    The words that follow ": " in a cell stand below the table, once for all their files. If a cell
+    says "differs", the last line says what to do.
     """
-    folders = dict[str, dict[tuple[str, ...], list[str]]]()
+    rows, folders = [*rows], dict[str, dict[tuple[str, ...], list[str]]]()
     reasons = dict[str, list[str]]()
     for path, size, cells in rows:
         folder, name = os.path.split(path)
@@ -38,7 +43,8 @@ def print_files(
         print(f"\n{title}{folder}/")
         print_lines(columns([header, *table] if header else table))
     explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    print_lines(line for note in (*explained, *notes) for line in wrapped(note))
+    to_do = [WHAT_TO_DO] if any("differs" in cells for _, _, cells in rows) else []
+    print_lines(line for note in (*explained, *notes, *to_do) for line in wrapped(note))
 
 
 def wrapped(text: str) -> list[str]:

@@ -3,14 +3,7 @@
 from collections.abc import Iterator
 
 from ...checks.freshness import CURRENT, MISSING, Freshness
-from ...checks.published_sets import (
-    DIFFERS,
-    WHAT_TO_DO,
-    ChecksumError,
-    PublishedSet,
-    committed_sets,
-    committed_state,
-)
+from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
 from ...config.schema.sets import SETS
 from ...records.differences import differing_layers
@@ -25,9 +18,7 @@ def run(args: Arguments) -> int:
     own = list[str]()  # lines about the variants of the paper
     freshness = Freshness(ROOT, config.build_specs())
     for published_set in committed_sets(config):
-        rows = [*_published(freshness, published_set)]
-        notes = [WHAT_TO_DO] if any(DIFFERS in cells for *_, cells in rows) else []
-        print_files(f"{published_set.command}: ", rows, notes=notes)
+        print_files(f"{published_set.command}: ", _published(freshness, published_set))
     # What is not published: charts of times of this machine, and the data of scenes without one.
     for group, scenes in SETS.items():
         blocks = config.variants[group].items()

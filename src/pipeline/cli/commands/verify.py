@@ -1,10 +1,9 @@
 """./reproduce verify: whether everything here is as committed."""
 
-from ...checks.published_sets import WHAT_TO_DO
 from ...checks.verify import summary, verify
 from ...records.sources import ROOT
 from ..arguments import Arguments
-from ..table import print_lines, wrapped
+from ..table import WHAT_TO_DO, print_lines, wrapped
 
 
 def run(args: Arguments) -> int:

@@ -202,8 +202,7 @@ class _Loader(yaml.SafeLoader):
 
     def construct_scalar(self, node: yaml.ScalarNode | yaml.MappingNode) -> Any:
         text = super().construct_scalar(node)
-        misleading = _MISLEADING.get(node.tag.rpartition(":")[2])
-        if misleading and isinstance(node, yaml.ScalarNode) and misleading.fullmatch(text):
+        if node.tag.endswith((":int", ":float", ":bool")) and _MISLEADING.fullmatch(text):
             value = str(yaml.safe_load(text)).lower()
             words = f"{text} means {value} in YAML 1.1: write {value} or what you mean"
             raise _mistake(node, f"{words}; a text is '{text}', in quotes")
@@ -216,11 +215,7 @@ def _mistake(node: yaml.Node, words: str) -> ConfigError:
     return ConfigError(f"line {mark.line + 1}, column {mark.column + 1}: {words}")
 
 
-_MISLEADING = {
-    "int": re.compile("[-+]?0[0-7_]+|.*:.*"),  # octal, or to base 60
-    "float": re.compile(".*:.*"),
-    "bool": re.compile("(?i)yes|no|on|off"),
-}
+_MISLEADING = re.compile("(?i)yes|no|on|off|[-+]?0[0-7_]+|.*:.*")  # octal, and to base 60
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)[eE][-+]?[0-9]+$")
 _Loader.add_implicit_resolver("tag:yaml.org,2002:float", _NUMBER, [*"-+.0123456789"])
 
