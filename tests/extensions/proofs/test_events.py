@@ -14,7 +14,6 @@ from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import events, fixed_point
 from extensions.proofs.checkers.certificate import Certificate, NotProvedError
 from extensions.proofs.enclosure.jets import Jet
-from pseudorigid.dynamics.fixed_point import resonance
 from pseudorigid.verified.flight import Flight, UndecidedError
 
 CHECKERS = (fixed_point.check_resonance, events.check_doubling, events.check_grazing)
@@ -139,31 +138,6 @@ def test_the_trace_falls_along_the_family_of_the_doubling(results):
             traces.append(4 * x_end[0, 1, 0] * y_end[0, 0, 1] - 2)
         slope = arb(results["six-elliptic-doubling"].digits["slope of the trace"])
         assert abs((traces[1] - traces[0]) / (2 * step) - slope) < 1e-9
-
-
-def test_the_birth_is_at_the_closed_form(results):
-    (energy,) = values_of(results, "six-birth", "energy")
-    assert abs(energy / (resonance(0.2, 1, 6) * mpmath.mpf("0.0016")) - 1) < 1e-14
-
-
-def test_derivatives_are_those_of_differences():
-    """Of the conditions of a grazing orbit and of a doubling, by each unknown."""
-    bounds = THEOREMS["six-hyperbolic-end"].bounds
-    ball, halves = (bounds["k"], bounds["g"]), bounds["halves"]
-    with ctx.workprec(256):
-        step = arb(10) ** -30
-        for values, system in (
-            (("0.0427265259", "0.1671754304"), lambda *v: events.grazing(*ball, v, halves)),
-            (("0.0108252527", "0.3054433593"), lambda *v: events.doubling(*ball, v, 6)),
-        ):
-            a, b = map(arb, values)
-            rows = system(a, b)[1]
-            ends = (a + step, b), (a - step, b), (a, b + step), (a, b - step)
-            images = [system(*end)[0] for end in ends]
-            for i, (ahead, behind) in enumerate((images[:2], images[2:])):
-                for row, high, low in zip(rows, ahead, behind, strict=True):
-                    slope = (high - low) / (2 * step)
-                    assert abs(slope - row[i]) < arb("1e-20") * (1 + abs(row[i]))
 
 
 # ---- flights that are clear of the floor

@@ -47,22 +47,13 @@ def test_a_series_has_the_values_of_its_function_nearby(name, order):
         assert jet.constant.overlaps(OPERATIONS[name](x, y))
 
 
-def test_powers_of_a_parameter_are_kept_to_their_own_order():
-    plain, both = algebra(2, 2), algebra(2, 2, 1)
-    assert plain.monomials == ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
-    assert {m[:2] for m in both.monomials} == {*plain.monomials}
-    assert sorted(m[2] for m in both.monomials) == [0] * 6 + [1] * 6
-    assert (plain.order, both.order) == (2, 3)
-    for table in (plain, both):
-        its = table.monomials
-        sums = {(i, j): tuple(map(sum, zip(its[i], its[j], strict=True)))
-                for i, j in product(range(len(its)), repeat=2)}  # fmt: skip
-        assert {(i, j): its[k] for i, j, k in table.products} == {
-            pair: total for pair, total in sums.items() if total in its
-        }
-    x, y, t = Jet.series(both, arb(2), arb(3), arb(5))
-    assert [jet.constant for jet in (x, y, t)] == [2, 3, 5]
-    assert [(x * y * t)[m] for m in ((0, 0, 0), (1, 1, 1), (0, 0, 1), (1, 0, 0))] == [30, 1, 6, 15]
+def test_powers_of_a_parameter_have_an_order_of_their_own():
+    series = algebra(2, 2, 1)
+    assert series.order == 3 and len(series.monomials) == 6 * 2
+    x, y, t = Jet.series(series, arb(2), arb(3), arb(5))
+    assert [(x * y * t * (1 + t))[0, 0, n] for n in (0, 1)] == [180, 66]
+    assert [(x * y * t)[m] for m in ((1, 1, 1), (0, 0, 1), (1, 0, 0))] == [1, 6, 15]
+    assert Jet.constant_of(series, arb(4)).constant == 4
 
 
 @pytest.mark.parametrize("order", [1, 2, 3, 5])
@@ -76,22 +67,15 @@ def test_the_root_of_a_complex_series_is_its_square_root(order):
         assert root.constant.real > 0
 
 
-@pytest.mark.parametrize("width", [0.0, 1e-3, 0.3])
-def test_the_root_of_a_complex_set_contains_those_of_its_points(width):
-    square = acb(arb(2, width), arb(1, width))
+def test_the_root_of_a_wide_complex_set_has_those_of_its_points():
+    square = acb(arb(2, 0.5), arb(1, 0.4))
     root = square_root(square)
-    for p, q in product((-0.999, 0, 0.999), repeat=2):
-        assert root.contains(acb(2 + p * width, 1 + q * width).sqrt().mid()) or width == 0
-    assert root.rad() < 0.7 * width + 1e-14
-
-
-@pytest.mark.parametrize("square", [
-    acb(-1, 1), acb(0), acb(arb(1, 2)), arb(-1), arb(0), Jet.plane(1, acb(-1, 1), acb(0))[0],
-    Jet.plane(1, arb(0), arb(1))[0],
-])  # fmt: skip
-def test_a_root_that_may_not_be_analytic_is_refused(square):
-    with pytest.raises(ArithmeticError, match="not proved to be analytic"):
-        square_root(square)
+    for u, v in product((-0.499, 0, 0.499), (-0.399, 0, 0.399)):
+        assert root.contains(acb(2 + u, 1 + v).sqrt())
+    assert root.rad() < 0.4
+    for bad in (acb(arb(0, 0.1), 1), acb(-1, 1), arb(0), Jet.plane(1, arb(-1), arb(0))[0]):
+        with pytest.raises(ArithmeticError, match="not proved to be analytic"):
+            square_root(bad)
 
 
 def test_series_are_substituted_for_the_variables():

@@ -13,7 +13,7 @@ from sections import BALL
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, search_certificate
-from extensions.proofs.checkers import jump, periodic
+from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
@@ -196,16 +196,6 @@ def test_one_sided_images_are_those_of_nearby_orbits(results):
         )  # fmt: skip
         seen.add(side)
     assert seen == {"near", "far"}
-
-
-def test_the_length_of_the_jump_set_is_a_lower_bound(results):
-    theorem = THEOREMS["jump-set"]
-    assert "length" not in results["jump-set"].digits
-    with ctx.workprec(jump.BITS):
-        few, many = (
-            jump._polygon_length(theorem.bounds["surface"], count) for count in (400, 1600)
-        )
-        assert float(theorem.bounds["length"]) < few < many < arb("0.404858179457")  # CLAIMS.md
 
 
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):

@@ -72,6 +72,14 @@ def shifted(name, shift, field="theta"):
     ("unstable", {"coefficients": ["1.74978423654", "7.35932692"]}, "normal form is not"),
     ("unstable", {"margin": "5.61"}, "not proved to be above"),
     ("unstable", {"margin": "5.59"}, "not 5.6 as stated"),
+    ("fixed-point-elliptic", {"bands": 1}, "each band"),
+    ("fixed-point-elliptic", {"trace_above": "-1/2"}, "not -0.46"),
+    ("fixed-point-elliptic", {"trace_above": "-0.45"}, "not proved to be above"),
+    ("twist-ten", {"twist": "-4416.404133650"}, "not the stated"),  # 1e-8 of it off
+    ("twist-six", {"radius": "5e-05"}, "as stated"),
+    *(("twist-zero", {"width": width}, reason) for width, reason in (
+        ("0", "not above 0 and at most"), ("1e-12", "width"))),
+    ("twist-zero", {"energy": "0.0291977581390"}, ""),  # 1e-13 off
 ])  # fmt: skip
 def test_each_number_of_a_certificate_about_the_fixed_point_is_looked_at(name, fields, reason):
     assert reason in refused(name, changed(name, **fields))
