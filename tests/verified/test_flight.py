@@ -224,13 +224,6 @@ def test_a_root_of_wide_balls_contains_those_of_their_flights(family):
     assert decided > 3 or family is on_the_rim
 
 
-def test_a_root_has_nearly_all_bits_of_the_context():
-    for bits in (53, 64, 200, 1000):
-        with ctx.workprec(bits):
-            its = Flight(arb("0.1"), arb("-0.4"), arb("0.1"), arb("0.3"), arb("0.25"))
-            assert its.first_root().rel_accuracy_bits() > bits - 16
-
-
 def test_a_root_at_which_the_slope_may_vanish_is_undecided():
     """Newton's method cannot take one step with all bits; it takes at least one."""
     its = Flight(arb("0.1"), arb("-0.4"), arb("0.1"), arb("0.3"), arb("0.25"))
