@@ -151,12 +151,9 @@ def test_a_flight_that_may_not_leave_the_floor_is_undecided(x, c, s, reason):
     x, c = (a if isinstance(a, arb) else arb(a) for a in (x, c))
     with pytest.raises(UndecidedError, match=reason):
         Flight(x, -s - c, c, s, arb(0.25)).first_root()
-
-
-@pytest.mark.parametrize("g", [arb(0), arb(-0.25), arb(0.25, 0.3)])
-def test_a_gravity_that_may_not_be_positive_is_undecided(g):
-    with pytest.raises(UndecidedError, match="g is not proved to be positive"):
-        Flight(arb(-1), arb(-0.6), arb(0.1), arb(0.5), g).first_root()
+    for g in (arb(0), arb(0.25, 0.3)):
+        with pytest.raises(UndecidedError, match="g is not proved to be positive"):
+            Flight(arb(-1), arb(-0.6), arb(0.1), arb(0.5), g).first_root()
 
 
 @pytest.mark.parametrize("width", [0.0, 1e-14, 0.01, 0.1])

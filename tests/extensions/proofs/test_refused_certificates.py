@@ -5,14 +5,7 @@ from fractions import Fraction
 from math import atan2, pi, tan
 
 import pytest
-from certificates import (
-    ONE_OF_EACH,
-    by_both,
-    numbers,
-    refused,
-    with_field,
-    with_rows,
-)
+from certificates import ONE_OF_EACH, by_both, numbers, refused, with_field, with_rows
 from flint import arb
 from second_checker import STATEMENTS, ImpactMap, prove_orbit
 from second_checker import NotProvedError as SecondNotProvedError

@@ -2,12 +2,10 @@
 
 import re
 
-import mpmath
 import numpy as np
 import pytest
 from certificates import ONE_OF_EACH
 from flint import arb, ctx
-from independent_solver import exact_map
 from project import ROOT
 from sections import BALL
 from slowly import slowly
@@ -114,23 +112,6 @@ def test_the_tables_of_the_page_have_the_checkers_numbers(name, results):
 
 
 # ---- digits against other methods
-
-
-@pytest.mark.parametrize("name", ORBITS)
-def test_orbits_close_in_an_independent_map_of_60_digits(name, results):
-    surface, digits = THEOREMS[name].bounds["surface"], results[name].digits
-    with mpmath.workdps(60):
-        k, g, energy = (
-            mpmath.mpf(a.numerator) / a.denominator for a in (surface.k, surface.g, surface.energy)
-        )
-        x, v, w = state = [mpmath.mpf(middle(digits[n])) for n in ("x", "xdot", "udot")]
-        total = mpmath.mpf(0)
-        for _ in range(THEOREMS[name].bounds["period"]):
-            *state, tau = exact_map(k, g, *state)
-            total += tau
-        assert max(abs(a - b) for a, b in zip(state, (x, v, w), strict=True)) < 1e-27
-        assert abs(total - mpmath.mpf(middle(digits["period"]))) < 1e-26
-        assert abs(v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2 - energy) < 1e-29
 
 
 @pytest.mark.parametrize("theta", ["0.4", "1.1", "1.5", "2.3"])
