@@ -2,19 +2,16 @@
 
 import re
 from fractions import Fraction
-from math import atan2, pi, tan
 
 import pytest
 from certificates import ONE_OF_EACH, by_both, numbers, refused, with_field, with_rows
-from flint import arb
 from second_checker import STATEMENTS, ImpactMap, prove_orbit
 from second_checker import NotProvedError as SecondNotProvedError
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, Surface
-from extensions.proofs.checkers import horseshoe, periodic
+from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.certificate import NotProvedError
-from extensions.proofs.checkers.hsets import HSet
 from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
 
@@ -113,19 +110,6 @@ def test_a_stronger_statement_is_not_proved_by_the_same_certificate(checker, nam
 def test_no_number_of_a_statement_is_typed(name):
     formulas = r"{.*?}|y = 0|g\^2/|\(2k\)|lambda\^\d"
     assert not re.search(r"\d", re.sub(formulas, "", THEOREMS[name].wording))
-
-
-@pytest.mark.parametrize("centre", [0.7, 0.785, 0.79, 1.2, 1.5707])
-@pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (1, -1)])
-def test_the_crossing_angle_is_acute_even_near_a_right_angle(centre, signs):
-    """The angle between (x, y) and (x, -y), for all slopes of a wide ball."""
-    axes = (arb(signs[0]), arb(0)), (arb(0), arb(signs[1]))
-    tangents = [tan(min(centre + offset, 1.57)) for offset in (-0.1, -0.03, 0.04, 0.1)]
-    slope = arb(tangents[0]).union(arb(tangents[-1]))
-    angle = horseshoe._crossing_angle(HSet("M_0", (arb(0), arb(0)), *axes), slope)
-    for tangent in tangents:
-        half = atan2(tangent, 1.0)
-        assert angle.overlaps(arb(min(2 * half, pi - 2 * half), 1e-12))
 
 
 def leading_digits(text):
