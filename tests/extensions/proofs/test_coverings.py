@@ -328,9 +328,6 @@ def test_a_horseshoe_has_all_relations_and_the_least_margins(horseshoe_of):
     assert found.parts["loop"] == 3 + 1 + 1
     middle, last = found.parts["chain"][1:]
     assert (middle.s, last.centre, last.u, last.s) == ((1, -1), (20, -1), (0, -1), (1, 0))
-
-
-def test_the_chain_comes_back_in_the_opposite_order():
     first = "[[20, 1, 1, 0, 0, 1]"
     text = HORSESHOE.replace(first, f"{first}, [25, 2, 1, 0, 0, 1]")
     chain = horseshoe._sets(Certificate(text, "horseshoe"))[1]

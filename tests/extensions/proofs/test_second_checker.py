@@ -1,7 +1,4 @@
-"""The second checker proves the same statements and shares no code; its arithmetic and its map.
-
-test_refused_certificates.py shows both checkers the same certificates.
-"""
+"""The second checker proves the same statements and shares no code; its arithmetic and its map."""
 
 import subprocess
 import sys
