@@ -2,12 +2,14 @@
 
 import dataclasses
 import re
+from contextlib import nullcontext
 
 import pytest
 import second_checker
 from slowly import slowly
 
 from extensions.proofs import THEOREMS
+from extensions.proofs.checkers.certificate import NotProvedError
 
 # A theorem of each checker.
 ONE_OF_EACH = [*{theorem.checker: name for name, theorem in reversed(THEOREMS.items())}.values()]
@@ -34,6 +36,11 @@ def with_rows(text, field, rows):
 def with_bounds(theorem, **bounds):
     """Return a theorem with other numbers in its statement."""
     return dataclasses.replace(theorem, bounds=theorem.bounds | bounds)
+
+
+def told(reason, error=NotProvedError):
+    """Expect an error with a reason, or none if the reason is empty."""
+    return pytest.raises(error, match=reason) if reason else nullcontext()
 
 
 def refused(theorem, text=None, checker="package", **bounds):

@@ -55,7 +55,6 @@ class Interval:
 
     @classmethod
     def of(cls, number):
-        """Enclose an exact rational number."""
         scaled = Fraction(number) * ONE
         return cls(floor(scaled), ceil(scaled))
 
@@ -112,12 +111,10 @@ class Interval:
         return Interval(self.lo - radius, self.hi + radius)
 
     def middle(self):
-        """Midpoint as a double, for proposals and messages only."""
         return (self.lo + self.hi) / (2 * ONE)
 
 
 def hull(intervals):
-    """Enclose all numbers of several intervals and those between them."""
     return Interval(min(a.lo for a in intervals), max(a.hi for a in intervals))
 
 
@@ -256,7 +253,6 @@ class ImpactMap:
         return height, slope + versine * self.share * y + sine * x
 
     def gap_at(self, t, state):
-        """Enclose f at t units of time, for all states (x, y, s) of a box."""
         return self.gap(Interval(t, t), *state)[0]
 
     def first_root(self, x, y):
@@ -371,7 +367,6 @@ class ImpactMap:
         return time
 
     def derivative(self, x, y):
-        """Enclose DP over a box, as two rows."""
         point = Series(x, UNITY, *[ZERO] * 4), Series(y, ZERO, UNITY, *[ZERO] * 3)
         return [part.c[1:3] for part in self.image(*point, self.first_root(x, y))]
 
@@ -442,7 +437,6 @@ def prove_orbit(surface, centres, radius):
 
 
 def dot(row, column):
-    """Return the sum of products."""
     return reduce(add, map(mul, row, column))
 
 
@@ -469,7 +463,6 @@ def check_type(trace, expected):
 
 
 def check_window(surface, orbit, window):
-    """Prove that a point of the orbit has its x and xdot between the numbers of the statement."""
     for x, y in orbit:
         if is_between(x, window[0]) and is_between(surface.velocity(x, y), window[1]):
             return
@@ -477,7 +470,6 @@ def check_window(surface, orbit, window):
 
 
 def is_between(interval, ends):
-    """Whether an interval lies between two exact numbers."""
     return Interval.of(ends[0]) < interval < Interval.of(ends[1])
 
 
@@ -517,17 +509,14 @@ class Parallelogram:
         self.area = self.u[0] * self.s[1] - self.u[1] * self.s[0]
 
     def point(self, p, q):
-        """Enclose the point with the coordinates p and q, two Intervals."""
         sides = zip(self.centre, self.u, self.s, strict=True)
         return [c + p * u + q * s for c, u, s in sides]
 
     def series(self, p, q):
-        """Return x and y as Series in p and q."""
         parts = zip(self.point(p, q), self.u, self.s, strict=True)
         return [Series(*part, ZERO, ZERO, ZERO) for part in parts]
 
     def coordinates(self, x, y):
-        """Enclose the coordinates p and q of points."""
         dx, dy, inverse = x - self.centre[0], y - self.centre[1], UNITY / self.area
         p = (dx * self.s[1] - dy * self.s[0]) * inverse
         return p, (dy * self.u[0] - dx * self.u[1]) * inverse
@@ -705,7 +694,6 @@ class Certificate:
             raise NotProvedError(f"the certificate cannot be read: {error}") from None
 
     def check_constants(self, kind, **constants):
-        """Check that the certificate is of the kind, the ball and the energy of the statement."""
         if self.fields.get("kind") != kind:
             raise NotProvedError(f"the certificate is not one of kind {kind!r}")
         for name, stated in constants.items():
@@ -713,7 +701,6 @@ class Certificate:
                 raise NotProvedError(f"the certificate is of {name} = {self.number(name)}")
 
     def number(self, name):
-        """Return the number in a field."""
         return self.exact(name, self.fields.get(name))
 
     def rows(self, name, width):
@@ -727,7 +714,6 @@ class Certificate:
 
     @staticmethod
     def exact(name, value):
-        """Return the exact value of an integer or of text."""
         if not (type(value) is int or (type(value) is str and NUMBER.fullmatch(value))):
             raise NotProvedError(f"the certificate's {name} is missing or not an exact number")
         value = Fraction(value)
@@ -741,20 +727,17 @@ FIGURE_6 = "0.21 0.2116 0.0925 0.0932"
 
 
 def pairs(text):
-    """Return pairs of exact numbers from a text."""
     numbers = [Fraction(a) for a in text.split()]
     return tuple(zip(numbers[::2], numbers[1::2], strict=True))
 
 
 def orbit_at(energy, period, kind, radius, window):
-    """Return the checker and the numbers of a statement on an orbit."""
     section = {"k": K, "g": G, "energy": Fraction(energy), "period": period}
     alone = {"type": kind, "radius": Fraction(radius), "window": pairs(window)}
     return check_orbit, {**section, **alone}
 
 
 def horseshoe_at(crossing, entropy):
-    """Return the checker and the numbers of a statement on a horseshoe."""
     numbers = orbit_at("1/100", 6, "hyperbolic", "1e-4", FIGURE_6)[1]
     del numbers["type"]
     return check_horseshoe, {**numbers, "crossing": crossing, "entropy": Fraction(entropy)}

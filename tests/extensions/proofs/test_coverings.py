@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
+from certificates import numbers, refused, told, with_rows
 from flint import arb, ctx
 
-from extensions.proofs import Surface
+from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import graph, horseshoe, hsets, periodic
 from extensions.proofs.checkers.certificate import Certificate, NotProvedError
 from extensions.proofs.checkers.graph import Connection, Graph
@@ -104,19 +105,6 @@ def test_the_true_images_of_a_set_lie_in_its_local_map():
     assert sharp > 300  # all but those near the centre
 
 
-def test_the_local_map_has_the_coefficients_of_a_polynomial():
-    surface = made(lambda x, y: (3 * x + y * y, x * y - 2 * y))
-    its = hsets.local_map(surface, SKEW, OTHER)
-    for p, q in product((-1, 0.5, 1), repeat=2):
-        x, y = SKEW.box(arb(p), arb(q))
-        after = OTHER.coordinates(3 * x + y * y, x * y - 2 * y)
-        powers = [1, p, q, p * p, p * q, q * q]
-        for i, value in enumerate(after):
-            terms = [its.centre[i], *its.slopes[i], *its.curvatures[i]]
-            found = sum((a * b for a, b in zip(terms, powers, strict=True)), arb(0))
-            assert abs(found - value) < 1e-12
-
-
 def test_curvatures_are_enclosed_over_the_whole_set():
     """Of x^9, whose second derivative is far larger at the edges than halfway to them."""
 
@@ -146,17 +134,6 @@ def test_edges_and_images_are_enclosed_term_by_term(place, high, low, across, si
         assert abs(value.upper() - wanted.upper()) < 1e-7
 
 
-def test_terms_of_opposite_sign_cancel_only_at_an_edge():
-    its = local((0, 0, 1, 0, -1, 0))
-    assert its.exit_edge(1).upper() < 1e-7
-    assert abs(its.exit_edge(-1).upper() - 2) < 1e-7
-    for s, t, pq in product((-1, 1), repeat=3):
-        assert abs(local(q=(0, s, t, 0, pq, 0)).across().upper() - 3) < 1e-7
-        for place in (0, 1):  # p^2 and p q, or p q and q^2
-            terms = (0, 0, 0, s, pq, 0) if place == 0 else (0, 0, 0, 0, pq, s)
-            assert all(abs(row[place].rad() - 3) < 1e-7 for row in local(terms, terms).hull())
-
-
 @pytest.mark.parametrize("place", range(1, 6))
 def test_the_hull_holds_the_derivatives_of_all_points(place):
     """The half widths are those of 2 p, q and so on for a coefficient of 2."""
@@ -178,41 +155,20 @@ LANDS, FITS = "not proved to land beyond", "not proved to fit between"
 
 
 @pytest.mark.parametrize(("p", "q", "reason"), [
-    ((0, 3), (0, 0, 0.5), ""),
-    ((0, -3), (0, 0, 0.5), ""),
+    ((0, 3), (0, 0, 0.5), ""), ((0, -3), (0, 0, 0.5), ""),
     ((0, 0, 0, 3), (0, 0, 0.5), LANDS),  # a fold: both edges on one side
     ((0, 0, 0, -3), (0, 0, 0.5), LANDS),
     ((0.5, 1.4), (0, 0, 0.5), LANDS),  # the edge p = -1 lands inside
-    ((-0.5, 1.4), (0, 0, 0.5), LANDS),
-    ((0.5, -1.4), (0, 0, 0.5), LANDS),
-    ((-0.5, -1.4), (0, 0, 0.5), LANDS),
-    ((-0.5, 1.5), (0, 0, 0.5), LANDS),
-    ((0.5, 1.5), (0, 0, 0.5), LANDS),
-    ((0, arb(3, 2.5)), (0, 0, 0.5), LANDS),
-    ((arb(0, 9), 3), (0, 0, 0.5), LANDS),
-    ((0, 3, 2.5), (0, 0, 0.5), LANDS),
-    ((0, 3, 0, 0, 2.5), (0, 0, 0.5), LANDS),
-    ((0, 3, 0, 0, 0, 2.5), (0, 0, 0.5), LANDS),
-    ((0, 3), (1, 0, 0), FITS),
-    ((0, 3), (0.6, 0, 0.5), FITS),
-    ((0, 3), (-0.6, 0, 0.5), FITS),
-    ((0, 3), (0, 0.6, 0.5), FITS),
-    ((0, 3), (0, 0, 1), FITS),
-    ((0, 3), (0, 0, 0.5, 0.6), FITS),
-    ((0, 3), (0, 0, 0.5, 0, 0.6), FITS),
-    ((0, 3), (0, 0, 0.5, 0, 0, -0.6), FITS),
-    ((0, 3), (0, 0, arb(0.5, 0.6)), FITS),
+    ((-0.5, 1.4), (0, 0, 0.5), LANDS), ((0.5, 1.5), (0, 0, 0.5), LANDS),
+    ((arb(0, 9), 3), (0, 0, 0.5), LANDS), ((0, 3, 2.5), (0, 0, 0.5), LANDS),
+    ((0, 3), (1, 0, 0), FITS), ((0, 3), (0.6, 0, 0.5), FITS), ((0, 3), (-0.6, 0, 0.5), FITS),
+    ((0, 3), (0, 0.6, 0.5), FITS), ((0, 3), (0, 0, 1), FITS), ((0, 3), (0, 0, arb(0.5, 0.6)), FITS),
 ])  # fmt: skip
 def test_a_covering_needs_both_edges_on_opposite_sides_and_room(p, q, reason):
     its = local(*((*row, *[0] * (6 - len(row))) for row in (p, q)))
-    if reason:
-        with pytest.raises(NotProvedError, match=f"A does not cover B: .*{reason}"):
-            hsets.covering_margins(its, SKEW, OTHER)
-    else:
+    with told(reason and f"A does not cover B: .*{reason}"):
         beyond, room = hsets.covering_margins(its, SKEW, OTHER)
-        assert (beyond, room) == (pytest.approx(2), pytest.approx(0.5))
-        assert beyond <= 2
-        assert room <= 0.5
+        assert 2 - 1e-6 < beyond <= 2 and 0.5 - 1e-6 < room <= 0.5
 
 
 @pytest.mark.parametrize(("p", "margin"), [((0.5, 3), 1.5), ((-0.5, 3), 1.5), ((0.5, -3), 1.5)])
@@ -226,8 +182,7 @@ def test_the_margin_is_that_of_the_nearer_edge(p, margin):
     (((3, 0), (0, 1)), None),
     (((0.5, 3), (0.1, 9.5)), None),  # negative definite: the determinant is positive
     (((3, 1), (0, 0.5)), 0.5), (((3, 0), (1, 0.5)), 0.4), (((3, 1), (1, 0.5)), 0.6),
-    (((3, 0), (3, 0.5)), None),
-    (((3, 2), (0, 0.5)), 0.15),
+    (((3, 0), (3, 0.5)), None), (((3, 2), (0, 0.5)), 0.15),
     (((3, 4), (1, 2)), None),  # first > 0, but not the determinant
     (((3, 2), (2, -1)), None),  # mixed = a b - c d = 8
     (((arb(3, 0.3), 0), (0, 0.5)), 0.3), (((arb(3, 1.5), 0), (0, 0.5)), None),
@@ -236,14 +191,11 @@ def test_the_margin_is_that_of_the_nearer_edge(p, margin):
 def test_cones_need_a_positive_definite_form_for_all_derivatives(rows, margin):
     (a, b), (c, d) = rows
     its = local((0, a, b, 0, 0, 0), (0, c, d, 0, 0, 0))
-    if margin is None:
-        with pytest.raises(NotProvedError, match="cone condition not proved from A to B"):
-            hsets.cone_margin(its, SKEW, OTHER)
-        return
-    found = hsets.cone_margin(its, SKEW, OTHER)
-    matrix = np.array([[float(arb(v).mid()) for v in row] for row in rows])
-    form = matrix.T @ np.diag([1, -1]) @ matrix - np.diag([1, -1])
-    assert margin < found <= np.linalg.eigvalsh(form)[0]
+    with told("" if margin else "cone condition not proved from A to B"):
+        found = hsets.cone_margin(its, SKEW, OTHER)
+        matrix = np.array([[float(arb(v).mid()) for v in row] for row in rows])
+        form = matrix.T @ np.diag([1, -1]) @ matrix - np.diag([1, -1])
+        assert margin < found <= np.linalg.eigvalsh(form)[0]
 
 
 def test_a_hyperbolic_relation_needs_its_covering_and_its_cones():
@@ -302,16 +254,12 @@ def test_a_dent_of_the_image_is_found_wherever_it_is(p, q, sign):
     def out_of_the_strip(x, y):
         return 3 * x, y / 8 + sign * 1.5 * dent(p, q, x, y)
 
-    with pytest.raises(NotProvedError, match="N does not cover M"):
-        hsets.prove_covering(made(out_of_the_strip), ONE, LEFT)
-    if p not in (-1, 1):
-        return
-
     def back_inside(x, y):
         return sign * (3 * x - 2.5 * p * dent(p, q, x, y)), y / 8
 
-    with pytest.raises(NotProvedError, match="N does not cover M"):
-        hsets.prove_covering(made(back_inside), ONE, LEFT)
+    for formula in (out_of_the_strip, back_inside) if abs(p) == 1 else (out_of_the_strip,):
+        with pytest.raises(NotProvedError, match="N does not cover M"):
+            hsets.prove_covering(made(formula), ONE, LEFT)
 
 
 @pytest.mark.parametrize("formula", [
@@ -320,7 +268,6 @@ def test_a_dent_of_the_image_is_found_wherever_it_is(p, q, sign):
     lambda x, y: (3 * x + 4, y / 8), lambda x, y: (y / 8, 3 * x),
     lambda x, y: (3 * x, y / 8 + 0.95), lambda x, y: (3 * x, y / 8 - 0.95),
     lambda x, y: (1.5 * x - 0.75, y / 8),
-    lambda x, y: (3 * x, 0 * y + 1), lambda x, y: (x, 0 * y),
 ])  # fmt: skip
 def test_what_does_not_cover_is_refused(formula):
     with pytest.raises(NotProvedError, match="N does not cover M"):
@@ -355,7 +302,6 @@ approach = [[20, 1, 1, 0, 0, 1]]
 middle = [30, 1, 1]
 margins = [[1, 0.5], [1, 0.5], [1, 0.5], [1, 0.5], [1, 0.5], [1, 0.5], [1, 0.5]]
 """
-EDGES_OF_IT = ["S_0 S_1", "S_1 S_2", "S_2 S_0", "S_2 M_-1", "M_-1 M_0", "M_0 M_1", "M_1 S_1"]
 
 
 @pytest.fixture
@@ -376,14 +322,12 @@ def horseshoe_of(monkeypatch):
 
 def test_a_horseshoe_has_all_relations_and_the_least_margins(horseshoe_of):
     found = horseshoe_of(crossing=(Fraction(27), Fraction(33)))
-    assert [f"{a.name} {b.name}" for a, b in found.parts["edges"]] == EDGES_OF_IT
+    assert " ".join(f"{a.name}>{b.name}" for a, b in found.parts["edges"]) == (
+        "S_0>S_1 S_1>S_2 S_2>S_0 S_2>M_-1 M_-1>M_0 M_0>M_1 M_1>S_1")  # fmt: skip
     assert found.margins == {"beyond": 1.0, "room": 0.5, "cones": 0.25}
     assert found.parts["loop"] == 3 + 1 + 1
     middle, last = found.parts["chain"][1:]
     assert (middle.s, last.centre, last.u, last.s) == ((1, -1), (20, -1), (0, -1), (1, 0))
-
-
-def test_the_chain_comes_back_in_the_opposite_order():
     first = "[[20, 1, 1, 0, 0, 1]"
     text = HORSESHOE.replace(first, f"{first}, [25, 2, 1, 0, 0, 1]")
     chain = horseshoe._sets(Certificate(text, "horseshoe"))[1]
@@ -395,14 +339,12 @@ def test_the_chain_comes_back_in_the_opposite_order():
     ("", "", {"points": ((0, 0), (10, 2.5), (10, -1))}, "S_1 is not proved to contain"),
     ("[1, 0.5], ", "", {}, "margins for 7 coverings"),
     ("1, 0.5]]", "1, -0.5]]", {}, "is -0.5, below 0"),
-    ("1, 0.5]]", "-1, 0.5]]", {}, "is -1, below 0"),
     ("", "", {"margins": (0.9, 0.5)}, "S_0 covers S_1, but by less"),
     ("", "", {"margins": (1.0, 0.4)}, "S_0 covers S_1, but by less"),
     ("1, 0.5]]", "1.1, 0.5]]", {}, "M_1 covers S_1, but by less"),
     ("1, 0.5]]", "1, 0.6]]", {}, "M_1 covers S_1, but by less"),
     ("middle = [30", "middle = [12", {}, "M_0 is not proved to be disjoint from S_1"),
     ("middle = [30", "middle = [21", {}, "M_0 is not proved to be disjoint from M_-1"),
-    ("middle = [30", "middle = [1", {}, "M_0 is not proved to be disjoint from S_0"),
     ("", "", {"crossing": (Fraction(29), Fraction(33))}, "pass y = 0 where"),
     ("", "", {"crossing": (Fraction(27), Fraction(31))}, "pass y = 0 where"),
     ("leaves = 2\nenters = 1", "leaves = 1\nenters = 2", {}, "loops of 3 and 6 impacts do not mix"),
@@ -536,3 +478,29 @@ def test_a_growth_may_be_exact():
         graph.check_growth(Graph([ONE], loops), Fraction(2) + Fraction(1, 10**30), [Fraction(3)])
     with pytest.raises(NotProvedError, match="weight of B_1 is not positive"):
         graph.check_growth(Graph([ONE, LEFT], loops), Fraction(2), [Fraction(3), Fraction(0)])
+
+
+def test_the_entropy_is_that_of_the_paths():
+    """The logarithm of the spectral radius of the matrix with a vertex for each impact."""
+    theorem = THEOREMS["entropy-lower"]
+    finding = theorem.prove()
+    sets, connections = finding.parts["graph"].sets, finding.parts["graph"].connections
+    size = len(sets) + sum(it.impacts - 1 for it in connections)
+    matrix, free = np.zeros((size, size)), len(sets)
+    for it in connections:
+        path = [it.source, *range(free, free + it.impacts - 1), it.target]
+        free += it.impacts - 1
+        for a, b in pairwise(path):
+            matrix[a, b] += 1.0
+    entropy = np.log(np.abs(np.linalg.eigvals(matrix)).max())
+    with ctx.workprec(64):
+        bound = float(finding.digits["entropy"])
+    assert float(theorem.bounds["entropy"]) < bound < entropy < bound + 5e-4
+
+
+def test_a_loop_around_an_elliptic_orbit_is_refused():
+    text = THEOREMS["no-circle"].text()
+    points = numbers(THEOREMS["six-elliptic"].text(), "points")
+    sides = (row[2:] for row in numbers(text, "saddles"))
+    saddles = [[*point, *side] for point, side in zip(points, sides, strict=True)]
+    assert "not hyperbolic" in refused("no-circle", with_rows(text, "saddles", saddles))

@@ -7,7 +7,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from certificates import numbers, refused, with_bounds, with_field, with_rows
+from certificates import numbers, refused, with_bounds, with_rows
 from flint import arb, ctx
 from matplotlib.path import Path
 from project import ROOT
@@ -16,8 +16,8 @@ from slowly import slowly
 from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
-from extensions.proofs import THEOREMS, Surface, prove_curve
-from extensions.proofs.checkers import circle, curve
+from extensions.proofs import THEOREMS, prove_curve
+from extensions.proofs.checkers import curve
 from extensions.proofs.search import curve as search
 from extensions.proofs.search.rotation_numbers import quotients_near
 from pseudorigid import Ball, orbit
@@ -106,28 +106,6 @@ def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(na
         assert Path(polygon).contains_points(z.T).tolist() == [inside] * z.shape[1]
 
 
-def with_other_digit(index, column):
-    """Return a function that changes the 25th digit of a coefficient."""
-
-    def change(rows):
-        value = Fraction(rows[index][column])
-        digits = abs(Fraction(f"{float(value):.0e}"))
-        rows[index][column] = f'"{value + digits / 10**24}"'
-        return rows
-
-    return change
-
-
-@pytest.mark.parametrize(("change", "reason"), [
-    (with_other_digit(1, 0), "error is not proved"),
-    (lambda rows: [[rows[0][0], "1e-30"], *rows[1:]], r"sin\(0\)"),
-    (lambda rows: rows[:2], "coefficients, not 3"),
-])  # fmt: skip
-def test_other_coefficients_are_refused(change, reason):
-    rows = change(numbers(TEXT, "coefficients"))
-    assert re.search(reason, refused(SMALL, with_rows(TEXT, "coefficients", rows)))
-
-
 def with_sign(rows, place):
     """The rows with the opposite signs in one of them."""
     return [*rows[:place], [f"-{a}".replace("--", "") for a in rows[place]], *rows[place + 1 :]]
@@ -182,54 +160,11 @@ def test_the_page_says_which_coefficients_of_the_outer_curve_matter(outer_error)
     assert outer_error([*rows[:-2], *rows[:-3:-1]]) < float(most)
 
 
-@pytest.mark.slow
-def test_the_curve_run_through_twice_passes_all_but_the_count_of_its_turns(monkeypatch):
-    """With omega/2 itself, which no certificate can state, and a curve of more digits."""
-    theorem = THEOREMS["curve-fixed-point-outer"]
-    strips = ("0.025", "0.004", 256, 6, 6, 430)
-    numbers_of_both = Fraction("0.08"), Fraction("0.18")
-    weaker = with_bounds(theorem, rotation=numbers_of_both, share=Fraction("0.117"))
-    text = search.propose(weaker, (5, 1, 3), strips, "1e-42")
-    assert weaker.check(text).verdict == "proved", weaker.check(text).reason
-    rows = numbers(text, "coefficients")
-    text = with_rows(text, "coefficients", [row for a in rows for row in (a, ["0.0", "0.0"])])
-    for field, value in (("strip", "0.0125"), ("loss", "0.002"), ("columns", "512")):
-        text = with_field(text, field, value)
-    noble = circle.noble
-    monkeypatch.setattr(curve, "noble", lambda *given: tuple(a / 2 for a in noble(*given)))
-    assert "turns -2.00 times around the centre" in weaker.check(text).reason
-
-
-@pytest.mark.parametrize("change", [{"energy": "101/10000"}, {"k": "201/1000"}])
-def test_the_curve_of_another_energy_or_ball_is_refused(change):
-    """A certificate and a statement that agree on another energy or ball, with this curve."""
-    surface, text = SMALL.bounds["surface"], TEXT
-    other = {"k": surface.k, "g": surface.g, "energy": surface.energy} | change
-    for field, value in change.items():
-        text = with_field(text, field, f'"{value}"')
-    assert refused(SMALL, text, surface=Surface(**other), window=None)
-
-
 @pytest.mark.parametrize(("bound", "value"), [
-    ("share", Fraction("0.00691")), ("rotation", (Fraction("0.17864"), Fraction("0.1787"))),
-    ("error", Fraction("1e-36")), ("period", 2),
-    ("window", ((Fraction(1), Fraction(2)), (Fraction(1), Fraction(2)))),
+    ("period", 2), ("window", ((Fraction(1), Fraction(2)), (Fraction(1), Fraction(2)))),
 ])  # fmt: skip
 def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
     assert refused(SMALL, TEXT, **{bound: value})
-
-
-def test_sums_of_small_divisors_have_the_bound_of_the_proof():
-    """For omega = [0; quotients, 1, 1, ...], summed in doubles far beyond its partial quotients."""
-    for quotients in ([5, 1, 3], [9], [1, 4, 1, 3], [1], [5, 1, 11], [5, 1, 1, 2, 20]):
-        with ctx.workprec(100):
-            omega, divisors = map(float, circle.noble(quotients))
-        q = np.arange(1, 20_001)
-        terms = 1 / (4 * np.sin(np.pi * omega * q) ** 2)
-        assert np.all(np.cumsum(terms) <= divisors / 4 + 3 * np.pi**2 / 16 * q**2)
-        for d in (1e-2, 2e-3, 5e-4):  # the lemma with n = 1, whose kappa is to hold for d and less
-            kappa = sqrt(3 / 32 + divisors * (2 * d) ** 2)
-            assert 2 * sqrt(terms @ np.exp(-4 * np.pi * d * q)) <= kappa / d
 
 
 @pytest.mark.slow
@@ -261,8 +196,8 @@ def test_a_curve_whose_coefficients_fall_slower_than_they_begin_gets_more_modes(
     ("x", 0.17, "energy = 'x' is not an exact number"),
     (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
     (5.0, 0.17, "no elliptic orbit of period 1"),
-    (0.01, 0.1301, "no curve with the rotation number 0.130118 was found on y = 0; nearest smooth"),
     *slowly(
+        (0.01, 0.1301, "no curve with the rotation number 0.130118 was found on y = 0; nearest s"),
         # in the sea, in islands, and above the fixed point's number
         *((0.01, number, "was found on y = 0; nearest smooth curves found: 0.1")
           for number in (0.0201, 0.1612, 0.1675, 0.1789, 0.41, 0.9201)),

@@ -2,18 +2,16 @@
 
 import re
 
-import mpmath
 import numpy as np
 import pytest
 from certificates import ONE_OF_EACH
 from flint import arb, ctx
-from independent_solver import exact_map
 from project import ROOT
 from sections import BALL
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, search_certificate
-from extensions.proofs.checkers import jump, periodic
+from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
@@ -116,23 +114,6 @@ def test_the_tables_of_the_page_have_the_checkers_numbers(name, results):
 # ---- digits against other methods
 
 
-@pytest.mark.parametrize("name", ORBITS)
-def test_orbits_close_in_an_independent_map_of_60_digits(name, results):
-    surface, digits = THEOREMS[name].bounds["surface"], results[name].digits
-    with mpmath.workdps(60):
-        k, g, energy = (
-            mpmath.mpf(a.numerator) / a.denominator for a in (surface.k, surface.g, surface.energy)
-        )
-        x, v, w = state = [mpmath.mpf(middle(digits[n])) for n in ("x", "xdot", "udot")]
-        total = mpmath.mpf(0)
-        for _ in range(THEOREMS[name].bounds["period"]):
-            *state, tau = exact_map(k, g, *state)
-            total += tau
-        assert max(abs(a - b) for a, b in zip(state, (x, v, w), strict=True)) < 1e-27
-        assert abs(total - mpmath.mpf(middle(digits["period"]))) < 1e-26
-        assert abs(v**2 / 2 + k * w**2 / 2 - g * x + k * x**2 / 2 - energy) < 1e-29
-
-
 @pytest.mark.parametrize("theta", ["0.4", "1.1", "1.5", "2.3"])
 def test_the_closed_forms_of_the_fixed_point_are_those_of_the_package(theta):
     """Which test_derivations.py compares with computer algebra."""
@@ -182,32 +163,6 @@ def test_the_rotation_number_has_a_minimum_below_the_zero_of_the_twist():
     assert turns[1] < min(turns[0], turns[2]) - 5e-5
 
 
-def test_one_sided_images_are_those_of_nearby_orbits(results):
-    digits = {n: float(middle(v)) for n, v in results["jump-set"].digits.items()}
-    seen = set()
-    for angle in np.linspace(0, 2 * np.pi, 16, endpoint=False):
-        x = digits["point x"] + 1e-9 * np.cos(angle)
-        y = digits["point y"] + 1e-9 * np.sin(angle)
-        after = BALL.impact(*BALL.state_xy(x, y, 0.01))
-        x, y = chart(BALL.k, *after[:3])
-        (side,) = (
-            side for side in ("near", "far")
-            if np.hypot(x - digits[f"{side} image x"], y - digits[f"{side} image y"]) < 1e-3
-        )  # fmt: skip
-        seen.add(side)
-    assert seen == {"near", "far"}
-
-
-def test_the_length_of_the_jump_set_is_a_lower_bound(results):
-    theorem = THEOREMS["jump-set"]
-    assert "length" not in results["jump-set"].digits
-    with ctx.workprec(jump.BITS):
-        few, many = (
-            jump._polygon_length(theorem.bounds["surface"], count) for count in (400, 1600)
-        )
-        assert float(theorem.bounds["length"]) < few < many < arb("0.404858179457")  # CLAIMS.md
-
-
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
     whole = theorem_verdict("six-elliptic").attrs
     assert whole["verdict"] == "proved"
@@ -231,9 +186,7 @@ def test_a_record_of_a_theorem_names_its_certificate_alone_and_the_checkers():
 
 
 @pytest.mark.parametrize(("name", "bound"), [
-    ("jump-set", "length"),
-    ("entropy", "entropy"),
-    ("curve-fixed-point-outer", "share"),
+    ("jump-set", "length"), ("entropy", "entropy"), ("curve-fixed-point-outer", "share"),
 ])  # fmt: skip
 def test_the_readme_has_the_bound_of_a_theorem(name, bound):
     assert f" {float(THEOREMS[name].bounds[bound]):g}" in README

@@ -86,10 +86,8 @@ def test_starts_of_a_scene_may_be_fractions_of_the_radius_or_points(starts, impa
 
 
 @pytest.mark.parametrize(("match", "change"), [
-    ("k = 0.2", {"k": 0.2}),
-    ("impacts = 2.5", {"impacts": 2.5}),
-    ("x and y, or start", {"x": None}),
-    ("x and y, or start", {"start": "0.5"}),
+    ("k = 0.2", {"k": 0.2}), ("impacts = 2.5", {"impacts": 2.5}),
+    ("x and y, or start", {"x": None}), ("x and y, or start", {"start": "0.5"}),
     ("fraction", {"x": None, "start": {"x": "0.1", "z": "0"}}),
     ("x = 3/5, y = 0 is not inside", {"x": "3/5"}),
     ("is not inside", {"energy": "0", "x": "2/5"}),  # exactly on the rim: 2 g x = k x^2
@@ -171,15 +169,6 @@ def test_a_bound_takes_each_side_at_its_worst(row, radii, bound):
     assert enclosed_run._bound(list(map(arb, row)), list(map(arb, radii))) == bound
 
 
-@pytest.mark.parametrize(("value", "exponent"), [
-    (1, 1), (0.75, 0), (2, 2), (3, 2), (2.0**-80, -79), (0, -enclosed_run.MOST_BITS),
-])  # fmt: skip
-def test_an_exponent_bounds_its_number(value, exponent):
-    found = enclosed_run._exponent(arb(value))
-    assert found == exponent
-    assert arb(value) <= arb(2) ** found
-
-
 TINY = Fraction(1, 2**1080)
 
 
@@ -204,8 +193,7 @@ def test_a_value_is_rounded_only_if_the_whole_ball_is(value, width, nearest):
 @pytest.mark.parametrize(("start", "inside"), [
     ("0.999", True), ("-0.999", True), ("1", False), ("-1", False), ("2", False),
     ({"x": "0.1", "y": "0.17"}, True), ({"x": "0.1", "y": "-0.18"}, False),
-    ({"x": "0.1", "y": "0.1"}, True), ({"x": "0.6", "y": "0"}, False),
-    ({"x": "0.2", "y": "0.2"}, False), ({"x": "0.2", "y": "-0.2"}, False),
+    ({"x": "0.6", "y": "0"}, False), ({"x": "0.2", "y": "-0.2"}, False),
     ({"x": "0.1", "xdot": "0.1"}, True), ({"x": "0.1", "xdot": "-0.1"}, True),
     ({"x": "0.1", "xdot": "-0.155"}, False), ({"x": "0.1", "xdot": "0.155"}, True),
     ({"x": "0.1", "xdot": "0.17"}, False), ({"x": "0.1", "xdot": "-0.17"}, False),
