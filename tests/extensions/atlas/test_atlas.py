@@ -13,7 +13,6 @@ from extensions.atlas.sweep import resonances
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.figures.axes import limits
 from pseudorigid.figures.axes.panel import Axis
 from pseudorigid.figures.canvas import render, style
 
@@ -130,18 +129,6 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     for sweep in (wide, long):
         figure = atlas.draw(sweep, dataset(sweep, **nothing))
     assert_legible(figure)  # names of resonances that would touch are moved apart
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "count", "wanted"),
-    [
-        (0, 1, 5, [0, 0.5, 1]),
-        (0, 0.03, 8, [0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03]),
-        (-2.5, 37, 5, [0, 10, 20, 30]),
-    ],
-)
-def test_ticks_are_round(low, high, count, wanted):
-    assert limits.ticks(low, high, count) == wanted
 
 
 def test_minor_ticks_and_edges_lie_between():

@@ -1,4 +1,4 @@
-"""The pictures of claims, proofs and families: each is reproducible and shows its data."""
+"""The pictures of claims, proofs and families show their data."""
 
 from functools import cache
 
@@ -7,7 +7,6 @@ import pytest
 from legible import assert_legible, frames_of
 from samples import module
 from sections import BALL
-from slowly import slowly
 from small_curve import SMALL
 
 from extensions.claims.analyses.exclusion import exclusion
@@ -20,7 +19,7 @@ from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.render import pixels, render
+from pseudorigid.figures.canvas.render import pixels
 
 SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
 FAMILIES = SCENE | {
@@ -56,8 +55,6 @@ CHANGES = [
     ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
     ("families", 1, "regular", lambda v: 0.5 * v),
 ]
-KINDS = list(dict.fromkeys(kind for kind, *_ in CHANGES))
-LARGE = ("control", "curves", "families", "jumps", "horseshoe")  # drawn twice in seconds
 
 
 def families_along(parameter, span, levels, step, starts, impacts):
@@ -118,21 +115,6 @@ def unchanged(data):
 
 def draw(name, datasets, **changes):
     return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
-
-
-@pytest.mark.parametrize("name", [*(n for n in KINDS if n not in LARGE), *slowly(*LARGE)])
-def test_a_picture_is_reproducible_and_fits_a_column(data, name):
-    first = draw(name, data(name))
-    assert render(first, "png") == render(draw(name, data(name)), "png")
-    image = pixels(first)
-    assert image.shape[1] == style.COLUMN
-    ink = np.any(image != 255, axis=2)
-    assert 0.01 < ink.mean() < 0.6
-    for side in (ink[0], ink[-1], ink[:, 0], ink[:, -1]):  # the sheet cuts nothing off
-        assert not side.any()
-    letters = [text for text in first.texts if "mathbf" in text.get_text()]
-    frames = 5 if name == "control" else len(frames_of(first))  # one letter for all portraits
-    assert len(letters) == (frames if frames > 1 else 0)
 
 
 @pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
