@@ -155,9 +155,7 @@ def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
     held, regular = data("families")
     near = held["event_energy"].where(held["event_family"] > 0, 0.01 + 1e-6 * held["event_order"])
     held = held.assign(event_x=held["event_x"] + 0.1, event_energy=near)
-    falling = ("value", np.geomspace(1.0, 0.02, regular.sizes["value"]))
-    shares = regular.assign({f"regular{end}": falling for end in ("", "_low", "_high")})
-    figure = draw("families", [held, shares])
+    figure = draw("families", [held, regular])
     _, middle, _ = frames_of(figure)
     marks = [a.get_xydata() * style.DPI for a in figure.artists if a.get_color() == style.BLACK]
     marks = np.concatenate([m for m in marks if len(m) and middle.contains(*m[0])])
@@ -181,6 +179,3 @@ def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
     names = [text for text in figure.texts if len(text.get_text()) == 3 and "/" in text.get_text()]
     assert len(names) == np.sum((order > 2) & (order <= 8)) > 1
     assert_legible(figure, slack=5)
-    dots = [a for a in figure.artists if a.get_color() == style.BLUE and a.get_marker() == "o"]
-    (dots,) = (a for a in dots if len(a.get_xdata()) == regular.sizes["value"])
-    assert np.unique(dots.get_ydata()).size == regular.sizes["value"]

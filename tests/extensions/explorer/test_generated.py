@@ -161,8 +161,7 @@ def test_the_atlas_has_the_values_of_a_sweep():
 
 
 @pytest.mark.parametrize(
-    ("display", "no_open", "done"),
-    [(":0", False, "opened"), (":0", True, "open it"), ("", False, "open it")],
+    ("display", "no_open", "done"), [(":0", False, "opened"), ("", False, "open it")]
 )
 def test_explore_writes_the_page_and_opens_it(
     monkeypatch, tmp_path, capsys, text, display, no_open, done
