@@ -59,6 +59,13 @@ def test_links_lead_to_files(document):
         assert (ROOT / document).parent.joinpath(link).exists(), link
 
 
+# What README.md shows of parts; who deletes the part deletes the picture there.
+HEADLINES = [
+    ("README.md", "more_figures/study/work_uniform.png"),
+    ("README.md", "more_figures/publication/fig1.png"),
+]
+
+
 @pytest.mark.parametrize("document", [name for name in DOCUMENTS if name != "CHANGELOG.md"])
 def test_named_files_exist(document):
     """Paths, and names in backquotes, are those of a file or the end of its path."""

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from axe_core_python.selenium import Axe
 from person import WHOLE, Visitor
-from project import SHIPPED, shipped, wait_for
+from project import shipped, wait_for
 from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from extensions.claims.analyses.jumps import jumps
-from pipeline import config
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import winding
@@ -277,19 +276,6 @@ def test_a_bad_address_is_a_line_and_shows_figure_2(person):
         assert "address" in person.text("hint")
         assert len(person.starts()) == 8
     assert "has fig99:" in person.text("hint")
-
-
-@pytest.mark.parametrize("scene", ["fig8", "below/fig5"])
-def test_the_name_of_a_scene_is_an_address(person, scene):
-    variant, name = scene.split("/") if "/" in scene else ("paper", scene)
-    block = config.load(SHIPPED).variants[variant][name].as_mapping()
-    person.open(scene)
-    state = person.state()
-    shown = [float(state[field]) for field in ("k", "g", "E")]
-    assert shown == [*block["ball"].values(), block["energy"]]
-    if "starts" in block:
-        assert [*map(float, person.starts())] == block["starts"]
-    assert state["preset"] == person.value("preset") == scene
 
 
 def test_points_of_a_scene_are_places(person):
