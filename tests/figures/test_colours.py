@@ -1,6 +1,7 @@
 """Colours of the pictures, as readers with each colour vision see them, and names of curves."""
 
 import numpy as np
+import pytest
 from colours import APART, SHADES, VISIONS, distance, lightness
 from keys import texts
 
