@@ -64,6 +64,7 @@ def families_along(parameter, span, levels, step, starts, impacts):
         return held, shares(BALL, 0.01, held, parameter, span, step, starts, impacts)
 
 
+@cache
 def curves():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
