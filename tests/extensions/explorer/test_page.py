@@ -165,6 +165,7 @@ def test_bad_input_of_a_form_is_a_line_beside_it_and_the_picture_stays(person):
         if name == "branch-length":
             person.unfold("periodic-panel")
             person.press("find")
+            wait_for(lambda: "3 symmetric orbits" in person.text("periodic-note"))
         person.submit(name, text)
         assert words in person.text(f"{name.partition('-')[0]}-error")
     assert len(person.starts()) == 8
