@@ -9,6 +9,7 @@ from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.scene import Scene
 
 COSTLY = ("flux", "horseshoe", "tangle", "closeup", "curves", "families", "control", "graph")
+COSTLY += ("exclusion",)
 SCENES = [name for name, kind in KINDS.items() if issubclass(kind, Scene) and kind.headline]
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 from legible import assert_legible
-from samples import DATA, FLAT, KINDS, SCENES, SPACE, VIEW, drawn, exponents, module
+from samples import DATA, KINDS, SCENES, VIEW, drawn, module
 from slowly import slowly
 
 from pseudorigid import Ball
@@ -36,23 +36,6 @@ def test_a_picture_without_axes_has_those_of_its_data(kind, scale):
     scene |= {"ball": {"k": 0.2, "g": scale * 0.04}, "energy": scale * scale * 0.01}
     data = [with_scaled_lengths(part, scale) for part in DATA[kind]()]
     assert_legible(module(kind).draw(scene, *data))
-
-
-def test_names_of_exponents_that_coincide_are_moved_apart():
-    data = exponents()
-    data["exponent"] *= 0.0
-    figure = module("exponents").draw(SCENES["exponents"], data)
-    assert_legible(figure)
-    texts = sorted(figure.texts, key=lambda text: -text.get_position()[1])
-    names = [text.get_text() for text in texts if "lambda" in text.get_text()]
-    assert names == [rf"$\lambda_{i}$" for i in (1, 2, 3)]
-
-
-@pytest.mark.parametrize("axes", [SPACE, FLAT])
-@pytest.mark.parametrize("azimuth", [115, *slowly(25, 205, 295, 340)])
-def test_labels_of_a_box_fit_from_every_side(axes, azimuth):
-    scene = SCENES["portrait"] | {"axes": axes, "view": {"elevation": 30, "azimuth": azimuth}}
-    assert_legible(module("portrait").draw(scene, *DATA["portrait"]()))
 
 
 @pytest.mark.parametrize("ball, energy", [((1 / 3, 0.01), -0.0001), ((0.05, 0.02), 0.004)])

@@ -1,6 +1,5 @@
 """Names, keys and limits follow the data of a scene, not its config or the shipped scenes."""
 
-import numpy as np
 import pytest
 from keys import SCENE, texts
 from samples import SCENES, module, motion
@@ -13,12 +12,6 @@ from pseudorigid.figures.canvas import style
 
 VIEW = {"elevation": 40, "azimuth": 115}
 REGULAR, CHAOTIC = [0.1, -0.2], 0.6  # starts at SCENE
-
-
-def height(figure, text):
-    """The height in inches at which a text stands."""
-    (found,) = (each for each in figure.texts if each.get_text() == text)
-    return found.get_position()[1]
 
 
 @pytest.mark.parametrize("sea", [[], [0], [2]])
@@ -51,18 +44,13 @@ def test_a_key_has_no_orbits_that_are_not_there():
 
 
 @pytest.mark.parametrize("others", [[-0.2], [-0.2, -0.1, 0.1, 0.15, -0.3, -0.4, 0.05]])
-def test_names_of_exponents_stand_at_the_chaotic_lines_and_starts_are_named(others):
+def test_orbits_of_exponents_are_named_by_their_starts_and_types(others):
     starts = [*others, {"x": 0.4, "y": 0.0}]
     data = scene_exponents(BALL, 0.01, starts, 4000, 40)
     figure = module("exponents").draw(SCENE | {"starts": starts, "impacts": 4000}, data)
-    last = data["exponent"].values[-1, -1]
-    ends = {text: height(figure, rf"$\lambda_{text}$") for text in (1, 2, 3)}
-    assert last[0] > 0.2 and (ends[1] - ends[2]) == pytest.approx(ends[2] - ends[3], rel=0.05)
     names = [text for text in texts(figure) if ": " in text]
     assert len(names) == len(starts) and "start \N{MINUS SIGN}0.2: regular" in names
     assert "$x$ 0.4, y 0: chaotic" in names
-    full = {line.get_ydata()[-1] for line in figure.artists if len(line.get_xdata()) > 10}
-    assert np.min(np.abs(np.array([*full]) - ends[1])) < 0.1  # beside the end of a line
 
 
 def test_one_orbit_has_no_key_and_hidden_exponents_no_name():

@@ -2,7 +2,6 @@
 
 import hashlib
 import math
-from pathlib import Path
 
 import mpmath
 import numba
@@ -129,41 +128,6 @@ def test_frozen_bits():
     t = frozen_arguments()
     assert digest(*arithmetic.sincos_each(t[np.abs(t) < arithmetic.WIDE])) == SINCOS
     assert digest(log_each(np.abs(frozen_arguments()))) == LOG
-
-
-# Number of ulps by which the next test moves a constant: 1 if that changes one of 140,000 angles or
-# 15,000 logarithms, else four times the least change that does.
-SENSITIVE = {
-    "sincos": {"_HALF_PI_1": 1, "_HALF_PI_2": 1, "_S0": 1, "_S1": 1, "_S2": 1, "_C0": 1, "_C1": 1,
-               "_C2": 1, "_S3": 2**6, "_S4": 2**12, "_S5": 2**20, "_C3": 2**7, "_C4": 2**15,
-               "_C5": 2**25},
-    "log": {"_LN2_HI": 1, "_LN2_LO": 2**21, "_L0": 1, "_L1": 2**4, "_L2": 2**9, "_L3": 2**15,
-            "_L4": 2**21, "_L5": 2**26, "_L6": 2**31},
-}  # fmt: skip
-
-
-def interpreted(name=None, steps=0):
-    """Return the module's functions as plain Python, with one constant moved by some ulps."""
-    source = Path(arithmetic.__file__).read_text()
-    scope = {"jit": lambda function: function, "__name__": "interpreted"}
-    exec(source.replace("from .compiled import jit", ""), scope)
-    if name:
-        scope[name] += steps * math.ulp(scope[name])
-    return scope
-
-
-def bits(scope, function):
-    if function == "sincos":  # these functions have no branches and take arrays
-        t = frozen_arguments()[:140_000]
-        return digest(*scope["_kernel"](*scope["_reduce"](t)[:2]))
-    return digest([scope["log"](a) for a in np.abs(frozen_arguments()[100_000:115_000]).tolist()])
-
-
-@pytest.mark.parametrize("function", SENSITIVE)
-def test_frozen_bits_depend_on_each_constant(function):
-    plain = bits(interpreted(), function)
-    for name, steps in SENSITIVE[function].items():
-        assert bits(interpreted(name, steps), function) != plain, name
 
 
 SINCOS = "7ae097ee27006f39fbd63f882ae782737249f33a0e389e160140e5392db14291"

@@ -8,9 +8,7 @@ import yaml
 from project import ROOT
 
 from pipeline import config, declaration
-from pipeline.config import MAIN
-from pipeline.declaration import files, parts, stale_pages
-from pipeline.renew import BEGIN, END, with_section
+from pipeline.declaration import stale_pages
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
@@ -26,13 +24,6 @@ FILES = [
 ]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
 PAGES = sorted(str(file.relative_to(ROOT)) for file in ROOT.glob("src/**/README.md"))
-
-GENERATED = ("docs/config.md", "docs/figures.md")
-# Folder -> the part that may be deleted with it.
-OF_PARTS = {file.parent: file.parent.name for file in files("part.py").values()}
-for _name, _part in parts().items():
-    OF_PARTS |= {ROOT / each.folder: _name for each in _part.sets.values() if each.folder}
-OF_PARTS = {folder: name for folder, name in OF_PARTS.items() if MAIN not in parts()[name].sets}
 
 
 def links(text):
@@ -73,18 +64,6 @@ HEADLINES = [
     ("README.md", "more_figures/study/work_uniform.png"),
     ("README.md", "more_figures/publication/fig1.png"),
 ]
-
-
-@pytest.mark.parametrize("document", DOCUMENTS + PAGES)
-def test_no_link_by_hand_leads_to_files_of_another_part(document):
-    """Such a part may be deleted. Links that pipeline.renew writes are then left out."""
-    folder = (ROOT / document).parent
-    text = "" if document in GENERATED else with_section(text_of(document), BEGIN, "", END)
-    for link in links(text):
-        file = folder.joinpath(link).resolve()
-        own = [each for each in OF_PARTS if file.is_relative_to(each)]
-        own = [] if (document, link) in HEADLINES else own
-        assert not own or OF_PARTS.get(folder, "") in map(OF_PARTS.get, own), link
 
 
 @pytest.mark.parametrize("document", [name for name in DOCUMENTS if name != "CHANGELOG.md"])

@@ -8,13 +8,10 @@ from legible import assert_legible
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas, raster
-from extensions.atlas.grid import edges
 from extensions.atlas.sweep import resonances
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.figures.axes import limits
-from pseudorigid.figures.axes.panel import Axis
 from pseudorigid.figures.canvas import render, style
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0]}
@@ -130,26 +127,6 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     for sweep in (wide, long):
         figure = atlas.draw(sweep, dataset(sweep, **nothing))
     assert_legible(figure)  # names of resonances that would touch are moved apart
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "count", "wanted"),
-    [
-        (0, 1, 5, [0, 0.5, 1]),
-        (0, 0.03, 8, [0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03]),
-        (-2.5, 37, 5, [0, 10, 20, 30]),
-    ],
-)
-def test_ticks_are_round(low, high, count, wanted):
-    assert limits.ticks(low, high, count) == wanted
-
-
-def test_minor_ticks_and_edges_lie_between():
-    assert Axis((0.0, 1.2), [0.0, 0.5, 1.0]).minor_ticks().tolist() == [0.25, 0.75]
-    exponents = Axis((-1.1, 0.4), (), decades=True).minor_ticks()
-    assert 10**exponents == pytest.approx([0.08, 0.09, *np.arange(2, 10) / 10, 2.0])
-    assert edges(np.array([1.0, 2.0, 4.0])).tolist() == [0.5, 1.5, 3.0, 5.0]
-    assert edges(np.array([1.0])).tolist() == [0.5, 1.5]
 
 
 @pytest.mark.parametrize(

@@ -122,19 +122,6 @@ def test_the_sea_leaves_out_the_starts_in_islands():
         sea_states(BALL, ENERGY, 1)
 
 
-@pytest.mark.slow
-def test_averages_agree_with_those_of_runs_of_twice_the_length():
-    short, long = (clusters(BALL, ENERGY, 200, n, [4.0, 6.5], 1, 40, 1) for n in (50_000, 100_000))
-    bounds = 2.0 * short["period_error"].values
-    assert np.all(np.abs(short["period"].values - long["period"].values) < bounds)
-    shares = []
-    for data in (short, long):
-        strain, kinetic = (data[f"{name}_energy"].values for name in ("strain", "kinetic"))
-        time = data["time"].values
-        shares.append(ratio(strain * time, (strain + kinetic) * time))
-    assert abs(shares[0][0] - shares[1][0]) < 2.0 * shares[0][1]
-
-
 def test_a_ratio_of_sums_has_the_error_of_its_spread():
     random = np.random.default_rng(2)
     parts = random.uniform(1.0, 3.0, (400, 50))

@@ -65,3 +65,16 @@ def person(chromium, address, request):
     assert chromium.errors() == []
     requests = "return performance.getEntriesByType('resource').map(r => r.name)"
     assert all(name.startswith(("blob:", "data:")) for name in chromium.run(requests))
+
+
+@pytest.fixture
+def phone(person):
+    """Someone with a phone."""
+    command = person.driver.execute_cdp_cmd
+    metrics = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+    command("Emulation.setDeviceMetricsOverride", metrics)
+    command("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    person.open()
+    yield person
+    command("Emulation.setTouchEmulationEnabled", {"enabled": False})
+    command("Emulation.clearDeviceMetricsOverride", {})

@@ -88,7 +88,7 @@ def many_orbits_for_sse2():
 
 
 def measure(name, folder):
-    """Print a row of the table, and ratios of its columns."""
+    """Print a row of the table."""
     (folder / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
     address, seconds = (folder / "explorer.html").as_uri(), []
     with browsers.started(name, folder / "profile") as browser:
@@ -102,15 +102,6 @@ def measure(name, folder):
     columns = [0, 3, 1, 4, 2, 5, 7, 6]
     rates = [f"{1e-6 / s:.2f}" for s in np.median(seconds, axis=0)[columns]]
     print(f"| {' | '.join([name.capitalize(), *rates])} |")
-    ratios = {
-        (3, 0): "one orbit, page / compiled",
-        (4, 1): "one orbit, kept, page / compiled",
-        (5, 2): f"{ORBITS} orbits, page / compiled for SSE2",
-        (0, 2): f"page, {ORBITS} orbits / one orbit",
-        (6, 7): "orbit drawn / worker alone",
-    }
-    for (a, b), words in ratios.items():
-        print(f"  {words}: {np.median(seconds[:, a] / seconds[:, b]):.2f}")
 
 
 if __name__ == "__main__":

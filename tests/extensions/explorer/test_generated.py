@@ -13,7 +13,6 @@ from contextlib import nullcontext
 import numpy as np
 import pytest
 from project import ROOT, SHIPPED
-from report_pages import Outline, rendered
 
 from extensions.explorer import command as explore
 from extensions.explorer import data, page
@@ -107,13 +106,6 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     assert made.stdout == page._packed().encode()
 
 
-def test_the_page_follows_config_and_manifest(text, tmp_path):
-    document = config.load(SHIPPED)
-    document.variants["paper"]["fig2"].energy = 0.0123
-    assert '"energy":0.0123' in page.render(document) and '"energy":0.0123' not in text
-    assert data.published_orbits(tmp_path) == []  # nothing is published yet
-
-
 def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):
     checked = config.load(SHIPPED)
     variants = checked.variants
@@ -169,8 +161,7 @@ def test_the_atlas_has_the_values_of_a_sweep():
 
 
 @pytest.mark.parametrize(
-    ("display", "no_open", "done"),
-    [(":0", False, "opened"), (":0", True, "open it"), ("", False, "open it")],
+    ("display", "no_open", "done"), [(":0", False, "opened"), ("", False, "open it")]
 )
 def test_explore_writes_the_page_and_opens_it(
     monkeypatch, tmp_path, capsys, text, display, no_open, done
@@ -198,18 +189,3 @@ def test_an_edit_of_the_kernel_asks_for_another_module(tree):
     result = tree.run("explore", "--no-open")
     line = r"reproduce: src/\S+ is not what the kernel gives: run \S+ -m pipeline\.renew\n"
     assert result.returncode == 1 and re.fullmatch(line, result.stdout)
-
-
-def test_a_link_in_the_report_opens_the_scene_of_a_figure(reported):
-    def links(html):
-        return [a["href"] for a in Outline(html).all("a") if "explorer.html" in a["href"]]
-
-    found = links(rendered(reported))
-    assert "../explorer.html" in found
-    assert all(link.startswith("../explorer.html") for link in found)
-    assert (reported.path / "results/explorer.html").is_file()
-    opened = {link.partition("#")[2] for link in found} - {""}
-    scenes = {*data.collect(config.load(reported.config), reported.path)["scenes"]}
-    assert {"fig3", "fig6", "fig7", "low/fig3"} <= opened <= scenes
-    in_site = links(rendered(reported, beside={"Article": "article.html"}))
-    assert in_site and all(link.startswith("explorer.html") for link in in_site)

@@ -6,7 +6,6 @@ from legible import assert_legible
 
 from extensions.atlas.figures import atlas, raster
 from extensions.families.figures import chains
-from pseudorigid.figures.canvas import render
 
 SWEEP = {
     "k": list(np.linspace(0.05, 0.32, 10)),
@@ -16,10 +15,10 @@ SWEEP = {
 KINDS = "resonance", "fold", "doubling", "rim"
 
 
-def drawn(share=0.4):
+def drawn():
     """The figure of straight lines of all kinds, and what was drawn."""
     shape = len(SWEEP["k"]), len(SWEEP["energy"])
-    data = xr.Dataset({"regular": (("k", "energy"), np.full(shape, share))})
+    data = xr.Dataset({"regular": (("k", "energy"), np.full(shape, 0.4))})
     lines = {(0, "jumps"): ([0.06, 0.3], [1.03, 1.15])}
     for i, order in enumerate(SWEEP["chains"]):
         for j, kind in enumerate(KINDS):
@@ -59,14 +58,3 @@ def test_each_curve_is_drawn_where_its_data_are():
         assert distance < 0.3
         assert colours.setdefault(order, colour) == colour
     assert len({*colours.values()}) == len(colours)
-
-
-def test_a_cell_is_darker_the_larger_its_regular_share():
-    greys = []
-    for share in (0.0, 0.5, 1.0):
-        image = render.pixels(drawn(share)[0])[::-1]
-        r, g, b = image[chains.BOTTOM + 30, atlas.LEFT + atlas.WIDE - 40].tolist()[:3]
-        assert r == g == b
-        greys.append(r)
-    assert greys == sorted(greys, reverse=True)
-    assert len(set(greys)) == 3

@@ -1,14 +1,14 @@
-"""Families hold what brute force finds and nothing else, and faults in them are noticed."""
+"""Families hold what brute force finds and nothing else."""
 
-import copy
 import math
 from time import process_time
 
 import independent_solver as judge
 import pytest
 from exact_orbits import state_at
-from family_search import PAPER, crossings, energy_of, rho, searched, six_born_at, up_to_period_six
+from family_search import PAPER, crossings, rho, searched, up_to_period_six
 from mpmath import mp, mpf
+from slowly import slowly
 
 from extensions.families.continuation.half_orbit import FIX_R
 from pseudorigid import Ball, symmetric_orbits
@@ -92,10 +92,12 @@ def spread(low, high, count):
     return [low + (high - low) * ((0.137 + 0.6180339887498949 * i) % 1.0) for i in range(count)]
 
 
-@pytest.mark.slow
-def test_families_hold_what_brute_force_finds_and_nothing_else():
-    for energy in spread(-0.0039, 0.0398, 3):
-        assert unmatched(up_to_period_six(), PAPER, energy) == ([], [])
+ENERGIES = spread(-0.0039, 0.0398, 3)
+
+
+@pytest.mark.parametrize("energy", [ENERGIES[1], *slowly(ENERGIES[0], ENERGIES[2])])
+def test_families_hold_what_brute_force_finds_and_nothing_else(energy):
+    assert unmatched(up_to_period_six(), PAPER, energy) == ([], [])
 
 
 def over_all_energies(k, g, most, levels=240):
@@ -118,42 +120,6 @@ def test_families_of_longer_periods_are_complete(k, g, most, energies):
     assert [end.kind for f in found.families for end in f.ends].count("unresolved") == 0
     for energy in spread(*ends, energies):
         assert unmatched(found, ball, energy) == ([], [])
-
-
-def with_fold(found):
-    """A family with a fold, and an energy at which it holds two orbits."""
-    for family in found.families:
-        for event in family.events:
-            at = int(event.curve_index)
-            if event.kind == "fold" and family.line >= 0 and 3 < at < len(family.points) - 4:
-                a, b = family.points[at - 3].p, family.points[at + 3].p
-                p = 0.5 * (event.point.p + (min if a > event.point.p else max)(a, b))
-                return family.number, at, energy_of(found, p)
-    raise AssertionError("no fold")
-
-
-@pytest.fixture
-def planted():
-    """A copy of the search up to period six, whose families may be changed."""
-    search = copy.copy(up_to_period_six())
-    search.families = [copy.copy(family) for family in search.families]
-    return search
-
-
-def test_a_skipped_fold_is_found(planted):
-    number, place, energy = with_fold(planted)
-    planted.families[number].points = planted.families[number].points[: place + 1]
-    missed, extra = unmatched(planted, PAPER, energy)
-    assert (len(missed), extra) == (1, [])
-
-
-def test_a_jump_to_the_neighbour_is_found(planted):
-    """The tail of one period-six family is replaced by that of another one."""
-    first, second = (six_born_at(planted, 1, kind) for kind in ("resonance", "touch"))
-    first.points = [z for z in second.points if 0.01 < energy_of(planted, z.p) < 0.02]
-    missed, extra = unmatched(planted, PAPER, 0.0123)
-    assert len(missed) == 1
-    assert [number for _, _, number in extra] in ([first.number], [second.number])
 
 
 def main():

@@ -6,8 +6,6 @@ from examples import PAPER, checked, computed
 from legible import assert_legible
 
 from extensions.publication.figures import model
-from pipeline.checks.captions import caption_of
-from pipeline.config.reference import section
 from pseudorigid.figures.canvas import style
 
 
@@ -35,8 +33,3 @@ def test_each_ball_is_stretched_and_placed_as_its_state_says(fields):
         assert np.ptp(outline[1]) == pytest.approx(2 * radius * (1 + u), abs=0.1)
         assert outline[1].min() - floor == pytest.approx(-radius * (x + u), abs=0.1)
     assert impact[1].min() == pytest.approx(floor, abs=0.1)
-
-
-def test_it_is_called_figure_1_and_its_part_has_no_empty_table_of_stages():
-    assert caption_of("publication/fig1", checked("model")).name == "Figure 1"
-    assert "picture: model" in section("publication") and "| stage" not in section("publication")

@@ -4,16 +4,13 @@ import numpy as np
 import pytest
 import xarray as xr
 from commands import mistake
-from samples import module
 from sections import BALL
 
-from extensions.report.compare import datasets, picture
-from pipeline import config
+from extensions.report.compare import datasets
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.figures.canvas.render import pixels as figure_pixels
 
 NAMES = ("one", "two")
 
@@ -124,21 +121,6 @@ def test_both_figures_are_side_by_side_on_the_same_axes(variants):
     assert (both[:75, :wide] < 128).any()
     drawn = figure("paper/figures", "fig4")  # the other one cannot exist
     assert np.array_equal(figure("compare/paper..low", "fig4")[75:, : drawn.shape[1]], drawn)
-
-
-def test_a_comparison_draws_both_variants_on_axes_that_hold_both():
-    exponents = {"picture": "exponents", "starts": [0.6], "impacts": 500, "records": 20}
-    scenes = {"low": exponents | {"energy": 0.01}, "high": exponents | {"energy": 0.05}}
-    pictures = config.check({"ball": {"k": 0.2, "g": 0.04}, "scenes": scenes}).scenes.values()
-    blocks = [each.as_mapping() for each in pictures]
-    data = [[scene_exponents(BALL, block["energy"], [0.6], 500, 20)] for block in blocks]
-    images, words = picture.on_same_axes([*pictures], data)
-    assert words == ", on the same axes"
-    pairs = zip(blocks, data, strict=True)
-    alone = [figure_pixels(module("exponents").draw(block, *datasets)) for block, datasets in pairs]
-    left = np.s_[:, 90:178]  # of the frame, where the labels are
-    assert np.array_equal(images[0][left], images[1][left])
-    assert not np.array_equal(alone[0][left], alone[1][left])
 
 
 def test_the_largest_exponent_is_the_largest_by_value():
