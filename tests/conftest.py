@@ -28,8 +28,10 @@ def pytest_cmdline_main(config):
 
 
 def pytest_configure(config):
-    """Compile everything once; otherwise each worker would."""
-    if hasattr(config, "workerinput") or config.option.collectonly:
+    """Compile everything once for all workers; a single process compiles what it needs."""
+    option = config.option
+    alone = not getattr(option, "numprocesses", 0)
+    if hasattr(config, "workerinput") or option.collectonly or alone:
         return
     # If this fails, a test says why, and each worker compiles what it needs.
     subprocess.run(

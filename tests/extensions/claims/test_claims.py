@@ -230,6 +230,15 @@ def test_a_wrong_dataset_changes_the_verdict(datasets, number):
     assert wrong.value != right.value if undecided else wrong.verdict != right.verdict
 
 
+@pytest.mark.parametrize("number", [n for n, c in claims.CLAIMS.items() if "derivations" in c.data])
+def test_a_formula_that_holds_only_with_a_correction_proves_no_statement(datasets, number):
+    algebra = datasets["derivations"].copy(deep=True)
+    algebra["printed"].values[:], algebra["corrected"].values[:] = 0, 1
+    proofs = dict.fromkeys(claims.required_theorems(), PROVED)
+    verdict = claims.CLAIMS[number].judge(datasets | {"derivations": algebra}, proofs).verdict
+    assert verdict not in (PROVED, HOLDS)
+
+
 CITED = [(n, name) for n, claim in claims.CLAIMS.items() for name in claim.theorems]
 
 
