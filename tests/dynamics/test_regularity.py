@@ -142,9 +142,10 @@ def test_the_rule_of_verdicts(halves, growth, size, before, at_end):
 
 
 def test_each_orbit_is_judged_by_its_own_sums():
-    turned, grown = np.array([[0.4, 0.8], [0.2, 0.4], [0.2, 0.4]]), np.array([[3.0, 3], [103, 903]])
-    winding, growth, verdicts = np.empty(2), np.empty(2), np.empty((2, 4), bool)
-    sizes, weights = np.array([9.0, 20.0]), (4.0, 2.0, 2.0)
+    turned = np.array([[0.4, 0.8, 0.4], [0.2, 0.4, 0.2], [0.2, 0.4, 0.21]])
+    grown = np.array([[3.0, 3.0, 3.0], [103.0, 903.0, 103.0]])
+    winding, growth, verdicts = np.empty(3), np.empty(3), np.empty((3, 4), bool)
+    sizes, weights = np.array([9.0, 20.0, 9.0]), (4.0, 2.0, 2.0)
     verdict.judge_each(turned, weights, grown, 100, sizes, False, winding, growth, verdicts)
-    assert (winding.tolist(), growth.tolist()) == ([0.1, 0.2], [1.0, 9.0])
-    assert verdicts.tolist() == [[True] * 4, [False, False, False, True]]
+    assert (winding.tolist(), growth.tolist()) == ([0.1, 0.2, 0.1], [1.0, 9.0, 1.0])
+    assert verdicts.tolist() == [[True] * 4, [False, False, False, True], [False] * 4]

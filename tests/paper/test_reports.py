@@ -17,6 +17,7 @@ BLOCK = {"ball": {"k": 0.2, "g": 0.04}, "energy": 0.01}
 
 def test_the_largest_exponents_their_mean_and_their_sample_deviation():
     data = exponents()
+    data["exponent"] = data["exponent"] * [[1.0], [1.1], [1.3]]
     found = reports.exponents({}, data)
     ends = data["exponent"].values[-1]
     largest = sorted(max(row) for row in ends.tolist())
