@@ -3,6 +3,7 @@
 import re
 import shutil
 from collections import Counter
+from functools import cache
 
 import pytest
 from project import ROOT, check_jsonschema, fresh_tree, shipped, small
@@ -15,6 +16,9 @@ from pipeline.declaration import RENEW, SCHEMA, parts, stale_pages
 # The study, and the parts that need it: name -> folder.
 GONE = {name: f"src/extensions/{name}" for name in ("atlas", "claims", "families")}
 GONE["study"] = "src/study"
+
+
+page, section = cache(reference.page), cache(reference.section)
 
 
 @pytest.fixture(scope="module")
@@ -30,17 +34,17 @@ def test_the_generated_files_are_current(generated):
         assert (ROOT / name).read_text(encoding="utf-8") == text, f"{name}: run {RENEW}"
 
 
-@pytest.mark.parametrize("part", [name for name in parts() if reference.section(name)])
+@pytest.mark.parametrize("part", [name for name in parts() if name != "paper" and reference.kinds_of(name)])
 def test_a_field_of_several_kinds_is_described_once(part):
     """Other kinds name the kind that has it: one of the paper, of the part, or of one it needs."""
-    sections = map(reference.section, dict.fromkeys([*parts()[part].needs, part]))
-    kinds = re.split("^##+ picture: ", "".join([reference.page(), *sections]), flags=re.M)[1:]
+    sections = map(section, dict.fromkeys([*parts()[part].needs, part]))
+    kinds = re.split("^##+ picture: ", "".join([page(), *sections]), flags=re.M)[1:]
     kinds = [re.split("^#", text, maxsplit=1, flags=re.M)[0] for text in kinds]
     items = [re.findall(r"^- `(\w+)` (\(.*(?:\n  .*)*)", text, re.M) for text in kinds]
     found = Counter(item for each in items for item in each)
     assert len(found) > 10 and max(found.values()) == 1, found.most_common(1)
     place = reference.common_place(part)
-    assert not place or reference.section(part).count(place) == 1
+    assert not place or section(part).count(place) == 1
     for names, kind in re.findall(r"^- (`.*): as\s+of `(\w+)`", "\n".join(kinds), re.M):
         (place,) = (i for i, text in enumerate(kinds) if text.startswith(f"{kind}\n"))
         assert set(re.findall(r"`(\w+)`", names)) <= {name for name, _ in items[place]}
