@@ -106,7 +106,9 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
 def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatch, package):
     installed = metadata.version
     monkeypatch.setattr(metadata, "version", lambda n: "99" if n == package else installed(n))
-    assert planned(made) == f"made with {package} {installed(package)} then, 99 here: orbits, drawing"
+    assert (
+        planned(made) == f"made with {package} {installed(package)} then, 99 here: orbits, drawing"
+    )
 
 
 def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):

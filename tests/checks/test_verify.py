@@ -90,7 +90,9 @@ def test_an_edited_text_that_is_published_beside_pictures_is_named(tmp_path, nam
         with (tmp_path / text).open("a") as file:
             file.write(" ")
         found = inspect(tmp_path, published_set).problems
-        assert [*{*found} - {*before}] == [f"{text}: not the committed one: {published_set.command} writes it"]
+        assert [*{*found} - {*before}] == [
+            f"{text}: not the committed one: {published_set.command} writes it"
+        ]
         shutil.copy(ROOT / text, tmp_path / text)
 
 

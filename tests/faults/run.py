@@ -1,8 +1,8 @@
 """Plant each fault of faults.toml in a copy of this tree; the named test must fail.
 
-    .venv/bin/python tests/faults/run.py                  # all faults
-    .venv/bin/python tests/faults/run.py --sample 28      # some, chosen by the commit
-    .venv/bin/python tests/faults/run.py checkers/curve   # those whose file or test has this text
+.venv/bin/python tests/faults/run.py                  # all faults
+.venv/bin/python tests/faults/run.py --sample 28      # some, chosen by the commit
+.venv/bin/python tests/faults/run.py checkers/curve   # those whose file or test has this text
 """
 
 import os

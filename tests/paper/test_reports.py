@@ -36,7 +36,9 @@ def test_a_portraits_energy_speed_and_extent():
     speeds = data["xdot"].values + data["udot"].values
     assert float(found["least speed of contact"]) == pytest.approx(speeds.min(), rel=0.05)
     least, most = map(float, found["x"].split(" to "))
-    assert (least, most) == pytest.approx((data["x"].values.min(), data["x"].values.max()), abs=6e-5)
+    assert (least, most) == pytest.approx(
+        (data["x"].values.min(), data["x"].values.max()), abs=6e-5
+    )
 
 
 def test_a_motions_period_strain_and_impacts_within_the_axes():

@@ -19,4 +19,6 @@ def test_figures_that_are_drawn_in_a_second_have_the_committed_bytes(tmp_path):
         pytest.skip("the paper's figures are not compared: other scenes are committed")
     committed = dict(reversed(line.split("  ")) for line in sums.stdout.splitlines())
     found = dict(paper_probe.paper(tmp_path, QUICK))
-    assert found == {f"{name}.{form}": committed[f"{name}.{form}"] for name in QUICK for form in ("png", "svg")}
+    assert found == {
+        f"{name}.{form}": committed[f"{name}.{form}"] for name in QUICK for form in ("png", "svg")
+    }

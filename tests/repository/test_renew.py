@@ -34,7 +34,9 @@ def test_the_generated_files_are_current(generated):
         assert (ROOT / name).read_text(encoding="utf-8") == text, f"{name}: run {RENEW}"
 
 
-@pytest.mark.parametrize("part", [name for name in parts() if name != "paper" and reference.kinds_of(name)])
+@pytest.mark.parametrize(
+    "part", [name for name in parts() if name != "paper" and reference.kinds_of(name)]
+)
 def test_a_field_of_several_kinds_is_described_once(part):
     """Other kinds name the kind that has it: one of the paper, of the part, or of one it needs."""
     sections = map(section, dict.fromkeys([*parts()[part].needs, part]))
