@@ -6,6 +6,7 @@ from keys import texts
 from samples import ATTRS, FLAT, SCENES, drawn, exponents, manifolds, module, motion, states
 from slowly import slowly
 
+from paper.figures import tangle
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import rows, states_of
@@ -119,3 +120,18 @@ def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
     assert {"0.5", "1.5"} <= {*texts(figure)}  # labels of the inset alone
+
+
+def test_a_sharp_fold_is_marked_unless_a_line_goes_on_or_ends_there():
+    reach = tangle._REACH * sheet.POINT
+    x = np.concatenate([np.linspace(0.0, 9.0, 91), np.linspace(9.0, 0.0, 91)[1:]]) * reach
+    fold = np.array([x, np.where(np.arange(181) > 90, 0.1 * reach, 0.0)])
+    assert tangle._tips(fold, fold) == [90]
+    beyond = np.array([[9.6 * reach, 10.0 * reach], [0.0, 0.0]])
+    assert tangle._tips(fold, np.append(fold, beyond, axis=1)) == []
+    for part in (fold[:, 85:], fold[:, :96]):  # nearer to an end than the reach
+        assert tangle._tips(part, part) == []
+    gap = np.full((2, 1), np.nan)
+    assert tangle._tips(np.append(gap, fold, axis=1), fold) == [91]
+    bend = np.array([np.minimum(np.arange(181), 90.0), np.maximum(np.arange(181) - 90.0, 0.0)])
+    assert tangle._tips(0.1 * reach * bend, bend) == []
