@@ -100,8 +100,19 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
 @pytest.mark.parametrize(
     "package",
     # What computes and what draws: not sympy (its results are compared), nor what runs the jobs.
-    "numpy numba llvmlite scipy xarray netCDF4 matplotlib deflate python-flint fonttools "
-    "pyparsing".split(),
+    [
+        "numpy",
+        "numba",
+        "llvmlite",
+        "scipy",
+        "xarray",
+        "netCDF4",
+        "matplotlib",
+        "deflate",
+        "python-flint",
+        "fonttools",
+        "pyparsing",
+    ],
 )
 def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatch, package):
     installed = metadata.version
