@@ -97,23 +97,12 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
     assert planned(made) == "no record of what made it: orbits, drawing"
 
 
-@pytest.mark.parametrize(
-    "package",
-    # What computes and what draws: not sympy (its results are compared), nor what runs the jobs.
-    [
-        "numpy",
-        "numba",
-        "llvmlite",
-        "scipy",
-        "xarray",
-        "netCDF4",
-        "matplotlib",
-        "deflate",
-        "python-flint",
-        "fonttools",
-        "pyparsing",
-    ],
-)
+# What computes and what draws: not sympy (its results are compared), nor what runs the jobs.
+COMPUTING = "llvmlite", "netCDF4", "numba", "numpy", "python-flint", "scipy", "xarray"
+DRAWING_PACKAGES = "deflate", "fonttools", "matplotlib", "pyparsing"
+
+
+@pytest.mark.parametrize("package", COMPUTING + DRAWING_PACKAGES)
 def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatch, package):
     installed = metadata.version
     monkeypatch.setattr(metadata, "version", lambda n: "99" if n == package else installed(n))
