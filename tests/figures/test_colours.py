@@ -1,8 +1,7 @@
 """Colours of the pictures, as readers with each colour vision see them, and names of curves."""
 
 import numpy as np
-import pytest
-from colours import APART, SHADES, VISIONS, assert_colours_apart, distance, lightness
+from colours import APART, SHADES, VISIONS, distance, lightness
 from keys import texts
 
 from pseudorigid.figures.canvas import style
@@ -10,17 +9,6 @@ from pseudorigid.figures.canvas.names import name_curves
 from pseudorigid.figures.canvas.sheet import Sheet
 
 FRAME = 0, 0, 900, 900
-
-
-def test_the_measure_sees_colours_that_were_hard_to_tell_apart():
-    red, green, pink, sea = "#d55e00", "#4fa82a", "#cc79a7", "#909090"
-    assert distance(red, green) > 90 and distance(red, green, "deuteranopia") < 15
-    assert distance(pink, sea) > 35 and distance(pink, sea, "deuteranopia") < 8
-    sheet = Sheet(900, 900)
-    for up, hue in ((100, pink), (200, sea)):
-        sheet.draw([0, 900], [up, up], color=hue)
-    with pytest.raises(AssertionError, match="deuteranopia"):
-        assert_colours_apart(sheet.figure)
 
 
 def test_the_scale_goes_from_dark_to_light_apart_from_the_sea_for_every_vision():

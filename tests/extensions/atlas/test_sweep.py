@@ -8,13 +8,11 @@ import signal
 import pytest
 from project import fresh_tree, of_scenes, wait_for
 
-import snakemake_logger_plugin_reproduce as blocks
 from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
 from pipeline.records.artifacts import load
-from pipeline.records.build_spec import BuildSpec
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 BOTH = ["png", "svg"]
@@ -40,21 +38,6 @@ def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweep
     args.config = checked(**sweeps)
     with pytest.raises(UsageError, match=line):
         command.run(args)
-
-
-def test_progress_shows_blocks_and_time_to_finish(monkeypatch):
-    monkeypatch.setattr(blocks, "PAUSE", 0.0)
-    first, second, third = (f"results/atlas/sweep_plane.{i:04d}.nc" for i in range(3))
-    other = BuildSpec("results/claims/x.nc", "x", "x", {}, "stage", "", [], [])
-    specs = checked(plane=SMALL).build_specs(["atlas"])
-    progress = blocks.Blocks(specs | {other.result: other}, {second, third, other.result})
-    assert progress.done(second) == "plane: 2 of 3 blocks"
-    assert progress.done(third) == "plane: 3 of 3 blocks"
-    monkeypatch.setattr(blocks, "PAUSE", 1000.0)
-    progress = blocks.Blocks(specs, {first, second, third})
-    lines = [progress.done(path) for path in (first, second, third)]
-    assert lines == ["plane: 1 of 3 blocks", None, "plane: 3 of 3 blocks"]
-    assert blocks._duration(9971) == "2 h 46 min" and blocks._duration(183) == "3 min 3 s"
 
 
 @pytest.fixture

@@ -355,6 +355,8 @@ def test_rises_are_counted_by_the_share_and_its_intervals():
     assert chaos._rises(share, share - 0.4, share + 0.4) == [(2, 4)]
     assert chaos._rises(share, share - 3.0, share + 3.0) == []
     assert chaos._rises(share, share - 0.1, share + 0.1) == [(2, 4), (7, 8)]
+    share = np.array([1.0, 5.0, 4.9, 6.0, 2.0])  # falls within the intervals end no rise
+    assert chaos._rises(share, share - 0.2, share + 0.2) == [(0, 3)]
 
 
 def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():

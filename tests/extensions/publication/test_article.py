@@ -5,7 +5,6 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -42,17 +41,6 @@ def typed_numbers(source):
 
 def test_no_number_is_typed_into_the_text():
     assert typed_numbers(SOURCE.read_text()) == []
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        *("72 statements", "It has twenty-one islands.", "an angle of $pi / 3$"),
-        *("$E = x^2 / 2 + 2$", '#code("0.235")', '#ours("fig2", "orbits", 3)'),
-    ],
-)
-def test_a_typed_number_is_noticed(text):
-    assert typed_numbers(SOURCE.read_text().replace("= Introduction", f"{text}\n= Introduction"))
 
 
 @pytest.fixture(scope="module")
@@ -140,22 +128,6 @@ def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing
     assert "Accuracy: 10−12." in plain and "<sup>−12</sup>" in box
 
 
-def test_figures_and_tables_are_numbered_in_the_order_of_their_first_citation(page):
-    """The first citations have the order of the numbers, and so do the figures on the pages."""
-    shown = re.findall(
-        r'<figure id="([^"]*)">.*?<figcaption>(Figure|Table)\xa0(A?\d+): ', page, re.S
-    )
-    cited = re.findall(r'<a href="#([^"]+)"[^>]*>(Figure|Table)\xa0(A?\d+)</a>', page)
-    assert {*cited} == {*shown}
-    figures = [int(number) for _, kind, number in shown if kind == "Figure"]
-    assert figures == sorted(figures) and len(figures) > 20
-    for kind, series in (("Figure", r"\d"), ("Table", r"\d"), ("Table", "A")):
-        chosen = [
-            [x for x in each if x[1] == kind and re.match(series, x[2])] for each in (shown, cited)
-        ]
-        assert chosen[0] == list(dict.fromkeys(chosen[1]))
-
-
 def test_each_formula_is_valid_and_is_described(page):
     """A MathML token has text alone, a mover has two children, and alttext says what is meant."""
     formulas = re.findall(r"<math\b.*?</math>", page, re.S)
@@ -169,42 +141,6 @@ def test_each_formula_is_valid_and_is_described(page):
             assert len(element) == 2 or element.tag not in ("mover", "msup", "msub", "mfrac")
             assert bool(element.text) == (element.tag in tokens)
             assert not (element.tag in tokens and len(element))
-
-
-def test_the_web_page_has_one_main_part_with_the_whole_text(page):
-    _, main, rest = page.partition("<main>")
-    assert main and rest.count("</main>") == 1 and "<h2" in rest and "<main" not in rest
-    assert "<h2" not in page.partition("<main>")[0]
-
-
-@pytest.mark.parametrize("rows", [2, 3, 4, 5])
-def test_no_page_has_a_single_row_of_a_table(tree, data, rows):
-    """Tables begin at all heights of a page, and some end on the next one."""
-    typst = pytest.importorskip("typst")
-    folder = Path(tempfile.mkdtemp(dir=tree))
-    shutil.copytree(SOURCE.parent, folder, dirs_exist_ok=True)
-    (folder / "rows.typ").write_text(f"""
-        #import "template.typ": *
-        #set page(paper: "a4", margin: 19mm)
-        #show figure.where(kind: table): set block(breakable: true)
-        #for i in range(9) {{
-          pagebreak()
-          let row(j) = ([x], context [#metadata((i, here().page())) <row>])
-          block(height: 200mm + i * 4mm)
-          listed([Caption], (auto, 1fr), ([a], [b]), range({rows}).map(row))
-        }}""")
-    pages = json.loads(
-        typst.query(
-            str(folder / "rows.typ"),
-            "<row>",
-            field="value",
-            root=str(tree),
-            sys_inputs={"data": json.dumps(data), "format": "pdf"},
-        )
-    )
-    counts = Counter(map(tuple, pages))
-    assert len(pages) == 9 * rows and min(counts.values()) > 1
-    assert rows < 4 or len(counts) > 9  # some tables were divided
 
 
 def test_each_picture_is_of_the_set_that_it_names(data):

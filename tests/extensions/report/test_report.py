@@ -6,7 +6,6 @@ import io
 import json
 import re
 import shutil
-import unicodedata
 from collections import Counter
 from html import unescape
 
@@ -20,12 +19,10 @@ from report_pages import (
     Outline,
     article,
     in_browser,
-    numbers_without_commas,
     rendered,
     with_script,
 )
 
-from extensions.report.mathematics import typeset
 from paper.numbers import PAPER_NUMBERS
 from pipeline import config
 from pipeline.checks import captions, quantities
@@ -189,38 +186,6 @@ def test_committed_pictures_are_shown_if_the_tree_made_none(reported, tmp_path):
     edges = article(rendered(tree), "study-edges")
     assert "<p>No picture: more_figures/study/edges.png is neither the" in edges
     assert "<img" not in edges
-
-
-@pytest.mark.parametrize(
-    ("plain", "html"),
-    [
-        ("xdot^2/2 + k udot^2/2", "<i>ẋ</i><sup>2</sup>/2 + <i>k</i> <i>u̇</i><sup>2</sup>/2"),
-        ("at E/g^2 <= 6.25", "at <i>E</i>/<i>g</i><sup>2</sup> ≤ 6.25"),
-        ("7e-16 R, 2.5e-03", "7 × 10<sup>−16</sup> <i>R</i>, 2.5 × 10<sup>−3</sup>"),
-        ("1e-13 and h^-0.502", "10<sup>−13</sup> and <i>h</i><sup>−0.502</sup>"),
-        ("dx ^ dxdot, |l2|", "d<i>x</i> ∧ d<i>ẋ</i>, |λ<sub>2</sub>|"),
-        ("-p delta(t - t_i)", "−<i>p</i> δ(<i>t</i> − <i>t</i><sub>i</sub>)"),
-        ("every v_j, whatever j", "every <i>v</i><sub>j</sub>, whatever <i>j</i>"),
-        ("d phi_2/dx at m omega^2", "d φ<sub>2</sub>/d<i>x</i> at <i>m</i> ω<sup>2</sup>"),
-        ("Young's <b>, 3 x 5, fig5.png", "Young’s &lt;b&gt;, 3 × 5, fig5.png"),
-    ],
-)
-def test_mathematics_is_set(plain, html):
-    assert unicodedata.normalize("NFC", str(typeset(plain))) == unicodedata.normalize("NFC", html)
-
-
-def test_sections_have_headings_in_words_and_the_page_a_way_back_up(text):
-    headings = re.findall(r"<h[23][^>]*>(.*?)</h[23]>", text)
-    assert not [heading for heading in headings if "<code>" in heading or "./" in heading]
-    assert text.count('href="#top"') == 1 and '<body id="top">' in text
-    assert "print-color-adjust: exact" in text
-    folded = re.findall(r"<summary><h3>[^<]+</h3> \(\d+\)</summary>\s*<p[^>]*>(.*?)</p>", text)
-    assert len(folded) == text.count("<summary><h3>")
-    assert all(command.startswith("<code>./reproduce ") for command in folded)
-
-
-def test_whole_numbers_have_commas(text):
-    assert not numbers_without_commas(text)
 
 
 @pytest.fixture(scope="module")
