@@ -1,5 +1,6 @@
 """Fixtures of the whole suite, and the compilation before it."""
 
+import hashlib
 import os
 import pickle
 import shutil
@@ -13,6 +14,7 @@ from runs import VARIANTS
 
 from pipeline.declaration import parts
 from pipeline.records import sources
+from pipeline.records.record import versions
 
 # As under ./reproduce: tests that pytest has rewritten are kept, which halves collection.
 sys.dont_write_bytecode = False
@@ -30,8 +32,10 @@ def pytest_cmdline_main(config):
 
 
 def pytest_configure(config):
-    """Compile everything once; otherwise each worker would."""
-    if hasattr(config, "workerinput") or config.option.collectonly:
+    """Compile everything once for all workers; a single process compiles what it needs."""
+    option = config.option
+    alone = not getattr(option, "numprocesses", 0)
+    if hasattr(config, "workerinput") or option.collectonly or alone:
         return
     # If this fails, a test says why, and each worker compiles what it needs.
     subprocess.run(
@@ -48,15 +52,25 @@ def shared(tmp_path_factory, request):
 
 
 @pytest.fixture(scope="session")
-def pickled(shared):
-    """(name, compute) -> a value that one process computes for all workers."""
+def pickled(shared, request):
+    """(name, compute, *modules) -> a value that one process computes for all workers.
 
-    def read(name, compute):
+    It is kept for later runs if `modules`, all that computes it, are given.
+    """
+
+    def read(name, compute, *modules):
         def make(folder):
             folder.mkdir()
             (folder / "pickle").write_bytes(pickle.dumps(compute()))
 
-        return pickle.loads((shared(name, make) / "pickle").read_bytes())
+        if not modules:
+            return pickle.loads((shared(name, make) / "pickle").read_bytes())
+        files = [ROOT / file for file in sources.source_files(*modules)]
+        files += (ROOT / "tests").rglob("claim_data.py")
+        meaning = [sources.syntax_hash(file) for file in files], versions()
+        digest = hashlib.sha256(repr(meaning).encode()).hexdigest()[:16]
+        kept = request.config.cache.mkdir("computed") / f"{name}-{digest}"
+        return pickle.loads((once(kept, make) / "pickle").read_bytes())
 
     return read
 

@@ -2,12 +2,14 @@
 
 import json
 from contextlib import suppress
+from importlib import metadata
 
 import pytest
 
 from pipeline.checks.freshness import Freshness
 from pipeline.records.build_spec import BuildSpec
 from pipeline.records.record import record_path, recorded
+from pipeline.records.sources import syntax_hash
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
 
@@ -93,3 +95,29 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
         (root / ORBITS).write_text("made anew")
         raise KeyboardInterrupt
     assert planned(made) == "no record of what made it: orbits, drawing"
+
+
+# What computes and what draws: not sympy (its results are compared), nor what runs the jobs.
+COMPUTING = "llvmlite", "netCDF4", "numba", "numpy", "python-flint", "scipy", "xarray"
+DRAWING_PACKAGES = "deflate", "fonttools", "matplotlib", "pyparsing"
+
+
+@pytest.mark.parametrize("package", COMPUTING + DRAWING_PACKAGES)
+def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatch, package):
+    installed = metadata.version
+    monkeypatch.setattr(metadata, "version", lambda n: "99" if n == package else installed(n))
+    assert (
+        planned(made) == f"made with {package} {installed(package)} then, 99 here: orbits, drawing"
+    )
+
+
+def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):
+    """A result that was made another way, as on a card, names what this way needs beside."""
+    root, specs = made
+    (root / "card.py").write_text("card")
+    with recorded(specs[ORBITS]) as output:
+        (root / ORBITS).write_text(ORBITS)
+        output["way"] = {"card.py": syntax_hash("card.py")}
+    assert planned(made) == "nothing to make"
+    (root / "card.py").write_text("edited")
+    assert planned(made).startswith("made by other code than this tree's: card.py differs: orbits")

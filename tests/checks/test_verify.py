@@ -11,13 +11,16 @@ import netCDF4
 import numpy as np
 import pytest
 from PIL import Image
+from project import ROOT, SHIPPED
 from verdicts import commit, verified
 
 from pipeline import config
 from pipeline.checks import manifest
-from pipeline.checks.published_sets import edited_lists
+from pipeline.checks.published_sets import committed_sets, edited_lists
+from pipeline.checks.verify import inspect
 from pipeline.cli import arguments
 from pipeline.cli.table import WHAT_TO_DO
+from pipeline.config.schema.sets import SETS
 from pipeline.records import pictures
 from pipeline.records.record import public_record
 from pipeline.records.sources import syntax_hash
@@ -87,6 +90,28 @@ def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
     assert end[2].startswith("exit status 1: results/paper/lyapunov_fig7.nc")
     assert end[3:] == [WHAT_TO_DO]
     assert WHAT_TO_DO in command("list")[1]
+
+
+SETS_WITH_TEXTS = [name for name, each in SETS.items() if each.texts]
+
+
+@pytest.mark.parametrize("name", SETS_WITH_TEXTS)
+def test_an_edited_text_that_is_published_beside_pictures_is_named(tmp_path, name):
+    """As CLAIMS.md and CLAIMS.json, beside more_figures/claims/."""
+    checked = config.load(SHIPPED)
+    (published_set,) = (s for s in committed_sets(checked) if s.group == name)
+    shutil.copytree(ROOT / published_set.folder, tmp_path / published_set.folder)
+    for text in published_set.text_files:
+        shutil.copy(ROOT / text, tmp_path / text)
+    before = inspect(tmp_path, published_set).problems
+    for text in published_set.text_files:
+        with (tmp_path / text).open("a") as file:
+            file.write(" ")
+        found = inspect(tmp_path, published_set).problems
+        assert [*{*found} - {*before}] == [
+            f"{text}: not the committed one: {published_set.command} writes it"
+        ]
+        shutil.copy(ROOT / text, tmp_path / text)
 
 
 # ---- one fault for each layer ----

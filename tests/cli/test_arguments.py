@@ -3,7 +3,6 @@
 import os
 import re
 import sys
-from importlib.util import find_spec
 
 import pytest
 from commands import answer, mistake
@@ -11,7 +10,7 @@ from documents import complaint
 from project import run
 
 from pipeline.cli import arguments
-from pipeline.commands import all_commands, module_of
+from pipeline.commands import all_commands
 from pipeline.config.schema.sets import SETS
 from pipeline.declaration import parts
 
@@ -26,17 +25,6 @@ def test_help_has_a_line_for_each_command(capsys):
             assert re.search(rf"^  {name} +{re.escape(command.line)}$", out, re.MULTILINE)
     assert len(out.splitlines()) <= 41
     assert max(map(len, out.splitlines())) <= 80
-
-
-def test_the_help_of_each_command_names_its_arguments(capsys):
-    for name, command in all_commands().items():
-        status, out, err = answer(capsys, name, "--help")
-        assert (status, out, err) == answer(capsys, "help", name)
-        assert (status, err) == (0, "")
-        for argument, how in command.arguments:
-            assert how.get("metavar", argument) in out
-        assert name == "help" or find_spec(module_of(command, name, {})), name
-        assert ("goes to snakemake" in " ".join(out.split())) == command.runs_snakemake
 
 
 def test_help_needs_no_config(capsys, monkeypatch, tmp_path):

@@ -5,7 +5,6 @@ import types
 from itertools import pairwise
 
 import pytest
-from project import ROOT, wait_for
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as steps
@@ -44,37 +43,6 @@ def begin(*results):
     """Return the events of jobs that start at the same time."""
     jobs = [(LogEvent.JOB_INFO, 9.0, {"jobid": i, "output": [r]}) for i, r in enumerate(results)]
     return [*jobs, (LogEvent.JOB_STARTED, 10.0, {"jobs": [*range(len(results))]})]
-
-
-def end(job, time, done, total=22):
-    """Return the events at the end of a job."""
-    progress = LogEvent.PROGRESS, time, {"done": done, "total": total}
-    return (LogEvent.JOB_FINISHED, time, {"job_id": job}), progress
-
-
-def test_a_step_is_a_line_with_its_seconds_and_the_count_of_steps(handler, capsys):
-    emit(handler, *begin(ORBITS, DRAWING), (None, 10.5, {"msg": "Select jobs to execute..."}))
-    emit(handler, *end(0, 11.06, 3), *end(1, 75.0, 4))
-    err = capsys.readouterr().err.splitlines()
-    assert [line.split() for line in err] == [
-        ["fig2", "orbits", "1.1", "s", "3", "of", "22"],
-        ["fig2", "drawing", "png", "65.0", "s", "4", "of", "22"],
-    ]
-
-
-def test_running_steps_are_named(handler, monkeypatch):
-    assert handler._running() == "snakemake looks for what there is to do"
-    monkeypatch.setattr(steps.time, "monotonic", lambda: 1000.0)
-    emit(handler, *begin(ORBITS, DRAWING))
-    monkeypatch.setattr(steps.time, "monotonic", lambda: 1003.0)
-    both = "running: fig2 orbits (3 s), fig2 drawing png (3 s); 0 steps done"
-    assert handler._running() == both
-    handler.compiling = "compiling, once; "
-    assert handler._running() == f"compiling, once; {both}"
-    emit(handler, *end(0, 13.5, 1))
-    assert handler._running() == "running: fig2 drawing png (3 s); 1 of 22 done"
-    emit(handler, *end(1, 14.5, 2))
-    assert handler._running() == ""
 
 
 def test_silence_never_lasts_five_seconds(monkeypatch, capsys):
@@ -123,18 +91,3 @@ def test_a_failing_step_is_one_line_with_its_reason(handler, capsys, tmp_path):
     assert first.split(maxsplit=2)[2] == "not made: the disk is full: 0.1 MB"
     assert second.endswith("not made: Command died with SIGKILL.")
     assert handler.failed
-
-
-def test_parts_of_a_dataset_are_counted(handler, capsys, monkeypatch):
-    block = spec(ORBITS, "block 3")
-    fresh = Freshness(ROOT, {ORBITS: block})
-    monkeypatch.setattr(steps, "plan", lambda: Plan({}, fresh, {ORBITS}))
-    emit(handler, *begin(ORBITS), *end(0, 11.0, 1, 2))
-    assert capsys.readouterr().err == "fig2: 1 of 1 blocks\n"
-
-
-def test_a_line_after_a_silence_has_the_time_since_the_command(capsys):
-    said = ["searching"]
-    beat = heartbeat.Heartbeat(lambda: said.pop() if said else "", waited=60.0)
-    wait_for(lambda: beat.due > beat.began + 60.0)
-    assert capsys.readouterr().err == "searching; 60 s so far\n"

@@ -72,6 +72,17 @@ def test_any_file_is_a_config_or_is_refused(tmp_path):
     trial()
 
 
+def test_a_scene_of_a_shipped_file_has_its_own_ball_or_that_of_the_file(tmp_path, monkeypatch):
+    file = tmp_path / "scenes.yaml"
+    own = {"ball": {"k": 0.3, "g": 0.01}, "energy": 0.02}
+    scenes = {"own": own, "of_file": {"energy": 0.01}, "without": {"cells": 3}}
+    file.write_text(json.dumps({"ball": {"k": 0.2, "g": 0.04}, "found": scenes}))
+    monkeypatch.setattr(document, "files", lambda name: {"part": file} if name == file.name else {})
+    found = document.with_shipped({})["found"]
+    assert found["own"] == own and found["without"] == scenes["without"]
+    assert found["of_file"]["ball"] == {"k": 0.2, "g": 0.04}
+
+
 def test_a_number_with_an_exponent_needs_no_point(tmp_path):
     path = tmp_path / "config.yaml"
     path.write_text(json.dumps(good()).replace('"energy": 0.01', '"energy": 1e-2'))

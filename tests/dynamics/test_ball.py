@@ -68,6 +68,18 @@ def test_state_and_state_xy_give_the_energy_back(ball, x, v, w):
         assert abs(ball.energy(*again) - energy) <= 1e-15 * size
 
 
+@every
+@given(balls, st.floats(-1.0, 1.0), st.floats(-0.999, 10.0))
+def test_a_start_has_the_energy_and_lies_on_the_symmetry_line(ball, fraction, height):
+    energy = ball.energy_bounds()[0] * -height  # from just above the least energy
+    x, v, w = ball.start(fraction, energy)
+    centre, radius = ball.section(energy)
+    size = v * v + w * w + 2 * ball.g * abs(x) + x * x
+    assert abs(ball.energy(x, v, w) - energy) <= 2e-15 * size
+    assert abs(v - ball.k * w) <= 1e-15 * abs(v) and v + w >= 0.0
+    assert x == pytest.approx(centre + fraction * radius, abs=1e-15 * size**0.5)
+
+
 def test_states_that_do_not_exist_are_rejected():
     for method, arguments, message in (
         (BALL.state, (0.9, 0.0, 0.01), "no state"),

@@ -279,3 +279,11 @@ def test_results_beyond_memory_are_rejected():
         orbit(BALL, (0.125, 0.25, 0.5), 2**52)
     with pytest.raises(ValueError, match=r"^records = .* is not allowed: fewer"):
         lyapunov_spectrum(BALL, (0.125, 0.25, 0.5), 2**52, 2**52)
+
+
+def test_a_map_that_may_miss_impacts_is_refused_where_none_may_be_missed():
+    scan = Ball(0.2, 0.04, map=ImpactMap((0.3, 1e-12)))
+    for call in (rotation_number, classify_orbits):
+        call(BALL, BALL.start(0.3, 0.01), 100)
+        with pytest.raises(ValueError, match=r"^ball.map = .* is not allowed: the default"):
+            call(scan, BALL.start(0.3, 0.01), 100)

@@ -11,6 +11,7 @@ from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.regularity import around_fixed_point, first_turn, regular, regular_bound
 from pseudorigid.dynamics.rotation import winding
 from pseudorigid.dynamics.verdict import classify_orbits
+from pseudorigid.kernel import verdict
 
 BALL, IMPACTS = Ball(0.2, 0.04), 20_000
 
@@ -111,3 +112,40 @@ def test_the_elliptic_fixed_point_is_regular(energy):
     assert scene_orbits(BALL, energy, [start], 5)["type"].item() == "regular"
     found = pseudorigid.classify_orbits(BALL, BALL.state_xy(x, 0.0, energy))
     assert found["type"].item() == "regular"
+
+
+# Halves of the winding number, growth, log of the vector's length -> regular, strict, lenient,
+# decided before the end, and the same at the end; by the rule in the docstring of dynamics.verdict.
+RULE = [
+    ((0.1, 0.1), 1.0, 9.0, "1111", "1111"),
+    ((0.1, 0.1), 1.2, 9.0, "0000", "1011"),  # above half the threshold
+    ((0.1, 0.1001), 1.0, 9.0, "0000", "1111"),  # winding numbers that differ
+    ((0.1001, 0.1), 1.0, 9.0, "0000", "1111"),
+    ((0.1, 0.1), 2.1, 9.0, "0000", "1011"),
+    ((0.1, 0.1), 2.3, 9.0, "0000", "0011"),  # above the threshold
+    ((0.1, 0.1), 4.3, 20.0, "0000", "0011"),
+    ((0.1, 0.1), 4.5, 20.0, "0001", "0001"),  # above twice the threshold
+    ((0.1, 0.1), 4.5, 14.0, "0000", "0001"),  # a vector that may be that of a regular orbit
+    ((0.1, 0.1), float("nan"), 9.0, "0001", "0001"),
+]
+
+
+@pytest.mark.parametrize(("halves", "growth", "size", "before", "at_end"), RULE)
+def test_the_rule_of_verdicts(halves, growth, size, before, at_end):
+    weights, quarter = (4.0, 2.0, 2.0), 100
+    turned = (0.4, 2.0 * halves[0], 2.0 * halves[1])
+    for end, expected in ((False, before), (True, at_end)):
+        given = turned, weights, (300.0, 300.0 + quarter * growth), quarter, size, end
+        winding, found, *flags = verdict.judge(*given)
+        assert (winding, found) == (0.1, pytest.approx(growth, nan_ok=True))
+        assert "".join(str(int(flag)) for flag in flags) == expected
+
+
+def test_each_orbit_is_judged_by_its_own_sums():
+    turned = np.array([[0.4, 0.8, 0.4], [0.2, 0.4, 0.2], [0.2, 0.4, 0.21]])
+    grown = np.array([[3.0, 3.0, 3.0], [103.0, 903.0, 103.0]])
+    winding, growth, verdicts = np.empty(3), np.empty(3), np.empty((3, 4), bool)
+    sizes, weights = np.array([9.0, 20.0, 9.0]), (4.0, 2.0, 2.0)
+    verdict.judge_each(turned, weights, grown, 100, sizes, False, winding, growth, verdicts)
+    assert (winding.tolist(), growth.tolist()) == ([0.1, 0.2, 0.1], [1.0, 9.0, 1.0])
+    assert verdicts.tolist() == [[True] * 4, [False, False, False, True], [False] * 4]

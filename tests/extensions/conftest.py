@@ -1,6 +1,10 @@
 """Fixtures of the tests of extensions."""
 
+from pathlib import Path
+
 import pytest
+
+from pipeline.records import sources
 
 
 @pytest.fixture(scope="session")
@@ -10,7 +14,7 @@ def derived(pickled):
 
     from extensions.proofs.derivations import derivations
 
-    return pickled("derivations", lambda: made(derivations))
+    return pickled("derivations", lambda: made(derivations), "extensions.proofs.derivations")
 
 
 @pytest.fixture(scope="session")
@@ -18,7 +22,8 @@ def flowing(pickled):
     """The dataset of the flux, whose areas take seconds to compute."""
     import claim_data
 
-    return pickled("flux", claim_data.flux_of_the_paper)
+    module = "extensions.claims.analyses.flux"
+    return pickled("flux", claim_data.flux_of_the_paper, module)
 
 
 @pytest.fixture(scope="session")
@@ -26,7 +31,9 @@ def datasets(pickled, derived, flowing):
     """All datasets that the checks of claims need, computed with little work."""
     import claim_data
 
-    return pickled("claims", lambda: claim_data.datasets(derived, flowing))
+    file = Path(claim_data.__file__)  # what it imports computes them
+    modules = sources._imported_modules(sources.SRC, file, "")
+    return pickled("claims", lambda: claim_data.datasets(derived, flowing), *modules)
 
 
 @pytest.fixture(scope="session")

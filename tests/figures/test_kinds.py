@@ -17,6 +17,7 @@ from samples import (
 )  # fmt: skip
 from slowly import slowly
 
+from paper.figures import tangle
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import rows, states_of
@@ -145,3 +146,18 @@ def test_branches_that_coincide_are_both_seen(shift):
     else:
         assert [*widths] == [style.STABLE, style.UNSTABLE]
         assert widths[style.STABLE] > 2 * widths[style.UNSTABLE]
+
+
+def test_a_sharp_fold_is_marked_unless_a_line_goes_on_or_ends_there():
+    reach = tangle._REACH * sheet.POINT
+    x = np.concatenate([np.linspace(0.0, 9.0, 91), np.linspace(9.0, 0.0, 91)[1:]]) * reach
+    fold = np.array([x, np.where(np.arange(181) > 90, 0.1 * reach, 0.0)])
+    assert tangle._tips(fold, fold) == [90]
+    beyond = np.array([[9.6 * reach, 10.0 * reach], [0.0, 0.0]])
+    assert tangle._tips(fold, np.append(fold, beyond, axis=1)) == []
+    for part in (fold[:, 85:], fold[:, :96]):  # nearer to an end than the reach
+        assert tangle._tips(part, part) == []
+    gap = np.full((2, 1), np.nan)
+    assert tangle._tips(np.append(gap, fold, axis=1), fold) == [91]
+    bend = np.array([np.minimum(np.arange(181), 90.0), np.maximum(np.arange(181) - 90.0, 0.0)])
+    assert tangle._tips(0.1 * reach * bend, bend) == []

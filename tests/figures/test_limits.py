@@ -8,7 +8,7 @@ from samples import DATA, KINDS, SCENES, module
 
 from pseudorigid.dynamics.variables import states_of
 from pseudorigid.figures.axes.box import Box
-from pseudorigid.figures.axes.limits import decades, of_data, refuse_empty, ticks
+from pseudorigid.figures.axes.limits import around, decades, of_data, refuse_empty, ticks
 
 
 @pytest.mark.parametrize("low", [-0.37, 0.0, 1e-9, 12345.6])
@@ -35,6 +35,12 @@ def test_limits_and_ticks_are_round_numbers():
 @pytest.mark.parametrize("count", [2.5, 4, 6])
 def test_an_axis_has_at_least_two_round_ticks(low, high, count):
     assert len(ticks(low, high, count)) >= 2
+
+
+@pytest.mark.parametrize(("above", "high"), [(None, 1.25), (0.5, 1.5), (0.0, 1.0)])
+def test_room_above_data_is_chosen_apart(above, high):
+    axis = around(np.array([0.0, np.nan, 1.0]), 0.25, 4, above=above)
+    assert axis.limits == pytest.approx((-0.25, high))
 
 
 @pytest.mark.parametrize("low", np.linspace(-3, 0, 13))

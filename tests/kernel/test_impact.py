@@ -139,3 +139,16 @@ def test_a_march_has_few_evaluations():
                 evaluations.append(flight.first_impact(x, b, c, -(b + c), g)[3])
     assert np.mean(evaluations) < 3.5
     assert max(evaluations) < 60
+
+
+GRAZING = [  # k, g, x, v, w of states after which v + w rounds below 0
+    (0.2, 0.04, 0.155648106167019, -0.023445528561517902, 0.5923544812922338),
+    (0.2, 0.04, 0.18964814879470163, -0.11182542919889939, 0.3291613738069797),
+]
+
+
+@pytest.mark.parametrize(("k", "g", "x", "v", "w"), GRAZING)
+def test_an_impact_that_grazes_stays_on_the_section(k, g, x, v, w):
+    for many in (1, 16):
+        _, v_next, w_next, _ = Ball(k, g).impact(*(np.full(many, a) for a in (x, v, w)))
+        assert np.all(v_next + w_next == 0.0)

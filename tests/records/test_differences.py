@@ -89,3 +89,7 @@ def test_an_input_of_another_hash_is_named():
     before, after = ({"a.nc": "0", "b.nc": digest} for digest in ("0", "1"))
     layers = differing_layers(record | {"inputs": before}, record | {"inputs": after})
     assert layers == {"data": "b.nc"}
+    for described in (before, after):  # whose content is described in one record alone
+        other = record | {"inputs": described | {"b.nc": DATA | {"sha256": "2"}}}
+        assert differing_layers(record | {"inputs": before}, other) == layers
+        assert differing_layers(other, record | {"inputs": before}) == layers

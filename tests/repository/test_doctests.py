@@ -3,23 +3,25 @@
 import doctest
 import importlib
 import pkgutil
+from pathlib import Path
 
 import pytest
 from slowly import slowly
 
 import pseudorigid
 from pipeline.declaration import files
+from pipeline.records.sources import SRC
 
 PARTS = [importlib.import_module(package) for package in files("__init__.py")]
 MODULES = [
     info.name
     for package in (pseudorigid, *PARTS)
     for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+    if not info.ispkg and ">>> " in Path(SRC, *info.name.split(".")).with_suffix(".py").read_text()
 ]
-
-
 # Examples that take longest; the stages behind them have tests of their own.
-DEAR = {"study.bench", "extensions.families.shares", "extensions.proofs.theorems.scenes"}
+DEAR = {"extensions.families.families", "extensions.families.shares"}
+DEAR |= {"extensions.claims.analyses.control", "extensions.proofs.theorems.scenes"}
 DEAR &= {*MODULES}
 
 

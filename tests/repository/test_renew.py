@@ -2,19 +2,22 @@
 
 import re
 import shutil
-from collections import Counter
+from functools import cache
 
 import pytest
 from project import ROOT, check_jsonschema, fresh_tree, shipped, small
 from test_documents import HEADLINES, links
 
 from pipeline import renew
-from pipeline.config import PUBLISHED, reference
+from pipeline.config import reference
 from pipeline.declaration import RENEW, SCHEMA, parts, stale_pages
 
 # The study, and the parts that need it: name -> folder.
 GONE = {name: f"src/extensions/{name}" for name in ("atlas", "claims", "families")}
 GONE["study"] = "src/study"
+
+
+page, section = cache(reference.page), cache(reference.section)
 
 
 @pytest.fixture(scope="module")
@@ -28,31 +31,6 @@ def generated():
 def test_the_generated_files_are_current(generated):
     for name, text in generated.items():
         assert (ROOT / name).read_text(encoding="utf-8") == text, f"{name}: run {RENEW}"
-
-
-@pytest.mark.parametrize("part", [name for name in parts() if reference.section(name)])
-def test_a_field_of_several_kinds_is_described_once(part):
-    """Other kinds name the kind that has it: one of the paper, of the part, or of one it needs."""
-    sections = map(reference.section, dict.fromkeys([*parts()[part].needs, part]))
-    kinds = re.split("^##+ picture: ", "".join([reference.page(), *sections]), flags=re.M)[1:]
-    kinds = [re.split("^#", text, maxsplit=1, flags=re.M)[0] for text in kinds]
-    items = [re.findall(r"^- `(\w+)` (\(.*(?:\n  .*)*)", text, re.M) for text in kinds]
-    found = Counter(item for each in items for item in each)
-    assert len(found) > 10 and max(found.values()) == 1, found.most_common(1)
-    place = reference.common_place(part)
-    assert not place or reference.section(part).count(place) == 1
-    for names, kind in re.findall(r"^- (`.*): as\s+of `(\w+)`", "\n".join(kinds), re.M):
-        (place,) = (i for i, text in enumerate(kinds) if text.startswith(f"{kind}\n"))
-        assert set(re.findall(r"`(\w+)`", names)) <= {name for name, _ in items[place]}
-
-
-def test_the_page_of_figures_is_complete(generated):
-    text = generated["docs/figures.md"]
-    pictures = [path for folder in PUBLISHED.values() for path in ROOT.glob(f"{folder}/*.png")]
-    found = Counter(re.findall(r"\]\(\.\./(\S+)\)", text))
-    assert found == Counter(str(path.relative_to(ROOT)) for path in pictures)
-    assert max(map(len, text.splitlines())) <= 100
-    assert not re.findall(r"^[-+*>=] ", text, re.MULTILINE)  # no line of a caption is a list
 
 
 def test_only_the_marked_section_of_a_page_is_written():

@@ -1,5 +1,7 @@
 """Errors of figures under each method, for a portrait and a motion."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -94,3 +96,21 @@ def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):
     assert data["missed"].values[0, 1] > 0
     assert data["error"].values[0, 1] < 1.0
     assert data["good"].values[0].tolist() == [1, 0]
+
+
+def test_the_stretch_is_that_of_the_product_and_leaves_grazings_out():
+    matrices = np.random.default_rng(1).normal(0.0, 2.0, (9, 3, 3))
+    product = np.linalg.multi_dot([*matrices[::-1], np.array([1.0, 0.0, 0.0])])
+    expected = np.log(np.linalg.norm(product))
+    assert figure_errors._log_stretch(matrices) == pytest.approx(expected, rel=1e-12)
+    for value in (np.inf, np.nan, 0.0):
+        grazing = np.insert(matrices, 4, np.full((3, 3), value), axis=0)
+        assert figure_errors._log_stretch(grazing) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_pixel_and_the_last_digit_are_those_of_the_axes():
+    axis = {"limits": [0, 30], "ticks": [0, 2.5, 1.125]}
+    assert figure_errors._last_digit(axis) == 0.001
+    plane = SimpleNamespace(frame=(10.0, 20.0, 110.0, 220.0))
+    plane.across, plane.up = SimpleNamespace(limits=(0, 30)), SimpleNamespace(limits=(-1, 1))
+    assert figure_errors._pixels(plane) == (0.3, 0.01)

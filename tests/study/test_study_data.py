@@ -1,5 +1,8 @@
 """The datasets of the study describe themselves, and docs/data.md describes them."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 from described import assert_describes_itself, stages_of
 
@@ -50,3 +53,34 @@ def test_a_dataset_of_the_study_describes_itself(name, tmp_path):
 
 def test_each_stage_is_made_here():
     assert stages_of("study.") == set(STUDY)
+
+
+def test_a_root_is_wrong_if_it_is_off_by_a_tenth_of_a_flight_or_of_a_unit_of_time():
+    truth = np.array([0.5, 0.5, 4.0, 4.0, 4.0])
+    off = np.array([0.049, -0.051, 0.09, 0.11, np.nan])
+    assert stages.is_wrong(truth + off, truth).tolist() == [False, True, False, True, True]
+
+
+def test_the_accuracy_of_a_method_is_that_of_its_roots():
+    truth = np.array([1.0, 2.0, 4.0, 4.0])
+    tau = np.array([1.0 + 1e-8, 2.0, 4.5, np.nan])
+    method = SimpleNamespace(solve=lambda ball, *columns: (tau, np.array([1.0, 2.0, 3.0, 4.0])))
+    found = stages._accuracy(method, np.zeros((3, 4)), truth)
+    median, worst, wrong, above, far_above, count = found
+    assert median == pytest.approx(0.5 * (1e-8 + 0.125)) and worst == pytest.approx(1e-8)
+    assert (wrong, above, far_above, count) == (0.5, 0.5, 0.75, 2.5)
+
+
+def test_the_drift_is_the_largest_error_of_the_energy_so_far():
+    state = BALL.start(0.3, 0.01)
+    x, v, w = np.array([BALL.start(0.3, energy) for energy in (0.0101, 0.0097, 0.01)]).T
+    drift = stages.energy_drift(BALL, state, np.array([x, v, w, x]))
+    assert drift == pytest.approx([0.01, 0.03, 0.03], rel=1e-12)
+
+
+def test_orbits_are_apart_after_the_median_of_their_starts():
+    a, b = np.zeros((3, 6)), np.zeros((3, 6))
+    b[0, 2:], b[1, 4:] = -1.0, 1.0
+    assert stages._impacts_until_apart(a, b) == 4.0
+    b[1], b[2, 3] = 0.0, 2.0 * stages.SEPARATION
+    assert stages._impacts_until_apart(a, b) == 3.0

@@ -64,6 +64,43 @@ def test_fractions_are_the_simplest_nearby():
     assert turns.tolist() == [1, 0, 1, 3, 0, 0]
 
 
+def test_an_interval_is_where_the_share_is_within_its_normal_error():
+    for count, total in ((0, 20), (1, 20), (7, 20), (19, 20), (20, 20), (300, 1000)):
+        low, high = cell.wilson(count, total)
+        for end in {low, high} - {0.0, 1.0}:
+            error = 1.96 * math.sqrt(end * (1.0 - end) / total)
+            assert abs(end - count / total) == pytest.approx(error, rel=1e-3)
+        assert 0.0 <= low <= count / total <= high <= 1.0
+        assert (low == 0.0) == (count == 0) and (high == 1.0) == (count == total)
+
+
+def test_the_numbers_of_a_cell_are_those_of_its_orbits():
+    """Made up: seven regular orbits, two of them in 1/4 and one in 2/5, and five others."""
+    regular = np.array([True] * 7 + [False] * 5)
+    strict, lenient = (
+        np.append([False] * 2, regular[2:]),
+        np.append(regular[:9], [True, False, False]),
+    )
+    winding = np.array([0.21, 0.22, 0.2000001, 0.25, 0.25 + 9e-6, 0.4, 0.23, *[0.25] * 5])
+    exponent = np.array([*[0.001] * 7, 0.4, 0.1, 0.3, 0.2, np.nan])
+    orbits = np.rec.fromarrays(
+        [regular, strict, lenient, winding, exponent, np.arange(12)],
+        names="regular,strict,lenient,winding,exponent,followed",
+    )
+    found = cell._summary(orbits, 0.2)
+    shares = {"regular": 7, "regular_strict": 5, "regular_lenient": 9, "chain_share": 2}
+    lenient_count = int(lenient.sum())
+    shares["regular_lenient"] = lenient_count
+    assert {name: found[name] * 12 for name in shares} == pytest.approx(shares)
+    assert found["regular_low"] == cell.wilson(5, 12)[0]
+    assert found["regular_high"] == cell.wilson(lenient_count, 12)[1]
+    assert (found["chain_turns"], found["chain_period"]) == (1, 4)  # 1/5 is the fixed point's own
+    assert found["exponent"] == pytest.approx(0.25) and found["followed"] == 5.5
+    assert (found["exponent_low"], found["exponent_high"]) == (0.1, 0.3)
+    assert found["exponent_error"] == pytest.approx(np.std([0.4, 0.1, 0.3, 0.2], ddof=1) / 2)
+    assert found["chains"].tolist() == [0, 0, 0, 2, 1] + [0] * 19
+
+
 def test_the_energy_of_figure_2_has_six_islands_and_a_sea():
     numbers = cell.cell(0.2, 6.25, 300, 4000)
     assert (numbers["chain_turns"], numbers["chain_period"]) == (1, 6)

@@ -43,6 +43,30 @@ def test_a_residue_is_that_of_newtons_method_in_sixty_digits():
     assert orbit.residue == pytest.approx(residue, rel=1e-3)
 
 
+def test_what_does_not_close_is_no_orbit(monkeypatch):
+    """A zero of the turns that is none, and an orbit of a multiple of its period."""
+    search = last_curve.OrbitSearch(BALL, ENERGY, (-0.2, -0.0325639))
+    for turns, period in ((4, 23), (9, 52)):
+        excess = search._excess_turns(turns, period)
+        orbits = [search._solve(excess, period, each) for each in search._brackets(excess, 64)]
+        assert orbits
+        for start, _, closure in orbits:
+            state = BALL.start(start, ENERGY)
+            off = np.ravel(BALL.after(state, period)[:3]) - state
+            assert np.max(np.abs(off)) / search.radius == closure < 1e-9
+    monkeypatch.setattr(last_curve, "_bisect", lambda function, above, below: 0.3 * above)
+    assert search._solve(search._excess_turns(4, 22), 22, (-0.2, -0.0325639)) is None
+    with pytest.raises(ValueError, match="no symmetric orbit of rotation number 4/22"):
+        search.orbit(4, 22)
+
+
+def test_brackets_are_cells_in_which_a_function_changes_its_sign():
+    search = last_curve.OrbitSearch(BALL, ENERGY, (0.0, 1.0))
+    found = list(search._brackets(lambda at: (at - 0.13) * (at - 0.55), 10))
+    assert np.allclose(found, [(0.1, 0.2), (0.6, 0.5)])  # first where the function is positive
+    assert last_curve._bisect(lambda at: 0.55 - at, 0.5, 0.6) == pytest.approx(0.55, abs=1e-15)
+
+
 @pytest.mark.parametrize(
     ("ball", "energy", "between"),
     [(BALL, 0.005, (-0.2, 0.3)), (Ball(1 / 3, 0.04), 0.01, (-0.2, 0.2))],

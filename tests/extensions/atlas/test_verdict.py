@@ -53,6 +53,60 @@ def test_frozen_verdicts():
     assert expected.items() <= counts.items()
 
 
+def test_the_best_threshold_makes_fewest_verdicts_wrong():
+    rng = np.random.default_rng(3)
+    for shift in (-3.0, 0.0, 1.0, 3.0):
+        truth = rng.random(60) < 0.5
+        values = rng.normal(0.0, 1.0, 60) + shift * ~truth
+        wrong = [np.sum((values < t) != truth) for t in values]
+        found = verdicts._best_threshold(values, truth)
+        assert found in values and np.sum((values < found) != truth) == min(wrong)
+
+
+def test_alignment_is_that_of_two_vectors_of_the_energy_surface(monkeypatch):
+    lengths = (3, 20, 60)
+    monkeypatch.setattr(verdicts, "LENGTHS", lengths)
+    states = np.array(starts.sunflower_points(K, E, 5))
+    x, _, rotation = fixed_point.numbers(K, E)
+    found = verdicts._alignment(K, states, np.full(5, x), np.full(5, rotation))
+    ball = Ball(k=K, g=1.0)
+    for i, start in enumerate(states.T):
+        position, v, w = start
+        slope = (1.0 - K * position) / (v * v + (K * w) * (K * w))
+        pair = np.array([[0.0, K * w, -v], [1.0, slope * v, slope * w * K]])
+        normal = np.array([K * position - 1.0, v, K * w])  # of the energy surface
+        assert pair @ normal == pytest.approx([0.0, 0.0], abs=1e-12)
+        for row, length in enumerate(lengths):
+            product = ball.jacobian(*start, impacts=length)
+            a, b = (product @ vector / np.linalg.norm(product @ vector) for vector in pair)
+            least = min(np.linalg.norm(a - b), np.linalg.norm(a + b))
+            assert -found[row, i] == pytest.approx(least, abs=1e-6)
+
+
+def test_errors_and_costs_are_counted_against_the_truth(monkeypatch):
+    """Made-up quantities of two cells of four orbits in each set."""
+    truth = np.array([True, True, False, False])
+
+    def of_cell(k, e, count):
+        each = {
+            "growth": np.tile([1.0, 4.0, 2.0, 9.0], (6, 1)),
+            "alignment": np.tile(-1.0 * truth, (6, 1)),
+            "unsettled": np.tile([3.0, 1.0, 2.0, 4.0], (6, 1)), "truth": truth,
+            "safe": np.tile([True, True, False, True], (6, 1)),
+            "followed": np.tile([1.0, 2.0, 3.0, 4.0], (6, 1)),
+        }  # fmt: skip
+        return each, [k, e, 0.5, 0.1, 0.01, 0.1]
+
+    monkeypatch.setattr(verdicts, "_cell", of_cell)
+    data = verdicts.verdicts(cells=2, orbits=4)
+    wrong, missed, alarms, cost = (data[n].values for n in ("wrong", "missed", "alarms", "cost"))
+    assert np.array_equal(wrong, missed + alarms)
+    assert (missed[0, 0] == 0.25).all() and (alarms[0, 0] == 0.25).all()  # growth below 3
+    assert (wrong[:, 2] == 0.0).all() and (wrong[:, 3] == 0.25).all()
+    assert (missed[1, 4] == 0.25).all() and (alarms[1, 4] == 0.0).all()
+    assert (cost[:, 4] == 2.5).all() and (cost[0, 0] == verdicts.LENGTHS).all()
+
+
 @pytest.mark.slow
 def test_wrong_verdicts_are_rare():
     data = verdicts.verdicts(cells=6, orbits=64)

@@ -5,15 +5,12 @@ import pytest
 import xarray as xr
 from examples import checked
 from keys import SCENE, colors, texts
-from legible import frames_of
 from sections import BALL
 
 from extensions.claims.analyses.flux import SIDES
 from extensions.claims.analyses.spread import spread
-from extensions.claims.figures import control as control_figure
 from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
-from extensions.claims.figures import rotation as rotation_figure
 from extensions.claims.figures import spread as spread_figure
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
@@ -83,56 +80,6 @@ def test_flux_without_regions_and_lobes_says_why():
     caption = caption_of("a", block, facts(block, {"flux": data}))
     assert "why the outer branches have no lobe" in caption.shows and not caption.see
     assert "region" not in " ".join(caption[2:])
-
-
-def test_the_difference_of_inner_branches_has_no_steps():
-    """Vertices lie on one smooth curve at uneven distances."""
-    y = np.linspace(-0.005, 0.006, 801)[np.arange(801) % 3 != 1]
-    x = 0.19 + 9.0 * y * y + 1e-7 * np.sin(600.0 * y)
-    blank = {name: ("side", [np.nan] * 2) for name in ("area", "region")}
-    lines = ("outline_x", "outline_y", "crossing_x")
-    blank |= {name: (("side", "n"), np.full((2, 9), np.nan)) for name in lines}
-    blank |= {f"branch_{n}": (("side", "v"), [v, v * np.nan]) for n, v in (("x", x), ("y", y))}
-    figure = flux_figure.draw(SCENE, xr.Dataset(blank, coords={"side": list(SIDES)}))
-    lines = (a for a in figure.artists if a.get_color() == style.UNSTABLE)
-    (line,) = (a for a in lines if a.get_xdata().size > 9)
-    across, up = line.get_xdata(), line.get_ydata()
-    at = (across - across[0]) / (across[-1] - across[0]) * 0.01 - 0.005
-    truth = np.sin(600.0 * at)
-    drawn = (up - up.mean()) / np.ptp(up) * np.ptp(truth)
-    assert np.abs(drawn - drawn[0] - truth + truth[0]).max() < 0.01
-
-
-def test_the_part_of_a_line_that_is_magnified_lies_in_the_panel_of_the_whole(datasets):
-    data = datasets["rotation/rotation"]
-    place = data["detail_place"]
-    for shift in (0.0, -0.9 - float(place[0]), 0.8 - float(place[0])):
-        moved = data.assign(detail_place=place + shift)
-        figure = rotation_figure.draw(SCENE, moved)
-        assert "(c)" in texts(figure)
-        frame = frames_of(figure)[0]
-        lines = (a for a in figure.artists if a.get_color() == style.BACKDROP)
-        (line,) = (a for a in lines if a.get_lw() == 0.7)
-        assert frame.x0 < line.get_xdata()[0] * style.DPI < frame.x1
-
-
-@pytest.mark.parametrize("ratio", [None, 1.2])
-def test_marks_of_a_control_stand_around_the_tick_of_their_strength(datasets, ratio):
-    data = datasets["control/control"]
-    count = data.sizes["strength"] - 1
-    if ratio:
-        data = data.assign(strength=("strength", [0.0, *(0.01 * ratio**n for n in range(count))]))
-        data.attrs["shown"] = 0.01
-    figure = control_figure.draw(SCENE, data)
-    assert {"$a$", "$b$"} <= set(texts(figure))
-    assert any(text.startswith("$a$, $b$: ") for text in texts(figure))
-    assert {style.number(value) for value in data["strength"].values[1:]} <= set(texts(figure))
-    frame = frames_of(figure)[-4]  # of the regular share
-    marks = [a for a in figure.artists if a.get_linestyle() == "None" and a.get_markersize() == 3.0]
-    places = [a.get_xdata() * style.DPI for a in marks if len(a.get_xdata()) == count]
-    places = np.array([p for p in places if frame.x0 < p.min() and p.max() < frame.x1])
-    assert len(places) >= 10
-    assert (places.max(axis=0)[:-1] < places.min(axis=0)[1:]).all()
 
 
 def test_areas_of_lobes_stand_at_the_panels_that_show_the_lobes(datasets):

@@ -231,6 +231,15 @@ def test_a_wrong_dataset_changes_the_verdict(datasets, number):
     assert wrong.value != right.value if undecided else wrong.verdict != right.verdict
 
 
+@pytest.mark.parametrize("number", [n for n, c in claims.CLAIMS.items() if "derivations" in c.data])
+def test_a_formula_that_holds_only_with_a_correction_proves_no_statement(datasets, number):
+    algebra = datasets["derivations"].copy(deep=True)
+    algebra["printed"].values[:], algebra["corrected"].values[:] = 0, 1
+    proofs = dict.fromkeys(claims.required_theorems(), PROVED)
+    verdict = claims.CLAIMS[number].judge(datasets | {"derivations": algebra}, proofs).verdict
+    assert verdict not in (PROVED, HOLDS)
+
+
 CITED = [(n, name) for n, claim in claims.CLAIMS.items() for name in claim.theorems]
 
 
@@ -347,6 +356,8 @@ def test_rises_are_counted_by_the_share_and_its_intervals():
     assert chaos._rises(share, share - 0.4, share + 0.4) == [(2, 4)]
     assert chaos._rises(share, share - 3.0, share + 3.0) == []
     assert chaos._rises(share, share - 0.1, share + 0.1) == [(2, 4), (7, 8)]
+    share = np.array([1.0, 5.0, 4.9, 6.0, 2.0])  # falls within the intervals end no rise
+    assert chaos._rises(share, share - 0.2, share + 0.2) == [(0, 3)]
 
 
 def test_the_atlas_page_has_the_numbers_of_the_rows_that_share_them():

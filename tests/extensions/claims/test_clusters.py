@@ -128,3 +128,15 @@ def test_a_ratio_of_sums_has_the_error_of_its_spread():
     values, errors = zip(*(ratio(row + random.normal(size=50), row) for row in parts), strict=True)
     assert np.mean(values) == pytest.approx(1.0, abs=0.01)
     assert np.std(values) == pytest.approx(np.mean(errors), rel=0.1)
+
+
+def test_what_chance_explains_is_no_memory():
+    """Of 500 independent states in 64 cells, the cells would seem to explain an eighth."""
+    random, found = np.random.default_rng(4), []
+    for _ in range(40):
+        cell, after = random.integers(0, 64, 500), random.normal(size=(2, 500))
+        found.append(clusters_module._dependence(clusters_module._cell_sums(cell, after)))
+    assert np.mean(found, axis=0) == pytest.approx([0.0, 0.0], abs=0.02)
+    after = np.stack([cell, cell + random.normal(size=500)])
+    known = clusters_module._dependence(clusters_module._cell_sums(cell, after.astype(float)))
+    assert known[0] == pytest.approx(1.0) and 0.99 < known[1] < 1.0

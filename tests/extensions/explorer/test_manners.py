@@ -1,14 +1,11 @@
 """The explorer's manners: undo, reload, exact starts, words, colours and files."""
 
 import struct
-from itertools import pairwise
-from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from person import DISK
-from project import ROOT, wait_for
+from project import wait_for
 from selenium.webdriver import Keys
 
 from pseudorigid import Ball
@@ -100,27 +97,6 @@ def test_words_under_a_picture_stay_true(person):
     assert "Figure 2 of the variant thin-shell, at k = 0.333333" in person.text("see")
 
 
-def test_sixty_orbits_stay_readable(person):
-    """Regular orbits next to each other differ in hue, and chaotic ones are grey."""
-    starts = np.linspace(-0.46, 0.6, 60)
-    person.open("&".join(["orbits=" + ";".join(f"{p:.4f}*2000" for p in starts), DISK]))
-    colours, titles = person.run("return [swatches(), titles()]")
-    chaotic = ["chaotic" in title for title in titles]
-    assert 5 < sum(chaotic) < 55
-    assert [colour == "rgb(134, 134, 134)" for colour in colours] == chaotic
-    # Curves around the fixed point cross the line on both of its sides.
-    middle = person.run("return geometry.fixedPoint(0.2, 0.04, 0.01).x")
-    centre, radius = BALL.section(ENERGY)[:2]
-    nested = sorted(
-        (abs(p - (middle - centre) / radius), colour)
-        for p, colour, grey in zip(starts, colours, chaotic, strict=True)
-        if not grey and -0.46 < p < 0.1
-    )
-    assert len(nested) > 20
-    same = [a[1] == b[1] for a, b in pairwise(nested)]
-    assert not any(same[:-4])
-
-
 def test_pictures_say_what_they_show(person):
     state = person.state()
     hashed = person.run("return location.hash")
@@ -152,15 +128,6 @@ def test_csv_of_all_orbits_says_what_they_are(person):
     expected = BALL.after(BALL.start(0.534522, ENERGY), 25000)
     found = [float(last[-1][name]) for name in ("x", "xdot", "udot", "tau")]
     assert found == np.ravel(expected).tolist()
-
-
-def test_the_link_is_copied_and_the_citation_is_that_of_the_repository(person):
-    person.press("link")
-    wait_for(lambda: "link" in person.text("record-note"))
-    assert person.value("address") == person.run("return location.href")
-    kind, _, text = person.run("return document.getElementById('citation').href").partition(",")
-    assert kind == "data:text/plain;charset=utf-8"
-    assert unquote(text) == (ROOT / "CITATION.cff").read_text(encoding="utf-8")
 
 
 def test_a_double_click_starts_one_orbit(person):

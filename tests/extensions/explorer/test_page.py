@@ -117,17 +117,6 @@ def test_one_finger_scrolls_unless_it_turns(phone):
     assert scrolled == 0 and view != before
 
 
-def test_no_control_on_a_phone_is_below_40_pixels(phone):
-    phone.open_panels()
-    small = phone.run(
-        "return [...document.querySelectorAll('button, select, input, summary, textarea')]"
-        ".filter(n => n.getClientRects().length).map(n => [n.id || n.textContent,"
-        " (n.matches('[type=checkbox], [type=radio]') ? n.labels[0] : n).getBoundingClientRect()])"
-        ".filter(([, b]) => b.height < 40 || b.width < 40).map(([name]) => name)"
-    )
-    assert small == []
-
-
 def test_the_keyboard_does_everything(person):
     person.press("clear")
     box = person.find("section")

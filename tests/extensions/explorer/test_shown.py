@@ -39,19 +39,6 @@ def test_no_orbit_is_called_regular_before_it_has_made_a_whole_turn(person):
     assert found[3:] == ["regular", "regular", "chaotic", "too short for a verdict"]
 
 
-def test_all_buttons_have_different_names(person):
-    names = person.run(
-        "return [...document.querySelectorAll('button[id]')].map(n => n.ariaLabel || n.textContent)"
-    )
-    assert len(set(names)) == len(names)
-    saved = "const make = HTMLAnchorElement.prototype.click; globalThis.names = [];"
-    saved += "HTMLAnchorElement.prototype.click = function () { names.push(this.download); }"
-    person.run(saved)
-    for name in ("png2", "png4", "svg"):
-        person.saved(name)
-    assert len({*person.run("return names")}) == 3
-
-
 @pytest.mark.parametrize("name", ["fig6", "below/fig6", "thin-shell/fig6"])
 def test_figure_6_has_the_paper_s_axes(person, name):
     person.open(name)

@@ -9,7 +9,7 @@ from slowly import slowly
 
 from extensions.atlas.last_curve import OrbitSearch
 from extensions.claims.analyses.jumps import jumps
-from extensions.families.breakup import breakup, neighbour
+from extensions.families.breakup import breakup, neighbour, noble_residue
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.regularity import regular
 from pseudorigid.dynamics.rotation import symmetric_fixed_point, winding
@@ -38,6 +38,41 @@ def test_the_last_curve_breaks_between_energies_with_and_without_one(monkeypatch
     found = breakup(at, 1, 7, 0.0055, 0.0058)
     assert found == pytest.approx(SEVENTH, abs=STEP)
     assert math.isnan(breakup(at, 1, 7, 0.0050, 0.0052))  # whole at both ends
+
+
+@pytest.mark.parametrize("best", [1, 3, 37, 300])
+def test_the_last_of_many_curves_that_break_one_after_the_other(monkeypatch, best):
+    """Made-up residues: the n-th curve breaks the earlier, the farther n is from the best one."""
+
+    def residue(ball, energy, turns, order, n):
+        breaks = 0.6 - 0.02 * abs(math.log2(n / best))
+        return 0.25 * math.exp(50.0 * (energy - breaks))
+
+    monkeypatch.setattr("extensions.families.breakup.noble_residue", residue)
+    assert breakup(at, 1, 7, 0.0, 1.0) == pytest.approx(0.6, abs=2e-5)
+    assert breakup(at, 1, 7, 1.0, 0.61) == math.inf or math.isnan(breakup(at, 1, 7, 1.0, 0.61))
+    assert math.isnan(breakup(at, 1, 7, 0.0, 0.59))  # whole at the end
+    assert math.isnan(breakup(at, 1, 7, 0.7, 0.9))  # broken at the beginning
+
+
+@pytest.mark.parametrize(
+    ("sizes", "largest"),
+    [((0.1, 0.2), 0.2), ((0.2, -0.24), 0.24), ((-0.3, 0.1), 0.3), ((0.1, None), math.inf)],
+)
+def test_the_larger_residue_of_two_long_convergents_counts(monkeypatch, sizes, largest):
+    asked = []
+
+    def innermost(search, turns, period, cells):
+        size = sizes[len(asked)]
+        asked.append((turns, period))
+        return None if size is None else (0.0, size, 0.0)
+
+    monkeypatch.setattr(OrbitSearch, "innermost", innermost)
+    assert noble_residue(BALL, 0.0055, 1, 7, 5) == largest
+    # The neighbour of 1/7 below it is 0/1: the first convergents are 5/36 and 6/43.
+    assert 500 <= asked[0][1] < 1300 and all(5 / 36 < p / q < 6 / 43 for p, q in asked)
+    (p, q), *more = asked
+    assert all(abs(p * s - q * r) == 1 for r, s in more)
 
 
 @pytest.mark.parametrize("energy, some", slowly((0.01615, True), (0.0163, False)))

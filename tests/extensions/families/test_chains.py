@@ -115,3 +115,17 @@ def test_a_chain_of_which_the_resonance_is_not_in_the_plane_has_no_curves():
     few = chains.chains([0.1, 0.11], [1.0, 2.0], [3])
     assert isinstance(few, xr.Dataset)
     assert few["kind"].values.tolist() == ["jumps"]
+
+
+def test_a_curve_is_known_where_it_passes_and_cut_at_the_plane():
+    rows = [(0.1, 1.0), (0.2, 2.0), (0.3, 2.0)]
+    for k, energy, passes in (
+        (0.15, 1.5, True), (0.15, 1.514, True), (0.15, 1.53, False), (0.15, 1.47, False),
+        (0.25, 2.0, True), (0.31, 2.0, False), (0.05, 1.0, False), (0.3, 2.0, True),
+    ):  # fmt: skip
+        assert chains._passes(rows, k, energy) == chains._passes(rows[::-1], k, energy) == passes
+    limits = chains.Limits((0.1, 0.3), (1.5, 2.0))
+    assert chains._within(rows, limits) == rows[1:]
+    assert chains._wider(np.array([1.0, 2.0])) == pytest.approx((0.99, 2.01))
+    assert chains._wider(np.array([1e-3, 2.0])) == pytest.approx((0.99e-3, 2.0 + 0.01 * 1.999))
+    assert chains._wider(np.array([0.0, 2.0])) == pytest.approx((-0.02, 2.02))

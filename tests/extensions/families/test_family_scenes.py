@@ -4,6 +4,8 @@ import pytest
 from documents import complaint, good
 from examples import PAPER, assert_bounded
 
+from pipeline import config
+
 PLANE = {"k": [0.19, 0.21], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}
 CHAINS = {"picture": "chains", "over": "a", "chains": [6]}
 
@@ -34,3 +36,12 @@ def test_beyond_its_bound(beyond, line):
 def test_chains_that_cannot_be_are_refused_in_one_line(plane, chains, start, allowed):
     line = complaint(good() | {"sweeps": {"a": PLANE | plane, "over_it": CHAINS | chains}})
     assert line.startswith(f"sweeps.over_it.{start}") and allowed in line
+
+
+def test_a_stage_of_a_scene_drawn_over_another_is_its_own():
+    """The chains are those of the scene; the sweep is that of the scene over which it is drawn."""
+    sweeps = {"a": PLANE, "over_it": CHAINS, "twin": CHAINS}
+    paths = config.check(good() | {"sweeps": sweeps}).datasets
+    found = [paths["atlas", scene, "chains"] for scene in ("over_it", "twin")]
+    assert found == [f"results/atlas/chains_{scene}.nc" for scene in ("over_it", "twin")]
+    assert paths["atlas", "over_it", "sweep"] == paths["atlas", "a", "sweep"]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from extensions.atlas.cell import cell
+from extensions.families import shares as shares_module
 from extensions.families.causes import causes, extrema
 from extensions.families.families import families
 from extensions.families.shares import shares
@@ -39,6 +40,67 @@ def test_the_six_islands_are_those_of_the_sweep(held, data):
     counted = cell(0.2, 5.625, 200, 4000)
     assert (counted["chain_period"], counted["chain_turns"]) == (6, 1)
     assert data["share"].values[1, six] == pytest.approx(counted["chain_share"], abs=0.011)
+
+
+def test_parts_are_shares_of_the_section(data):
+    """Orbits beyond a resonance of the fixed point are regular and in no chain of another one."""
+    beyond, regular = data["beyond"].values, data["regular"].values[:, None]
+    assert np.all((beyond >= 0.0) & (beyond <= regular))
+    assert data["resonance_order"].values.tolist() == sorted(data["resonance_order"].values)[::-1]
+    assert np.all(beyond[beyond > 0.0] >= 1.0 / 200)
+    assert np.all(np.abs(beyond * 200 - np.rint(beyond * 200)) < 1e-9)
+
+
+def test_an_orbit_goes_around_a_point_that_it_surrounds():
+    angle = np.linspace(0.0, 2.0 * np.pi, 40)
+    x, y = 0.3 + np.cos(angle), -0.2 + 0.5 * np.sin(angle)
+    for at, inside in (((0.3, -0.2), True), ((1.1, -0.2), True), ((1.5, -0.2), False),
+                       ((0.3, 0.6), False), ((-0.9, -0.2), False)):  # fmt: skip
+        assert shares_module._goes_around(x, y, *at) == inside
+    half = angle <= np.pi
+    assert not shares_module._goes_around(x[half], y[half], 0.3, -0.2)
+
+
+def test_orbits_of_families_at_a_value_are_elliptic_and_close(held):
+    line = shares_module.Line(BALL, 0.01, "energy", held)
+    found = shares_module.elliptic_orbits(line, 0.009)
+    periods = {int(held["period"].values[number]) for number, _ in found}
+    assert {1, 6} <= periods
+    for number, points in found:
+        period = int(held["period"].values[number])
+        assert points.shape == (2, period)
+        states = BALL.state_xy(*points, 0.009)
+        after = np.array(BALL.impact(*states)[:3])
+        image = np.array([after[0], after[1] - 0.2 * after[2]])
+        assert np.allclose(image, np.roll(points, -1, axis=1), atol=1e-9)
+        trace = (
+            np.trace(BALL.jacobian(*np.ravel(BALL.state_xy(*points[:, 0], 0.009)), impacts=period))
+            - 1
+        )
+        assert abs(trace) < 2.0
+
+
+@pytest.mark.parametrize(
+    ("beyond", "above", "expected"),
+    [
+        ([0.1, 0.1, 0.0, 0.0], [1, 1, 1, 1], [("last", "breaks", 0, 3)]),
+        ([0.0, 0.002, 0.003, 0.1], [1, 1, 1, 1], [("first", "forms", 3, 0)]),
+        ([0.1, 0.1, 0.0, 0.1], [1, 1, 0, 0], [("first", "forms", 3, 2)]),  # a chain is born between
+        ([0.1, 0.0, 0.1, 0.1], [0, 0, 0, 0],
+         [("last", "breaks", 0, 2), ("first", "forms", 3, 0)]),
+        ([0.1, 0.1, 0.1, 0.1], [1, 1, 1, 1], []),
+    ],
+)  # fmt: skip
+def test_curves_break_or_form_where_the_share_beyond_vanishes(monkeypatch, beyond, above, expected):
+    asked = []
+    monkeypatch.setattr(shares_module, "breakup", lambda *given: asked.append(given[1:]) or 0.5)
+    values = np.array([10.0, 11.0, 12.0, 13.0])
+    line = shares_module.Line(BALL, 0.01, "energy", None)
+    given = values, np.array(above, bool), 1, 5, np.array(beyond)
+    found = shares_module._breakups(line, *given)
+    names = [f"{which} curve beyond 1/5 {event}" for which, event, *_ in expected]
+    assert [event for event, _, _ in found] == names
+    assert asked == [(1, 5, values[first], values[last]) for *_, first, last in expected]
 
 
 def test_extrema_stand_out_from_their_intervals():

@@ -9,6 +9,7 @@ from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
 from pipeline.cli.session import CommandLineError, UsageError
+from pipeline.records import artifacts
 from pseudorigid.verified.flight import NotProvedError
 
 NAMES = ("fixed-point", "fixed-point-low")
@@ -121,3 +122,20 @@ def test_options_that_do_not_go_together_are_refused(options):
     given = {flag: flag in options.split() for flag in flags}
     with pytest.raises(CommandLineError, match=r"^prove: "):
         prove.run(SimpleNamespace(theorem=[], **given))
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "status"), [(("proved", "not proved"), 1), (("proved",) * 2, 0)]
+)
+def test_a_theorem_that_is_not_proved_is_the_exit_status(tmp_path, monkeypatch, verdicts, status):
+    monkeypatch.setattr(prove, "ROOT", tmp_path)
+    datasets = {("theorems", name, "theorem"): f"{name}.nc" for name in NAMES}
+    made = dict(zip(datasets.values(), verdicts, strict=True))
+    about = {tmp_path / file: {"line": file, "verdict": word} for file, word in made.items()}
+    monkeypatch.setattr(artifacts, "load", lambda file: SimpleNamespace(attrs=about[file]))
+    monkeypatch.setattr(prove.figures, "make", lambda *given: 0)
+    args = SimpleNamespace(search=False, again=False, makes_nothing=False, config=None)
+    args.config = SimpleNamespace(datasets=datasets)
+    assert prove._check(args, NAMES) == prove._check(args, NAMES[::-1]) == status
+    monkeypatch.setattr(prove.figures, "make", lambda *given: 3)
+    assert prove._check(args, NAMES) == 3
