@@ -5,12 +5,14 @@ import pytest
 import xarray as xr
 from examples import checked
 from keys import SCENE, colors, texts
+from legible import frames_of
 from sections import BALL
 
 from extensions.claims.analyses.flux import SIDES
 from extensions.claims.analyses.spread import spread
 from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
+from extensions.claims.figures import rotation as rotation_figure
 from extensions.claims.figures import spread as spread_figure
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
