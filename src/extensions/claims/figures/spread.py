@@ -93,7 +93,7 @@ def _short_runs(sheet: Sheet, frame: Frame, spread: xr.Dataset, lyapunov: xr.Dat
     bar = _BAR if printed else (high - low) / 50
     edges = low + bar * np.arange(round((high - low) / bar) + 1)
     share = np.histogram(np.clip(runs, low, high), bins=edges)[0] / runs.size
-    room = 1.0 if printed else 1.2  # for the mean's name
+    room = 1.2  # for the names of the lines
     highest = 0.02 * (int(room * float(share.max()) / 0.02) + 1)
     across = Axis(axis["limits"], axis["ticks"], f"Exponent of {short:,} impacts")
     step = 0.04 if highest <= 0.24 else 0.1 if highest <= 0.6 else 0.2
