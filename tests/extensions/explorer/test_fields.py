@@ -8,7 +8,7 @@ from selenium.webdriver import Keys
 
 pytestmark = pytest.mark.slow  # it sees no figure
 FIELDS = ("k", "g", "E")
-BALLS = ["fig2", "fig8", "thin-shell/fig2", "k=0.9&g=0.3&E=-0.04", "k=0.1&g=0.001&E=0.048"]
+BALLS = ["fig8", "k=0.9&g=0.3&E=-0.04", "k=0.1&g=0.001&E=0.048"]
 
 
 def shown(person):
