@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import xarray as xr
 from sections import BALL
 
 from pseudorigid import symmetric_orbits, trace_manifold
@@ -202,3 +203,26 @@ def test_orbits_without_manifolds_or_of_another_energy_are_rejected():
         line(of_type(orbits_of(ENERGY, 6), "elliptic"))
     with pytest.raises(ValueError, match=r"energy = 0\.02 .* 0\.01"):
         line(energy=0.02)
+
+
+def test_a_branch_of_an_inverse_saddle_stays_on_its_side():
+    """Its images under P^n alternate between the sides; those of one branch do not."""
+    for side in SIDES:
+        points = line(INVERSE, side=side, length=0.05, distance=0.01, bend=20)
+        steps = points[:2, 1:] - points[:2, :1]
+        near = norm(steps) < 0.01 * RADIUS  # before it bends
+        assert near.sum() > 30 and np.all(steps[:, near].T @ steps[:, 0] > 0.0)
+
+
+def test_errors_of_a_scene_are_those_of_its_worst_branch(monkeypatch):
+    attributes = iter([{"start_error": 1e-12 * i, "ended": 0.9 - 0.1 * i} for i in (1, 3, 2)] * 4)
+
+    def traced(*given, **options):
+        vertices = {name: ("vertex", [0.0]) for name in ("x", "xdot", "udot")}
+        return xr.Dataset(vertices, attrs=next(attributes))
+
+    monkeypatch.setattr(manifolds, "trace_manifold", traced)
+    scene = {"period": 6, "type": "hyperbolic", "resolution": {}, "branches": {"outer": {}}}
+    found = manifolds.scene_manifolds(BALL, ENERGY, orbits_of(ENERGY, 6), **scene)
+    assert found.attrs["start_error"] == 3e-12
+    assert found.attrs["ended"] == pytest.approx(0.6)

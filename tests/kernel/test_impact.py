@@ -149,6 +149,6 @@ GRAZING = [  # k, g, x, v, w of states after which v + w rounds below 0
 
 @pytest.mark.parametrize(("k", "g", "x", "v", "w"), GRAZING)
 def test_an_impact_that_grazes_stays_on_the_section(k, g, x, v, w):
-    for many in (1, 16):
-        _, v_next, w_next, _ = Ball(k, g).impact(*(np.full(many, a) for a in (x, v, w)))
+    for many in (1, 16):  # one after the other, and together
+        _, v_next, w_next, _ = Ball(k, g).after([np.full(many, a) for a in (x, v, w)])
         assert np.all(v_next + w_next == 0.0)

@@ -45,6 +45,16 @@ def test_the_angle_is_that_of_atan2():
     assert tangents.angle(0.0, 0.0) == 0.0
 
 
+def test_a_turn_is_within_half_a_turn_of_the_expected_one():
+    for expected in (-0.4, 0.0, 0.3, 0.5):
+        for turn in np.linspace(expected - 0.499, expected + 0.499, 23):
+            p, q, angle = 0.3, -0.7, -2.0 * math.pi * turn
+            r = p * math.cos(angle) - q * math.sin(angle)
+            s = p * math.sin(angle) + q * math.cos(angle)
+            found = tangents.turn_between(p, q, r, s, expected)
+            assert found == pytest.approx(turn, abs=1e-14)
+
+
 def test_starts_are_even_in_area_and_have_the_energy():
     k, e, count = 0.2, 6.25, 4000
     x, v, w = starts.sunflower_points(k, e, count)

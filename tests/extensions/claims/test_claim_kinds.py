@@ -118,7 +118,10 @@ def draw(name, datasets, **changes):
     return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
 
 
-@pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
+@pytest.mark.parametrize(
+    ("name", "index", "variable", "change"),
+    [*(c for c in CHANGES if c[0] not in LARGE), *slowly(*(c for c in CHANGES if c[0] in LARGE))],
+)
 def test_a_change_of_the_data_shows(data, unchanged, name, index, variable, change):
     changed = [*data(name)]
     old = changed[index][variable]

@@ -8,7 +8,8 @@ from extensions.families import shares as shares_module
 from extensions.families.causes import causes, extrema
 from extensions.families.families import families
 from extensions.families.shares import shares
-from pseudorigid import Ball
+from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.variables import chart, states_of
 
 BALL, SPAN = Ball(0.2, 0.04), [0.0075, 0.0095]
 
@@ -78,6 +79,16 @@ def test_orbits_of_families_at_a_value_are_elliptic_and_close(held):
             - 1
         )
         assert abs(trace) < 2.0
+
+
+def test_only_elliptic_orbits_have_islands():
+    orbits = symmetric_orbits(BALL, 0.01, 6)
+    x, y = chart(BALL.k, *states_of(orbits))
+    for i, kind in enumerate(orbits["type"].values):
+        found = shares_module._elliptic_orbit(BALL, 0.01, x[i, 0] + 1e-5, y[i, 0], 6)
+        assert (found is not None) == (kind == "elliptic")
+        if found is not None:
+            assert np.allclose(found, [x[i], y[i]], atol=1e-9)
 
 
 @pytest.mark.parametrize(

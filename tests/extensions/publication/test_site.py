@@ -67,6 +67,7 @@ def test_a_site_that_cannot_be_replaced_stays(tmp_path):
     assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/report.html"]
 
 
+@pytest.mark.slow
 def test_the_links_of_the_site_lead_to_its_files_and_the_explorer_may_be_anywhere(reported):
     """The explorer's page is in results/, in the site, in archives and where people copy it."""
     explorer_page = (ROOT / explorer.COPY).read_text(encoding="utf-8")
