@@ -44,11 +44,6 @@ def test_unreadable_certificates_are_refused(checker, name):
     assert "cannot be read" in refused(name, text + "more = " + "[" * 10_000, checker)
     arabic = text.replace('k = "1/5"', 'k = "\u0661/\u0665"')
     assert "not an exact number" in refused(name, arabic, checker)
-    for field in ("points", "saddles", "approach", "middle", "margins", "roots", "leaves"):
-        for value in ("5", "[]", "[[[1, 2], 3]]", "1979-05-27"):
-            pattern = re.compile(rf"^{field} = (\[\n.*?^\]|.*?$)", re.DOTALL | re.MULTILINE)
-            if (other := pattern.sub(f"{field} = {value}", text)) != text:
-                refused(name, other, checker)
 
 
 @pytest.mark.parametrize(("checker", "name"), by_both([*ORBITS, "twist-six"]))
