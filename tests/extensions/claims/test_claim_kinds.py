@@ -118,10 +118,7 @@ def draw(name, datasets, **changes):
     return module(name).draw(SCENES.get(name, SCENE) | changes, *datasets)
 
 
-@pytest.mark.parametrize(
-    ("name", "index", "variable", "change"),
-    [*(c for c in CHANGES if c[0] not in LARGE), *slowly(*(c for c in CHANGES if c[0] in LARGE))],
-)
+@pytest.mark.parametrize(("name", "index", "variable", "change"), CHANGES)
 def test_a_change_of_the_data_shows(data, unchanged, name, index, variable, change):
     changed = [*data(name)]
     old = changed[index][variable]
