@@ -1,0 +1,19 @@
+"""The list of planted faults fits the sources and the tests; tests/faults/run.py plants them."""
+
+import tomllib
+
+import pytest
+from project import ROOT
+
+FAULTS = tomllib.loads((ROOT / "tests/faults/faults.toml").read_text(encoding="utf-8"))["fault"]
+
+
+@pytest.mark.parametrize("name", sorted({fault["file"] for fault in FAULTS}))
+def test_each_fault_has_its_place_and_its_test(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    for fault in (fault for fault in FAULTS if fault["file"] == name):
+        assert text.count(fault["old"]) == 1 and fault["new"] != fault["old"], fault
+        file, _, function = fault["test"].partition("::")
+        assert f"def {function.partition('[')[0]}" in (ROOT / file).read_text(encoding="utf-8"), (
+            fault
+        )
