@@ -138,9 +138,7 @@ def long_run_exponent(spread: xr.Dataset) -> Outcome:
     word = HOLDS if abs(mean - EXPONENT) < error else CORRECTED if likely else FALSE
     numbers = {"mean": mean, "percent": 100 * above, "printed": EXPONENT, "error": error}
     short, long = (spread.sel(run=n, method="nearest") for n in (length, _impacts(spread)))
-    first = spread.isel(
-        run=0
-    )  # from runs of this length on, the spread falls like n^(-1/2), or not
+    first = spread.isel(run=0)  # the spread of longer runs is compared with n^(-1/2) from here
     ratio = float(long["deviation"] / first["deviation"] * np.sqrt(long["run"] / first["run"]))
     numbers |= {name: float(short[name]) for name in ("deviation", "skewness", "skewness_error")}
     numbers |= {"first": int(first["run"]), "last": int(long["run"]), "more": 100 * (ratio - 1.0)}
