@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
@@ -151,3 +152,10 @@ def test_exponents_and_time_are_unknown_together():
 def test_orbits_of_a_scene_are_called_chaotic_by_their_largest_exponents():
     data = scene_exponents(BALL, 0.01, [1.0, -0.2, 0.6], [400, 4000, 4000], 4)
     assert data["type"].values.tolist() == ["undefined", "regular", "chaotic"]
+
+
+def test_final_exponents_are_each_orbit_s_own_last_record():
+    exponent = np.arange(4 * 3 * 3.0).reshape(4, 3, 3)
+    exponent[2:, 0], exponent[3, 1] = np.nan, np.nan
+    found = final_exponents(xr.Dataset({"exponent": (("impact", "orbit", "index"), exponent)}))
+    assert found.tolist() == [[11.0, 10.0, 9.0], [23.0, 22.0, 21.0], [35.0, 34.0, 33.0]]

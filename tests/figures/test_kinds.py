@@ -155,7 +155,7 @@ def test_a_sharp_fold_is_marked_unless_a_line_goes_on_or_ends_there():
     assert tangle._tips(fold, fold) == [90]
     beyond = np.array([[9.6 * reach, 10.0 * reach], [0.0, 0.0]])
     assert tangle._tips(fold, np.append(fold, beyond, axis=1)) == []
-    for part in (fold[:, 85:], fold[:, :96]):  # nearer to an end than the reach
+    for part in (fold[:, 82:], fold[:, :99]):  # nearer to an end than the reach
         assert tangle._tips(part, part) == []
     gap = np.full((2, 1), np.nan)
     assert tangle._tips(np.append(gap, fold, axis=1), fold) == [91]

@@ -113,3 +113,10 @@ def test_a_window_that_no_branch_passes_is_refused():
     none = data.isel(vertex=[]).assign_attrs(window_x=[3.0, 3.1], window_xdot=[0.0, 0.1])
     with pytest.raises(ValueError, match=r"^window: no branch .* x \[3.0, 3.1\]"):
         module("closeup").draw(SCENES["closeup"], none)
+
+
+@pytest.mark.parametrize("low", [-13.2, 0.0])
+@pytest.mark.parametrize("span", [3.0, 9.5, 17.0, 40.0])
+def test_a_long_logarithmic_axis_has_few_ticks_at_even_distances(low, span):
+    steps = np.diff([*decades((low, low + span)).ticks])
+    assert 1 <= steps.size <= 9 and np.all(steps == steps[0]) and steps[0] % 1 == 0
