@@ -88,7 +88,7 @@ def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
     )
     assert end[1].startswith("exit status 1: paper_figures/mine.png: no scene makes it")
     assert end[2].startswith("exit status 1: results/paper/lyapunov_fig7.nc")
-    assert end[3:] == [WHAT_TO_DO]
+    assert " ".join(line.strip() for line in end[3:]) == WHAT_TO_DO
     assert WHAT_TO_DO in command("list")[1]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from project import SHIPPED, wait_for
+from project import ROOT, SHIPPED, wait_for
 
 from extensions.explorer import page
 from pipeline import config
@@ -22,7 +22,8 @@ def opened(either, tmp_path):
     """A function that opens the page from a file in a browser."""
 
     def show():
-        (tmp_path / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
+        text = page._with_data(page._packed(), config.load(SHIPPED), ROOT)  # of any kernel
+        (tmp_path / "explorer.html").write_text(text, "utf-8")
         either.open((tmp_path / "explorer.html").as_uri())
         return either
 
