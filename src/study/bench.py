@@ -26,7 +26,7 @@ from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from .measured import Call, machine
 from .methods import Method, libraries
-from .methods.counted_methods import careful_method, scan_method
+from .methods import counted_methods as counted
 from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
@@ -40,6 +40,8 @@ UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
 # Two units of speed from one loop: the time of a single sincos in it, and that of three.
 ONE, THREE = "one dependent sincos", "three dependent sincos"
 ORBIT, SPECTRUM = "one orbit, an impact", "spectrum here"
+FLIGHTS = "flights by the march"
+BY_MARCH = "one orbit, in this form"
 BRANCH, NONE = "that branch here", "a search finding none"
 Triple = tuple[float, float, float]
 
@@ -77,10 +79,13 @@ def calls() -> dict[str, Call]:
     saddle = of_type(symmetric_orbits(BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
     unit_g = Ball(k=BALL.k, g=1.0)  # its energy is E/g^2: that of E = 0.01 is 6.25
 
-    def flights(method: Method, aim: str, count: int = 500) -> Call:
-        """Return the call that solves flights of the sea, against those of one orbit."""
+    def flights(method: Method, aim: str, count: int = 500, base: str = ORBIT) -> Call:
+        """Return the call that solves independent flights of the sea."""
         columns, _ = certified_orbit(BALL, sea, count)
-        return Call(lambda: method.solve(BALL, *columns), count, ORBIT, aim)
+        return Call(lambda: method.solve(BALL, *columns), count, base, aim)
+
+    def of_one_orbit(method: counted.CountedMethod, aim: str) -> Call:
+        return Call(lambda: method.orbit(BALL, sea, n), n, BY_MARCH, aim)
 
     def branch() -> object:
         return trace_manifold(BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
@@ -95,20 +100,27 @@ def calls() -> dict[str, Call]:
         THREE: Call(lambda: _three_sincos(1.0, n), n),
         ONE: Call(lambda: _three_sincos(1.0, n), 3 * n),
         ORBIT: Call(lambda: BALL.after(sea, n), n, THREE, "at most 2.3"),
-        "scan 0.1, bisection to 1e-12, as usual": flights(scan_method(0.1, 1e-12), "at least 5"),
-        "scan with care, steps of 0.5": flights(careful_method(0.5), "at least 1.3"),
-        "heyoka, an orbit in one call":
+        BY_MARCH: of_one_orbit(counted.OURS, "at most 1.15")._replace(base=ORBIT),
+        "one orbit by inflections": of_one_orbit(counted.INFLECTIONS, "0.85 to 1.05"),
+        "by inflections, simple": of_one_orbit(counted.SIMPLE_INFLECTIONS, "0.95 to 1.2"),
+        "by the best scan, steps of 1": of_one_orbit(counted.BEST_SCAN, "0.95 to 1.2"),
+        "by a careful scan, steps of 1": of_one_orbit(counted.careful_method(1.0), "at least 1.3"),
+        "scan 0.1, bisection to 1e-12, as usual":
+            of_one_orbit(counted.scan_method(0.1, 1e-12), "at least 5"),
+        FLIGHTS: flights(counted.OURS, "", 20_000, ""),
+        "flights by inflections": flights(counted.INFLECTIONS, "0.85 to 1.05", 20_000, FLIGHTS),
+        "heyoka, an orbit in one call (callback)":
             Call(lambda: libraries.taylor_orbit(BALL, sea, n), n, ORBIT, "at least 10"),
-        "heyoka with care, a call a flight": flights(heyoka, "at least 25"),
+        "heyoka, a call a flight (interpreted)": flights(heyoka, "at least 25"),
         "CyRK DOP853 with care, rtol 1e-9": flights(cyrk, "at least 100"),
         "solve_ivp DOP853 with care (interpreted)": flights(dop853, "at least 2000", 20),
         SPECTRUM: Call(lambda: spectrum(sea, n), n),
         "spectrum by pynamicalsys, an impact":
             Call(lambda: libraries.lyapunov_exponents(BALL, sea, n), n, SPECTRUM, "at least 3"),
         "ensemble, the end only, an impact":
-            Call(lambda: BALL.after(many, 200), of_stored, ONE, "at most 1.2"),
+            Call(lambda: BALL.after(many, 200), of_stored, ONE, "at most 1.9"),
         "ensemble, every impact stored":
-            Call(lambda: _store(many, out), of_stored, ONE, "at most 1.6"),
+            Call(lambda: _store(many, out), of_stored, ONE, "at most 1.9"),
         "ensemble with a tangent vector each":
             Call(lambda: _with_tangent(many, 192), of_vectors, ONE, "at most 3; 5 with AVX2"),
         "spectra of an ensemble, an impact":

@@ -15,46 +15,44 @@ from numpy.typing import ArrayLike
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Axis, Frame, Panel, corner, key, letters, title
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT, Sheet
+from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
 
-# Colour and mark of each family of methods, or of a method in charts that draw one family's
-# methods apart; similar methods have similar colours. A third entry means a hollow mark, for
-# methods as they are usually written.
-_GREY, _WINE, _PINK, _USUAL = "#8a8a8a", "#882255", "#cc79a7", True
+# Colour and mark of each family of methods. The five that matter most have a colour and a label
+# beside their marks, others are grey, and captions name them. A method has one mark in all charts,
+# hollow where it is used as it is usually written.
+_GREY, _DARK, _USUAL = "#9a9a9a", "#5c5c5c", True
+_SCANS = "scan 0.5 + bisection", "scan 0.1 + bisection", "scan 0.01 + bisection", "scan 0.5 to 0.01"
 STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
-    "careful scan": (_WINE, "p"),
-    "careful scan (simple)": (style.ORANGE, "D"),
+    "inflections": (style.BLUE, "D"),
+    "careful scan (best)": ("#882255", "p"),
     "heyoka with care": (style.GREEN, "s"),
-    "CyRK DOP853 with care": ("#8c510a", "^"),
     "DOP853 with care": (style.BLACK, "^"),
-    "LSODA with care": (_GREY, "D"),
-    "RK45 with care": (_PINK, "v"),
-    "scan 0.5 + bisection": (style.SKY, "o", _USUAL),
-    "scan 0.1 + bisection": (style.BLUE, "o", _USUAL),
-    "scan 0.01 + bisection": ("#0b2a55", "o", _USUAL),
-    "scan 0.5 to 0.01": (style.BLUE, "o", _USUAL),
-    "time stepping": (style.ORANGE, ">", _USUAL),
-    "heyoka": (style.GREEN, "s", _USUAL),
-    "DOP853": (style.BLACK, "^", _USUAL),
-    "LSODA": (_GREY, "D", _USUAL),
-    "RK45": (_PINK, "v", _USUAL),
-    "careful scan 1": (_WINE, "<"),
-    "careful scan 0.25": (_WINE, "^"),
-    "careful scan 1 (simple)": (style.ORANGE, "s"),
-    "careful scan 0.5 (simple)": (style.ORANGE, "o"),
-    "careful scan 0.25 (simple)": (style.ORANGE, "^"),
-    "scan 0.1, 1e-03": ("#ecc3da", "o", _USUAL),
-    "scan 0.1, 1e-06": (_PINK, "o", _USUAL),
-    "scan 0.1, 1e-09": ("#9a4f7c", "o", _USUAL),
-    "engine 1e-03": ("#5c3d00", ">", _USUAL),
+    "inflections (simple)": (_DARK, "D"),
+    **{f"careful scan{form}": (_DARK, "p") for form in ("", " (landing)", " (simple)")},
+    "CyRK DOP853 with care": (_GREY, "<"),
+    "LSODA with care": (_GREY, "X"),
+    "RK45 with care": (_GREY, "v"),
+    **dict.fromkeys(_SCANS, (_GREY, "h", _USUAL)),
+    "time stepping": (_GREY, ">", _USUAL),
+    **{
+        f: (_GREY, m, _USUAL)
+        for f, m in (("heyoka", "s"), ("DOP853", "^"), ("LSODA", "X"), ("RK45", "v"))
+    },
 }
+_COLOURS = [colour for colour, *_ in STYLES.values()][:5]
+# Names of methods in labels.
+_SHORT = {"certified march": "march", "careful scan (best)": "best scan"}
+_SHORT |= {"heyoka with care": "heyoka", "DOP853 with care": "DOP853"}
+_NOT_DRAWN = "careful scan", "careful scan (landing)"  # between the best scan and the simple one
 LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
-_COSTS = {"evaluations": (0, 5), "seconds": (-8, -1)}  # decades
-_NEAR, _RIM = 4, 1.6  # pixels between marks that hide each other; points a hidden one is larger by
+_COSTS = {"evaluations": (0, 4), "seconds": (-8, -2)}  # decades
+_MIDDLE, _AT = 10, 20  # records of the energy, and impacts, at which lines have labels
+_ROW = 27  # pixels: height of a row of a table
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
-_SEARCHES = (style.BLACK, "o", 0.14), ("#9a9a9a", "D", -0.14)  # colour, mark and rise in a row
+# Colour, mark and rise in a row of each family of hard states.
+_SEARCHES = (style.BLACK, "o", 0.2), ("#9a9a9a", "D", 0.0), (style.SKY, "v", -0.2)
 _COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
@@ -94,17 +92,22 @@ class PanelWithZeros(Panel):
 def work(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw a work-precision diagram for one set of states: median and worst error against cost.
 
-    The worst error is at the top if a root is wrong. Marks that others would hide are larger.
-    CyRK evaluates as often as DOP853, so that it is drawn against seconds alone.
+    The worst error is at the top if a root is wrong.
+    CyRK evaluates as often as DOP853, so that it is drawn against seconds alone. Labels have the
+    evaluations, and the time of a flight in units of the march's, measured in one run.
     """
     which = ("uniform", "grazing").index(scene["states"])
     cost = "seconds" if "seconds" in data else "evaluations"
-    drawn = [not (f.startswith("CyRK") and cost == "evaluations") for f in data["family"].values]
-    data = data.isel(set=which, method=drawn)
+    left_out = [f in _NOT_DRAWN or (f.startswith("CyRK") and cost == "evaluations")
+                for f in data["family"].values]  # fmt: skip
+    timed, seconds = ("name", "seconds") if cost == "seconds" else ("timed_name", "timed_seconds")
+    pairs = zip(data[timed].values, data[seconds].values[:, which], strict=True)
+    times = {str(name): float(value) for name, value in pairs}
+    data = data.isel(set=which, method=~np.array(left_out))
     present = set(data["family"].values)
     families = [family for family in STYLES if family in present]
     entries = _entries(families, families)
-    sheet, top = chart_sheet(1280, entries)
+    sheet, top = chart_sheet(1260)
     across = decades(_COSTS[cost], f"{cost.capitalize()} per flight")
     median = _from_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
     worst = replace(median, name="Worst relative error")
@@ -117,58 +120,124 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
         corner(sheet, panels[1].frame, "at the top: some roots are wrong")
     x, of = data[cost].values, np.array([families.index(f) for f in data["family"].values])
     worst_error = np.where(data["wrong"].values > 0.0, 1.0, data["worst"].values)
+    note = RIGHT - 420, panels[0].frame[1], RIGHT, panels[0].frame[1] + 40
     for panel, y in zip(panels, (data["median"].values, worst_error), strict=True):
-        size = _sizes(panel, len(families) - of, x, y)
-        for i, (_, color, marker, hollow) in reversed([*enumerate(entries)]):
+        labels: list[tuple[float, float, str, str]] = []
+        drawn: list[np.ndarray] = []
+        for i, (text, color, marker, hollow) in reversed([*enumerate(entries)]):
             own = np.flatnonzero(of == i)
             panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
-            for points in np.unique(size[own]):
-                at = own[(size[own] == points) & np.isfinite(y[own])]
-                panel.dots(x[at], y[at], color, points, hollow=hollow, marker=marker)
-    method_key(sheet, entries, top - 1180)
+            panel.dots(x[own], y[own], color, hollow=hollow, marker=marker)
+            places = np.stack(panel.place(x[own], y[own]), axis=1)
+            drawn.extend([places] if color in _COLOURS else places[:, None])  # texts cross grey
+            if color in _COLOURS:
+                method = data.isel(method=own[-1])
+                ratio = times[str(method["name"].values)] / times["certified march"]
+                numbers = f": {_two_digits(method['evaluations'])}, {_two_digits(ratio)}"
+                numbers = numbers if panel is panels[0] else ""
+                short = f"{_SHORT.get(text, text)}{numbers}"
+                labels.append((x[own[-1]], y[own[-1]], short, color))
+        _label(panel, drawn, labels, [note])
+    text = "labels: evaluations, time (march: 1)"
+    sheet.text(RIGHT - 12, note[1] + 22, text, ha="right", size=7.0)
     return sheet.figure
+
+
+def _two_digits(value: Any) -> str:
+    """Return a number with two digits, or all before the decimal point."""
+    return f"{float(f'{float(value):.2g}'):g}"
+
+
+def _label(
+    panel: Panel,
+    drawn: Sequence[np.ndarray],
+    labels: Sequence[tuple[float, float, str, str]],
+    taken: Sequence[tuple[float, ...]] = (),
+) -> None:
+    """Write each text (x, y, text, colour) near its point, where it hides no line and no text.
+
+    `drawn` has the vertices of lines (n, 2) in pixels, and `taken` frames of other texts.
+    """
+    steps = np.linspace(0.0, 1.0, 40)[:, None, None]
+    lines = [(line[:-1] + steps * np.diff(line, axis=0)).reshape(-1, 2) for line in drawn]
+    marks = np.concatenate([*lines, *drawn])
+    left, bottom, right, top = panel.frame
+    taken = [*taken]
+    for across, up, text, color in sorted(labels):
+        (own_x,), (own_y,) = (a.tolist() for a in panel.place(across, up))
+        wide = width(text, 7.0) + 2
+        grid = ((i, 13 * j) for i in range(-600, 601, 10) for j in range(-60, 61))
+        places = ((own_x + (i if i > 0 else i - wide), own_y + j) for i, j in grid if abs(i) > 15)
+        nearest = sorted(places, key=lambda p: _distance(own_x, own_y, p[0], wide, p[1]))
+        for at, middle in nearest:
+            box = at - 4, middle - 12, at + wide, middle + 12
+            hides = (marks > box[:2]).all(axis=1) & (marks < box[2:]).all(axis=1)
+            over = any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3]
+                       for b in taken)  # fmt: skip
+            inside = left < box[0] and box[2] < right and bottom < box[1] and box[3] < top
+            if inside and not over and not hides.any():
+                break
+        taken.append(box)
+        end = at - 4 if at > own_x else at + wide - 4
+        panel.sheet.draw([own_x, end], [own_y, middle], color=color, lw=0.4, zorder=3)
+        panel.sheet.text(at, middle, text, size=7.0, color=color)
+
+
+def _distance(x: float, y: float, at: float, wide: float, middle: float) -> float:
+    """Return a squared distance of a point from a text, larger if the text is to the left."""
+    beside = 1.5 * (at - x) if at > x else 2.0 * (x - at - wide)
+    return beside * beside + (middle - y) ** 2
 
 
 @style.pinned()
 def edges(scene: Scene, data: xr.Dataset) -> Figure:
-    """Draw the failing share against the distance from grazing, and the height of a maximum.
-
-    A ball that grazes at x > -g comes back at once, at x < -g it leaves. Methods whose marks
-    coincide take turns in front.
-    """
+    """Draw tables of failing shares in colour: methods against heights and speeds of contact."""
     order = np.argsort([[*STYLES].index(f) for f in data["family"].values], kind="stable")
     data = data.isel(method=order)
-    methods = _entries(data["name"].values, data["family"].values)
-    sheet, top = chart_sheet(1130 + _KEY_LINE * math.ceil(len(methods) / 2))
-    gap, frames = 40, []
-    wide = (RIGHT - LEFT - gap) / 2
+    names = [text for text, *_ in _entries(data["name"].values, data["family"].values)]
+    rows, left, gap = len(names), LEFT + 180, 40
+    table = _ROW * rows
+    sheet, top = chart_sheet(2 * (table + 180) + 60)
+    wide, frames = (RIGHT - left - gap) / 2, []
     height = "Height of the gap's maximum, + or −"
-    rows = (
-        ("near", "distance", ("$x > -g$", "$x < -g$"), r"$\dot{x}^-+\dot{u}^-$", (-12, 0)),
-        ("touch", "depth", ("it just touches", "it just misses"), height, (-14, -2)),
+    of_rows = (
+        ("touch", "depth", ("it just touches", "it just misses"), height),
+        ("near", "distance", ("$x > -g$", "$x < -g$"), r"Contact speed $\dot{x}^-+\dot{u}^-$"),
     )
-    for row, (variable, exponent, sides, name, limits) in enumerate(rows):
-        x = [float(f"1e-{n}") for n in data[exponent].values]
-        across = Axis(limits, range(*limits, 4), "", True)
+    for row, (variable, exponent, sides, name) in enumerate(of_rows):
+        powers, high = data[exponent].values, top - row * (table + 180)
+        ticks = [*range(-int(powers[-1]), -int(powers[0]), 4)]
+        across = Axis((-powers[-1] - 0.5, 0.5 - powers[0]), ticks)
+        across = replace(across, labels=[rf"$10^{{{tick}}}$" for tick in ticks])
         for side, text in enumerate(sides):
-            left, high = LEFT + side * (wide + gap), top - row * 540
-            up = Axis((0, 1), (0, 0.5, 1), labels=("", "", "") if side else None)
-            frames.append((left, high - 360, left + wide, high))
-            panel = Panel(sheet, frames[-1], across, up)
-            if side:
-                middle = left - gap / 2, high - 360 - 16 * POINT
-                sheet.text(*middle, name, ha="center", va="top", size=8.0)
-            title(sheet, frames[-1], text if side else f"Share failing, {text}", size=8.0)
-            shares = data[variable].values[:, side]
-            for (_, color, _, hollow), share in zip(methods, shares, strict=True):
-                panel.line(x, share, color=color, lw=0.5 if hollow else 0.9)
-            for column, at in enumerate(x):  # methods that coincide take turns in front
-                for i in np.roll(np.arange(len(methods)), -1 - column).tolist():
-                    _, color, marker, hollow = methods[i]
-                    panel.dots(at, shares[i, column], color, 2.6, hollow=hollow, marker=marker)
+            start = left + side * (wide + gap)
+            frames.append((start, high - table, start + wide, high))
+            Panel(sheet, frames[-1], across, Axis((0, rows), ()), grid=False)
+            title(sheet, frames[-1], text, size=8.0)
+            for i, shares in enumerate(data[variable].values[:, side]):
+                middle = high - _ROW * (i + 0.5)
+                if side == 0:
+                    sheet.text(left - 10, middle, names[i], ha="right", size=7.0)
+                for power, share in zip(powers, shares, strict=True):
+                    cell, lw = [-power - 0.5, 0.5 - power], _ROW / POINT - 0.3
+                    along = start + across.between(cell) * wide
+                    sheet.draw(along, [middle] * 2, color=_shade(share), lw=lw,
+                               solid_capstyle="butt", zorder=1)  # fmt: skip
+        sheet.text(left + wide + gap / 2, high - table - 60, name, ha="center", va="top", size=8.0)
     letters(sheet, *frames)
-    method_key(sheet, methods, top - 1040, columns=2)
+    shades = [(f"{share:g}", _shade(share), "s", False, 5.0) for share in (0, 0.01, 0.5, 1)]
+    under = frames[-1][1] - 130
+    sheet.text(LEFT, under, "share of flights that fail:", size=7.0)
+    key(sheet, shades, under, columns=4, left=LEFT + 320, width=520, size=7.0)
     return sheet.figure
+
+
+def _shade(share: float) -> str:
+    """Return the colour of a share: pale for 0, and from yellow to dark red above."""
+    if not share > 0.0:
+        return "#e8eef2"
+    low, high = np.array([242.0, 165.0, 50.0]), np.array([110.0, 15.0, 25.0])
+    return "#" + "".join(f"{int(part):02x}" for part in low + share * (high - low))
 
 
 @style.pinned()
@@ -178,7 +247,7 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     In the shaded part the energy is kept to 1e-6, so that a check sees nothing.
     """
     entries = _entries(data["name"].values, data["family"].values)
-    named = list(dict.fromkeys(entries))
+    named = _kinds(entries)
     sheet, top = chart_sheet(1135, named)
     drift = _from_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
@@ -189,14 +258,24 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
-    for i, (_, color, marker, hollow) in enumerate(entries):
+    labels, drawn = [], []
+    for i, (text, color, marker, hollow) in enumerate(entries):
         drift = data["drift"].values[i]
         upper.line(data["record"].values, drift, color=color, lw=0.9, ls=_dashes(entries[i]))
         end = drift[-1], float(data["missed"].values[i])
         lower.dots(*end, color, hollow=hollow, marker=marker)
+        tolerance, rise = text.rpartition(", ")[2], 4.5
         if entries.count(entries[i]) > 1:
-            step = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
-            lower.note(*end, step, shift=(3, 4.5))
+            setting = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
+        else:
+            setting, rise = tolerance, rise if text.startswith("time") else -6
+        if color == _GREY:
+            lower.note(*end, setting, shift=(3, rise))
+            if text.startswith("scan") and entries[i] not in entries[:i]:
+                at = data["record"].values[_MIDDLE], drift[_MIDDLE]
+                labels.append((*at, tolerance, style.BLACK))
+        drawn.append(np.stack(upper.place(data["record"].values, drift), axis=1))
+    _label(upper, drawn, labels)
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
     method_key(sheet, named, top - 1075)
     return sheet.figure
@@ -210,10 +289,16 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     up = _from_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     entries = _entries(data["name"].values, data["family"].values)
-    lines = [(*entry[:2], "", _dashes(entry)) for entry in entries]
-    for (_, color, _, dashes), distance in zip(lines, data["apart"].values, strict=True):
-        panel.line(data["impact"].values, distance, color=color, lw=0.9, ls=dashes)
-    method_key(sheet, dict.fromkeys(lines), top - 740)
+    labels, drawn = [], []
+    for i, (entry, distance) in enumerate(zip(entries, data["apart"].values, strict=True)):
+        text, color, *_ = entry
+        panel.line(data["impact"].values, distance, color=color, lw=0.9, ls=_dashes(entry))
+        drawn.append(np.stack(panel.place(data["impact"].values, distance), axis=1))
+        if text.startswith("scan") and entry not in entries[:i]:
+            labels.append((_AT + 1, distance[_AT], text.rpartition(", ")[2], style.BLACK))
+    _label(panel, drawn, labels)
+    lines = [(*entry[:2], "", _dashes(entry)) for entry in _kinds(entries)]
+    method_key(sheet, lines, top - 740)
     return sheet.figure
 
 
@@ -251,7 +336,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, text, size=7.0)
-    entries = dict.fromkeys(entry[:3] for entry in _entries(families, families))
+    entries = [entry[:3] for entry in _kinds(_entries(families, families))]
     method_key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 135)
     return sheet.figure
 
@@ -260,27 +345,35 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
 def misses(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw impacts missed against flights, and the share of hard states at which methods fail.
 
-    Marks above the same number of flights stand side by side.
+    Each method that misses an impact has a line, and a note names the others.
     """
     names, searched = data["name"].values.tolist(), data["searched_name"].values.tolist()
-    styles = dict(zip(names, _entries(names, data["family"].values), strict=True))
+    entries = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
-    sheet, top = chart_sheet(930 + 56 * rows, [*styles.values()])
+    sheet, top = chart_sheet(925 + 56 * rows)
     up = replace(_from_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
     flights = [*data["flights"].values, *data["long_flights"].values]
     powers = [len(str(n)) - 1 for n in flights]
-    labels, limits = [rf"$10^{power}$" for power in powers], (2.5, powers[-1] + 0.5)
+    labels, limits = [rf"$10^{power}$" for power in powers], (2.8, powers[-1] + 2.1)
     across = Axis(limits, powers, "Flights of the chaotic sea", labels=labels)
     upper = PanelWithZeros(sheet, (LEFT, top - 470, RIGHT, top), across, up)
-    for i, (name, (_, color, marker, hollow)) in enumerate(styles.items()):
-        aside = 0.09 * (i - 0.5 * (len(styles) - 1))
+    none, notes, drawn = [], [], []
+    for name, (text, color, marker, hollow) in entries.items():
         own = (data[f"{part}missed"].values[data[f"{part}name"] == name] for part in ("", "long_"))
         count = np.concatenate([row for rows in own for row in rows])
-        x = np.array(powers[: count.size]) + aside
+        if not count.any():
+            none.append(f"{text}, $10^{powers[count.size - 1]}$")
+            continue
+        x = np.array(powers[: count.size])
         upper.line(x, count, color=color, lw=0.6)
         upper.dots(x, count, color, hollow=hollow, marker=marker)
-    method_key(sheet, [*styles.values()], top - 610)
-    high = top - 660 - _KEY_LINE * math.ceil(len(styles) / _KEY_COLUMNS)
+        short = re.sub(r"careful (scan) (.*) \((.*)\)", r"\3 \1 \2", text).partition(",")[0]
+        notes.append((x[-1], count[-1], short, style.BLACK))
+        drawn.append(np.stack(upper.place(x, count), axis=1))
+    _label(upper, drawn, notes, [(LEFT, top - 30 - 40 * len(none), LEFT + 255, top)])
+    for i, text in enumerate(["none missed among:", *none]):
+        upper.note(2.9, 10**4.0, text, (0, -9 * i))
+    high = top - 640
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
     share = _from_zero(-7, 0, "Share of hard states at which it fails", 2)
     middles = [rows - 0.5 - i for i in range(rows)]
@@ -303,16 +396,6 @@ def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
     return Sheet(style.COLUMN, high), high - 70
 
 
-def _sizes(panel: Panel, family: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return sizes of marks, larger ones in a family if later ones hide each of its marks."""
-    places = np.stack(panel.place(x, y), axis=1)
-    near = np.abs(places[:, None] - places).max(axis=2) < _NEAR
-    later = near & (family > family[:, None])
-    over = np.array([len(set(family[row])) for row in later])
-    hidden = [over[(family == each) & np.isfinite(y)].all() for each in family]
-    return np.where(hidden, 3.2 + _RIM * over, 3.2)
-
-
 def _from_zero(low: int, high: float, name: str, every: int = 4) -> AxisWithZero:
     """Return an axis of decades with ticks at its lower end, which stands for zero, and above."""
     ticks = [low, *range(-(-(low + 1) // every) * every, int(high) + 1, every)]
@@ -324,6 +407,13 @@ def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:
     pairs = zip(names, families, strict=True)
     styles = [(_printed(name, fam), *STYLES.get(name, STYLES[fam])) for name, fam in pairs]
     return [(*entry, False)[:4] for entry in styles]
+
+
+def _kinds(entries: Sequence[Entry]) -> list[Entry]:
+    """Return an entry of the key for each colour and mark, without steps and tolerances if grey."""
+    named = {entry[1:]: entry for entry in reversed(entries)}
+    short = (re.sub(r" [\d.].*|, .*", "", e[0]) if e[1] == _GREY else e[0] for e in named.values())
+    return [(text, *entry[1:]) for text, entry in zip(short, named.values(), strict=True)][::-1]
 
 
 def _dashes(entry: Entry) -> str:

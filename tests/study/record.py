@@ -3,7 +3,8 @@
     export PYTHONPATH=src
     .venv/bin/python tests/study/record.py libraries   # the methods of libraries, five minutes
     .venv/bin/python tests/study/record.py search      # states at which methods fail, five minutes
-    .venv/bin/python tests/study/record.py flights     # misses among 1e9 flights, 21 minutes
+    .venv/bin/python tests/study/record.py flights     # misses among 1e9 flights, half an hour
+    .venv/bin/python tests/study/record.py times       # seconds of flights, three minutes
     .venv/bin/python tests/study/record.py trials      # forms that were tried and were worse
 
 Each was run once, on one core. recorded.json names the processor and the versions of packages, and
@@ -22,13 +23,19 @@ import xarray as xr
 from pseudorigid.dynamics.variables import of_rows
 from pseudorigid.kernel.arithmetic import sincos_each
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
-from study import stages, states
+from study import measured, stages, states
 from study.measured import machine
 from study.methods import Method, libraries
-from study.methods.counted_methods import CAREFUL_SCANS, OURS
+from study.methods.counted_methods import (
+    BEST_SCAN,
+    CAREFUL_SCANS,
+    INFLECTIONS,
+    METHODS,
+    OURS,
+)
 from study.states import BALL
 
-SEARCHED = OURS, *CAREFUL_SCANS[:3], CAREFUL_SCANS[4]
+SEARCHED = OURS, INFLECTIONS, BEST_SCAN, *CAREFUL_SCANS[:3], CAREFUL_SCANS[4]
 FINEST = [
     m
     for m in libraries.CAREFUL
@@ -37,7 +44,9 @@ FINEST = [
 USUAL = "RK45, 1e-06", "DOP853, 1e-09", "LSODA, 1e-09", "heyoka, 1e-15"
 CAREFUL = tuple(name.replace(",", " with care,") for name in (*USUAL, "CyRK DOP853, 1e-09"))
 TRIED = 1_000_000, 100_000, 1_000  # states of each family: methods here, compiled, interpreted
-PROVED = 20_000  # of these, at which the march is compared with the proved time
+# Of these, at which the march is compared with the proved time; of the last family no more are
+# tried, since methods that agree may all be wrong there.
+PROVED = 20_000, 20_000, 100_000
 COMPILED = "CyRK", "heyoka"
 SEA = 10_000, 100_000  # flights of the sea for interpreted methods, and for compiled ones
 KEPT = 5  # failing states of each method and family
@@ -58,7 +67,7 @@ def libraries_recorded() -> dict[str, xr.Dataset]:
 
 def flights() -> dict[str, xr.Dataset]:
     """Count the misses among a hundred million flights of the sea, and among a thousand million."""
-    data = stages.missed_flights(CAREFUL_SCANS[:5], LONG)
+    data = stages.missed_flights((INFLECTIONS, BEST_SCAN, *CAREFUL_SCANS[:5]), LONG)
     data = data.isel(flights=data["flights"].values > 10 * stages.MILLION)
     return {"flights": data.rename({name: f"long_{name}" for name in {*data, *data.dims}})}
 
@@ -72,8 +81,18 @@ def near_the_rim(random: np.random.Generator, count: int) -> np.ndarray:
 
 def touches(random: np.random.Generator, count: int) -> np.ndarray:
     """Return states whose gap has a maximum, within 1e-14 to 1e-2 of 0, evenly by decade."""
+    return _touching(random, count, -14, -2)
+
+
+def touches_within_rounding(random: np.random.Generator, count: int) -> np.ndarray:
+    """Return states whose gap has a maximum within roundings of 0."""
+    return _touching(random, count, -17, -14)
+
+
+def _touching(random: np.random.Generator, count: int, low: int, high: int) -> np.ndarray:
+    """Return states whose gap has a maximum, of a height evenly by decade."""
     x, t = random.uniform(-0.3, 0.3, 9 * count), random.uniform(0.2, 6.0, 9 * count)
-    height = random.choice((-1.0, 1.0), t.size) * 10.0 ** random.uniform(-14, -2, t.size)
+    height = random.choice((-1.0, 1.0), t.size) * 10.0 ** random.uniform(low, high, t.size)
     sine, cosine = sincos_each(t)
     slope = -BALL.g * t - x * sine  # as in states.near_miss
     c = (height - 0.5 * BALL.g * t * t - x * (1.0 - cosine) - t * slope) / (sine - t * cosine)
@@ -82,20 +101,26 @@ def touches(random: np.random.Generator, count: int) -> np.ndarray:
     return _before(*(a[good][:count] for a in (x, b, c)))
 
 
-FAMILIES: tuple[Callable[[np.random.Generator, int], np.ndarray], ...] = near_the_rim, touches
+FAMILIES: tuple[Callable[[np.random.Generator, int], np.ndarray], ...] = (
+    near_the_rim,
+    touches,
+    touches_within_rounding,
+)
 
 
 def search() -> dict[str, xr.Dataset]:
     """Draw hard states, and count those at which methods fail.
 
     The reference solver decides wherever a method differs from the march, and at PROVED states of
-    each family in any case.
+    each family in any case. A method passes the impact if its root is later, or missing.
     """
     methods = [*SEARCHED, *FINEST]
-    tried, wrong = np.zeros((2, len(methods), len(FAMILIES)), np.int64)
+    tried, wrong, passed = np.zeros((3, len(methods), len(FAMILIES)), np.int64)
     found = np.full((len(methods), len(FAMILIES), KEPT, 3), np.nan)
     for j, draw in enumerate(FAMILIES):
-        columns = draw(np.random.default_rng([5, j]), TRIED[0])
+        count = PROVED[j] if draw is touches_within_rounding else TRIED[0]
+        columns = draw(np.random.default_rng([5, j]), count)
+        truth = np.full(count, np.nan)  # where it is computed
         for i, method in enumerate(methods):
             slow = not method.name.startswith(COMPILED)
             own = columns[:, : TRIED[0 if i < len(SEARCHED) else 1 + slow]]
@@ -103,20 +128,33 @@ def search() -> dict[str, xr.Dataset]:
             if i == 0:
                 march = tau
             suspect = stages.is_wrong(tau, march[: tau.size])
-            suspect[: PROVED if i == 0 else 0] = True
-            own, tau = own[:, suspect], tau[suspect]
-            bad = stages.is_wrong(tau, stages.proved_times(BALL, own))
+            suspect |= ~np.isnan(truth[: tau.size])
+            suspect[: PROVED[j] if i == 0 else 0] = True
+            new = suspect & np.isnan(truth[: tau.size])
+            truth[: tau.size][new] = stages.proved_times(BALL, own[:, new])
+            own, tau, true = own[:, suspect], tau[suspect], truth[: tau.size][suspect]
+            bad = stages.is_wrong(tau, true)
             tried[i, j], wrong[i, j] = suspect.size, bad.sum()
+            passed[i, j] = (bad & ~(tau < true)).sum()
             kept = own[:, bad][:, :KEPT].T
             found[i, j, : len(kept)] = kept
     variables = {
         "tried": (("searched", "drawn"), tried, "states drawn"),
         "failed": (("searched", "drawn"), wrong, "states at which the method fails"),
+        "passed": (("searched", "drawn"), passed, "of these, the impact is passed"),
         "found": (("searched", "drawn", "kept", "variable"), found, "some of them: x, xdot, udot"),
         "families": ("drawn", [draw.__name__ for draw in FAMILIES], "how the states are drawn"),
         "searched_name": ("searched", [m.name for m in methods], "method and its settings"),
     }
     return {"search": xr.Dataset(stages.described(variables))}
+
+
+def times() -> dict[str, xr.Dataset]:
+    """Measure the seconds of a flight, of all methods in one run, which needs an idle machine."""
+    data = measured.timed_work([*METHODS, *libraries.METHODS], 200, 9)
+    data = data[["name", "seconds_low", "seconds", "seconds_high"]].rename(method="timed")
+    data = data.rename({name: f"timed_{name}" for name in data})
+    return {"times": data.drop_attrs(deep=False)}
 
 
 def trials() -> dict[str, xr.Dataset]:
@@ -152,7 +190,7 @@ def _before(x: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
 
 if __name__ == "__main__":
     parts = {"libraries": libraries_recorded, "search": search, "flights": flights}
-    parts |= {"trials": trials}
+    parts |= {"trials": trials, "times": times}
     start = time.process_time()
     made = parts[sys.argv[1]]()
     done = machine() | {"seconds": str(round(time.process_time() - start))}

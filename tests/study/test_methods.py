@@ -9,6 +9,9 @@ from pipeline.records.sources import source_files
 from study import stages, states
 from study.methods import libraries
 from study.methods.counted_methods import (
+    BEST_METHODS,
+    BEST_SCAN,
+    INFLECTIONS,
     OURS,
     PARABOLA,
     TOLERANCES,
@@ -101,26 +104,35 @@ def test_recorded_numbers_are_those_of_the_methods():
 
 
 def test_readme_has_the_numbers_of_the_study():
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    flights = stages.recorded("flights")
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    flights, search = stages.recorded("flights"), stages.recorded("search")
     power = f"{float(flights['long_flights'][-1]):.0e}"[-1].translate(str.maketrans("89", "⁸⁹"))
-    careful = flights["long_missed"].values[flights["long_family"].values == "careful scan"]
-    assert f"missed none of 10{power} impacts" in " ".join(text.split())
-    assert careful.size and not careful.any()
+    missed = dict(zip(flights["long_name"].values, flights["long_missed"].values, strict=True))
+    assert f"misses {missed[BEST_SCAN.name][-1]} of 10{power} impacts" in text
     columns = states.uniform(2000)
-    for method, count in (OURS, "takes {} evaluations"), (careful_method(0.5), "scan {}."):
+    takes = (
+        "finding the next impact takes {}",
+        "inflections, takes {}",
+        "It takes {} evaluations and",
+    )
+    searched = search["searched_name"].values.tolist()
+    passed = "the march {} of 100,000 such", "inflections {},", "the best scan {}."
+    for method, work, touches in zip(BEST_METHODS, takes, passed, strict=True):
         mean = method.solve(BALL, *columns)[1].mean()
-        assert count.format(f"{mean:.1f}") in text
+        assert work.format(f"{mean:.1f}") in text
+        count = int(search["passed"].values[searched.index(method.name), 2])
+        assert touches.format(f"{count:,}") in text
 
 
 def test_recorded_states_make_methods_fail_and_not_the_march():
-    data = stages.recorded("search")
+    data = stages.recorded("search").isel(drawn=[0, 1])
     names = data["searched_name"].values.tolist()
-    assert data["failed"].values[names.index(OURS.name)].tolist() == [0, 0]
-    for step in (1.0, 0.5, 0.25):
-        method = careful_method(step)
+    for method in (OURS, INFLECTIONS):
+        assert data["failed"].values[names.index(method.name)].tolist() == [0, 0]
+    for method in (BEST_SCAN, *map(careful_method, (1.0, 0.5, 0.25))):
         found = data["found"].values[names.index(method.name)].reshape(-1, 3).T
-        assert stages.wrong_roots([method, OURS], found).mean(axis=1).tolist() == [1.0, 0.0]
+        wrong = stages.wrong_roots([method, OURS, INFLECTIONS], found)
+        assert wrong.mean(axis=1).tolist() == [1.0, 0.0, 0.0]
 
 
 @pytest.mark.parametrize("height", [1e-3, -1e-3, 1e-9, -1e-9])

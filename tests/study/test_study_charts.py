@@ -4,14 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from keys import texts
-from legible import assert_legible, pixels_in_frames
+from legible import assert_legible
 
 from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")
-# families of different colours; black is that of letters, too, and CyRK stands in other charts
-DISTINCT = [*{c: name for name, (c, *_) in study.STYLES.items() if c != "#000000"}.values()]
-DISTINCT = [name for name in DISTINCT if not name.startswith("CyRK")]
 
 
 def scene(states):
@@ -24,8 +21,8 @@ def named():
 
 def marks(figure, family):
     """Return (across, up) of the marks in a family's colour, in pixels, in the order drawn."""
-    color = study.STYLES[family][0]
-    lines = [a for a in figure.artists if a.get_marker() == "o" and a.get_linestyle() == "None"]
+    color, mark, *_ = study.STYLES[family]
+    lines = [a for a in figure.artists if a.get_marker() == mark and a.get_linestyle() == "None"]
     lines = [a for a in lines if color in (a.get_markeredgecolor(), a.get_markerfacecolor())]
     return np.concatenate([np.column_stack(line.get_data()) for line in lines]) * figure.dpi
 
@@ -39,7 +36,14 @@ def work_data(cost, median=1e-10, worst=1e-6, wrong=0.0, of="evaluations"):
         rows = np.full((2, 2), other)
         rows[1, 1] = value
         table[name] = ("method", "set"), rows
-    return xr.Dataset(named() | table)
+    return xr.Dataset(named() | table | timed(FAMILIES))
+
+
+def timed(names, march=2e-7):
+    """Return recorded seconds of methods, of which the first takes `march`, and others 1e-7."""
+    seconds = np.full((len(names), 2), 1e-7)
+    seconds[0] = march
+    return {"timed_name": ("timed", [*names]), "timed_seconds": (("timed", "set"), seconds)}
 
 
 def moved(before, after):
@@ -47,7 +51,7 @@ def moved(before, after):
     return np.round(after - before, 1)
 
 
-@pytest.mark.parametrize(("of", "base"), [("evaluations", 100.0), ("seconds", 1e-5)])
+@pytest.mark.parametrize(("of", "base"), [("evaluations", 10.0), ("seconds", 1e-5)])
 def test_work_is_drawn_where_its_numbers_are(of, base):
     def drawn(states=1, cost=base, **change):
         return marks(study.work(scene(states), work_data(cost, of=of, **change)), FAMILIES[1])
@@ -77,22 +81,49 @@ def failing(near, touch):
     return xr.Dataset(named() | exponents | {"near": near, "touch": touch})
 
 
-def test_failing_shares_are_heights():
-    few = np.full((2, 2, 3), 0.1)  # no panel has room for the key
-    before = marks(study.edges({}, failing(few, few)), FAMILIES[0])
+def cells(figure):
+    """Return (left, right, height, colour) of the cells of the tables, in pixels."""
+    lines = [a for a in figure.artists if a.get_solid_capstyle() == "butt" and a.get_lw() > 5]
+    return {(*(a.get_xdata() * figure.dpi).round(1), round(a.get_ydata()[0] * figure.dpi, 1)):
+            a.get_color() for a in lines}  # fmt: skip
+
+
+def test_failing_shares_are_colours():
+    few = np.full((2, 2, 3), 0.1)
+    before = cells(study.edges({}, failing(few, few)))
+    assert len(before) == 2 * 2 * 2 * 3 and set(before.values()) == {study._shade(0.1)}
+    places = {}
     for row in range(2):
-        for side, place in np.ndindex(2, 3):
-            for share in (0.5, 1.0):
-                shares = [few.copy(), few.copy()]
-                shares[row][0, side, place] = share
-                off = moved(before, marks(study.edges({}, failing(*shares)), FAMILIES[0]))
-                assert off[off != 0] == pytest.approx([(share - 0.1) * 360], abs=0.2)
-    assert before[0, 0] > before[1, 0] > before[2, 0]  # nearer to grazing is further left
+        for method, side, place in np.ndindex(2, 2, 3):
+            shares = [few.copy(), few.copy()]
+            shares[row][method, side, place] = 1.0
+            after = cells(study.edges({}, failing(*shares)))
+            ((cell, color),) = set(after.items()) - set(before.items())
+            assert color == study._shade(1.0)
+            places[row, method, side, place] = cell
+    assert len(set(places.values())) == len(places)
+    left, _, height = places[0, 0, 0, 2]
+    assert left < places[0, 0, 0, 0][0] and left < places[0, 0, 1, 2][0]  # a smaller s; x < -g
+    assert height > places[0, 1, 0, 2][2]  # the march is in the first row
+    assert height < places[1, 0, 0, 2][2]  # touches are above
+
+
+def test_shares_have_colours_in_order_and_zero_has_its_own():
+    light = [sum(bytes.fromhex(study._shade(share)[1:])) for share in (0.0, 0.001, 0.2, 0.7, 1.0)]
+    assert light == sorted(light, reverse=True) and len(set(light)) == 5
+
+
+def test_labels_have_evaluations_and_times_relative_to_the_march():
+    data = work_data(48.7)
+    data["name"] = data["family"] = "method", np.array(["certified march", "inflections"])
+    data = data.assign(timed(["certified march", "inflections"]))
+    assert texts(study.work(scene(1), data)).count("inflections: 49, 0.5") == 1
+    assert texts(study.work(scene(1), data)).count("march: 100, 1") == 1
 
 
 def test_zeros_are_drawn_at_an_end_named_zero():
     zeros = study.work(scene(1), work_data(100.0, 0.0, 0.0, 0.0))
-    tiny = marks(study.work(scene(1), work_data(100.0, 1e-30)), FAMILIES[1])
+    tiny = marks(study.work(scene(1), work_data(100.0, 1e-30, 1e-30)), FAMILIES[1])
     assert np.min(tiny[:, 1]) == np.min(marks(zeros, FAMILIES[1])[:, 1])
     assert texts(zeros).count("0") >= 2
 
@@ -108,8 +139,8 @@ def test_wrong_roots_are_named_if_there_are_any(wrong):
 def test_methods_as_usually_written_have_hollow_marks_and_those_with_care_full_ones():
     figure = study.work(scene(1), work_data(100.0))
     for family, fill in zip(FAMILIES, (study.STYLES[FAMILIES[0]][0], "white"), strict=True):
-        color = study.STYLES[family][0]
-        dots = [a for a in figure.artists if a.get_marker() == "o" and len(a.get_xdata())]
+        color, mark, *_ = study.STYLES[family]
+        dots = [a for a in figure.artists if a.get_marker() == mark and len(a.get_xdata())]
         own = [a for a in dots if color in (a.get_markeredgecolor(), a.get_markerfacecolor())]
         assert own and {a.get_markerfacecolor() for a in own} == {fill}
 
@@ -126,9 +157,9 @@ def test_missed_impacts_are_drawn_at_their_numbers():
             "long_flights": ("long_flights", [100_000]),
             "long_missed": (("long", "long_flights"), [[0], [100]]),
             "searched_name": ("searched", names),
-            "families": ("drawn", ["near_the_rim", "touches"]),
-            "tried": (("searched", "drawn"), np.full((2, 2), 1000)),
-            "failed": (("searched", "drawn"), [[0, 0], [failed, 10]]),
+            "families": ("drawn", ["near_the_rim", "touches", "touches_within_rounding"]),
+            "tried": (("searched", "drawn"), np.full((2, 3), 1000)),
+            "failed": (("searched", "drawn"), [[0, 0, 0], [failed, 10, 10]]),
         })  # fmt: skip
         figure = study.misses({}, data)
         assert_legible(figure, slack=4)
@@ -149,33 +180,3 @@ def test_the_key_covers_no_text_in_a_panel_without_failures_or_below_all(least):
     some[:, 1] = 0.0
     figure = study.edges({}, failing(shares, some))
     assert_legible(figure, slack=4)  # letters stand close to labels
-
-
-@pytest.mark.parametrize("count", [2, 3, 6])
-@pytest.mark.parametrize("points", [1, 3])
-def test_methods_with_equal_numbers_are_all_seen_in_each_panel(count, points):
-    families = DISTINCT[:count]
-    cost = np.repeat(10.0 ** np.arange(1, 1 + points)[:, None], 2, axis=1)
-    equal = {"median": 1e-10, "worst": 1e-6, "wrong": 0.0}
-    table = {n: (("method", "set"), np.full((count * points, 2), v)) for n, v in equal.items()}
-    names = np.repeat(np.array(families, dtype=object), points)
-    table |= {"evaluations": (("method", "set"), np.tile(cost, (count, 1)))}
-    table |= {name: ("method", names) for name in ("name", "family")}
-    figure = study.work(scene(1), xr.Dataset(table))
-    for family in families:
-        assert min(pixels_in_frames(figure, study.STYLES[family][0])) > 20
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("count", [2, 5, 8])
-def test_methods_that_fail_alike_take_turns_in_front(count):
-    families = DISTINCT[:count]
-    shares = np.full((count, 2, 13), 0.4)
-    names = {n: ("method", np.array(families, dtype=object)) for n in ("name", "family")}
-    of = {"distance": ("distance", np.arange(13)), "depth": ("depth", 2 + np.arange(13))}
-    of |= {
-        v: (("method", "side", d), shares) for v, d in (("near", "distance"), ("touch", "depth"))
-    }
-    figure = study.edges({}, xr.Dataset(names | of))
-    for family in families:
-        assert min(pixels_in_frames(figure, study.STYLES[family][0])) > 20

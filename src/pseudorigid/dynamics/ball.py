@@ -40,7 +40,7 @@ class Ball:
     g : float
         Gravity, eq. (20), g > 0.
     map : ImpactMap, optional
-        How the next impact is found; by default the march that never misses one.
+        How the next impact is found; by default the march, which in exact arithmetic misses none.
 
     Raises
     ------

@@ -44,10 +44,10 @@ def in_threads(work: Callable[..., int], impacts: int, *arrays: np.ndarray) -> i
 class ImpactMap:
     """Way to find the next impact, with counts of the impacts computed and missed.
 
-    By default every impact is found by a march that misses none. `scan` = (step, tolerance), both
-    in 1/omega, positive and finite, selects steps of constant length until the gap changes sign,
-    and bisection until the bracket is no longer than the tolerance. Maps with the same `scan` are
-    equal, whatever they counted.
+    By default every impact is found by a march that misses none in exact arithmetic. `scan` =
+    (step, tolerance), both in 1/omega, positive and finite, selects steps of constant length until
+    the gap changes sign, and bisection until the bracket is no longer than the tolerance. Maps with
+    the same `scan` are equal, whatever they counted.
     """
 
     scan: Any = None

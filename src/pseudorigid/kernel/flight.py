@@ -1,4 +1,4 @@
-"""Time to the next impact: the smallest root of the gap, found by steps that cannot pass it.
+"""Time to the next impact: the smallest root of the gap, found by steps that do not pass it.
 
 After an impact at x with velocities b, c the gap is f(t) = X(t) + U(t), eq. (21) with (26):
 
@@ -12,7 +12,8 @@ While the ball flies, f < 0. From a point t before the first root, f lies below 
 
 A step to the root of the parabola, or to S if that is nearer, cannot pass the first root of f. The
 march ends where f' > 0 and a bound of f'' shows that f rises until its root, which is then the
-first root and the only one within reach. docs/method.md proves both.
+first root and the only one within reach. docs/method.md proves both, for exact arithmetic. In
+doubles the march may pass a touch that is within rounding errors of 0, or end at one.
 """
 
 import math
@@ -25,6 +26,7 @@ MOST_EVALUATIONS = 10_000
 # Relative error of tau that the last step may leave: a tenth of a rounding.
 _SLACK = 1e-17
 # Ratio of contact speed to A below which the speed counts as 0, because its square would underflow.
+# This changes tau by up to 6e-47 at g + x = 0, and by less elsewhere.
 _NO_SPEED = 1e-140
 # Fourth powers of numbers between 1/HUGE and HUGE neither overflow nor underflow.
 HUGE = 2.0**200
@@ -192,7 +194,7 @@ def _first_impact(x, b, c, s, g):
         # t is tau to a rounding, or 0
         p, q = rotated(x, c, t)
         return t, p, q, 0
-    if s < _NO_SPEED * amplitude:  # it changes tau by less than 1e-70
+    if s < _NO_SPEED * amplitude:
         s = 0.0
         t = first_step(x, c, s, g, amplitude)
     if t == 0.0:

@@ -5,32 +5,51 @@ without the terms that cancel (`pseudorigid.kernel.flight`). The gap's speed com
 sine and cosine. Where it falls through 0 between two steps, Newton's method looks for the maximum
 of the gap, unless the parabola through a point well below the floor stays below it.
 
-It has no proof: the gap's speed may rise and fall within one step.
+It has no proof: the gap's speed may rise and fall within one step. The best form takes whatever it
+can use from the march: its first step, its landing, from below as well, and its impact-free time.
 """
 
 import math
 
 from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.kernel.flight import first_step, gap
+from pseudorigid.kernel.flight import (
+    amplitude_bound,
+    first_step,
+    gap,
+    impact_free_time,
+    rises_to_its_root,
+)
 from pseudorigid.kernel.impact import MOST_SCAN_STEPS
 
-CUBIC, PARABOLA = 0.0, 1.0  # bounds of the first root: by f''' as in the march, or by f'' alone
+from .landing import land
+
+# What a scan takes from the march. The first step is from a bound of the second derivative, or
+# from the march's bound of the third; then its landing; then also from below, and impact-free time.
+PARABOLA, CUBIC, LANDING, BEST = 0.0, 1.0, 2.0, 3.0
 _DEEP = 0.1  # R; below it the parabola at a point near the maximum is trusted
 
 
 @jit
 def careful_scan(
-    x: float, b: float, c: float, s: float, g: float, step: float, bound: float
+    x: float, b: float, c: float, s: float, g: float, step: float, care: float
 ) -> tuple[float, int]:
     """Return the next impact's time and the evaluations of the gap; NaN if there is no root."""
     amplitude = math.sqrt(x * x + c * c)
-    t = 2.0 * s / (g + amplitude) if bound == PARABOLA else first_step(x, c, s, g, amplitude)
+    t = 2.0 * s / (g + amplitude) if care == PARABOLA else first_step(x, c, s, g, amplitude)
     t = min(t, step) if t > 0.0 else step
+    bound, rise, rate, free = amplitude_bound(x, c), 0.0, 0.0, 0.0
+    if care == BEST:
+        rise, rate, free = impact_free_time(x, b, g, bound)
     low, rising, count = 0.0, False, 0
     while True:
-        f, df, ddf, _, _ = gap(t, x, b, c, s, g, quadrant(t))
+        f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
         count += 1
+        ends = care == BEST and f < 0.0 and rises_to_its_root(-f, df, ddf, q, g, bound)
+        if ends or (care >= LANDING and f >= 0.0):
+            low, high = (t, math.inf) if ends else (low, t)
+            tau, _, _, count = land(low, high, t, f, df, ddf, p, q, x, b, c, s, g, bound, count)
+            return tau, count
         if f >= 0.0:
             break
         is_rising = df > 0.0
@@ -42,6 +61,8 @@ def careful_scan(
                 break
         low, rising = t, is_rising
         t += step
+        if low < free and low * rate >= rise:
+            t, rising = max(t, free), False
         if count > MOST_SCAN_STEPS:
             return math.nan, count
     high = t

@@ -2,12 +2,13 @@
 
 Their results have the same bytes on every machine.
 
-There are four kinds of method:
+There are five kinds of method:
 
     MARCH   the certified march of pseudorigid.kernel.flight
     SCAN    the paper's method: steps of constant length until the gap changes sign, then bisection
             until the bracket is no longer than the tolerance
     CAREFUL a scan with care (`careful_scan`)
+    PIECES  the method of inflections (`inflections`)
     ENGINE  a physics engine: semi-implicit Euler steps until the ball overlaps the floor; the
             impact happens at the end of that time step
 """
@@ -24,11 +25,11 @@ from pseudorigid.kernel.formulas import impact_coefficients
 from pseudorigid.kernel.impact import MOST_SCAN_STEPS, rebound, scan
 from pseudorigid.kernel.impact import step as certified_step
 
-from . import Flights, Method
-from .careful_scan import CUBIC, PARABOLA, careful_scan
+from . import Flights, Method, inflections
+from .careful_scan import BEST, CUBIC, LANDING, PARABOLA, careful_scan
 
-MARCH, SCAN, ENGINE, CAREFUL = 0, 1, 2, 3
-Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or bound of a scan
+MARCH, SCAN, ENGINE, CAREFUL, PIECES = 0, 1, 2, 3, 4
+Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or care
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
 NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations of the gap
 
@@ -59,6 +60,9 @@ def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: fl
         x, v, w, tau, count, _ = certified_step(x, v, w, k, g, coefficients, None)
         return tau, x, v, w, count
     b, c, s = rebound(v, w, k, coefficients)
+    if kind == PIECES:
+        tau, p, q, count = inflections.first_impact(x, b, c, s, g, tolerance)
+        return tau, p, b + g * tau, max(q, -(b + g * tau)), count
     if kind == ENGINE:
         return _engine(x, b, c, g, step)
     if kind == CAREFUL:
@@ -111,6 +115,10 @@ class CountedMethod(Method):
 
 
 OURS = CountedMethod("certified march", "certified march", (MARCH, 0.0, 0.0))
+INFLECTIONS = CountedMethod("inflections", "inflections", (PIECES, 0.0, inflections.BEST))
+SIMPLE_INFLECTIONS = CountedMethod(
+    "inflections (simple)", "inflections (simple)", (PIECES, 0.0, inflections.SIMPLE)
+)
 
 
 def scan_method(step: float, tolerance: float) -> CountedMethod:
@@ -119,11 +127,11 @@ def scan_method(step: float, tolerance: float) -> CountedMethod:
     return CountedMethod(name, family, (SCAN, step, tolerance))
 
 
-def careful_method(step: float, bound: float = CUBIC) -> CountedMethod:
-    """Return a scan with care, with a step and a bound of the first root for the first step."""
-    simple = "" if bound == CUBIC else " (simple)"
-    name = f"careful scan {step:g}{simple}"
-    return CountedMethod(name, f"careful scan{simple}", (CAREFUL, step, bound))
+def careful_method(step: float, care: float = CUBIC) -> CountedMethod:
+    """Return a scan with care, with a step and what it takes from the march."""
+    form = {PARABOLA: " (simple)", CUBIC: "", LANDING: " (landing)", BEST: " (best)"}[care]
+    name, family = f"careful scan {step:g}{form}", f"careful scan{form}"
+    return CountedMethod(name, family, (CAREFUL, step, care))
 
 
 def engine_method(step: float) -> CountedMethod:
@@ -135,6 +143,9 @@ TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)
 SCANS = tuple(scan_method(step, tol) for step in (0.5, 0.1, 0.01) for tol in TOLERANCES)
 ENGINES = tuple(engine_method(step) for step in (1e-1, 1e-2, 1e-3, 1e-4))
 CAREFUL_SCANS = tuple(
-    careful_method(step, bound) for bound in (CUBIC, PARABOLA) for step in (1.0, 0.5, 0.25)
+    careful_method(step, care) for care in (CUBIC, PARABOLA) for step in (1.0, 0.5, 0.25)
 )
-METHODS = (OURS, *CAREFUL_SCANS, *SCANS, *ENGINES)
+BEST_SCAN = careful_method(1.0, BEST)
+BEST_METHODS = OURS, INFLECTIONS, BEST_SCAN
+_OTHERS = SIMPLE_INFLECTIONS, careful_method(1.0, LANDING)
+METHODS = *BEST_METHODS, *_OTHERS, *CAREFUL_SCANS, *SCANS, *ENGINES[:3]
