@@ -107,9 +107,7 @@ def test_the_stretch_is_that_of_the_product_and_leaves_grazings_out():
         assert figure_errors._log_stretch(grazing) == pytest.approx(expected, rel=1e-12)
 
 
-def test_a_pixel_and_the_last_digit_are_those_of_the_axes():
-    axis = {"limits": [0, 30], "ticks": [0, 2.5, 1.125]}
-    assert figure_errors._last_digit(axis) == 0.001
+def test_a_pixel_is_that_of_the_axes():
     plane = SimpleNamespace(frame=(10.0, 20.0, 110.0, 220.0))
     plane.across, plane.up = SimpleNamespace(limits=(0, 30)), SimpleNamespace(limits=(-1, 1))
     assert figure_errors._pixels(plane) == (0.3, 0.01)
