@@ -89,7 +89,7 @@ def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
     assert end[1].startswith("exit status 1: paper_figures/mine.png: no scene makes it")
     assert end[2].startswith("exit status 1: results/paper/lyapunov_fig7.nc")
     assert " ".join(line.strip() for line in end[3:]) == WHAT_TO_DO
-    assert WHAT_TO_DO in command("list")[1]
+    assert WHAT_TO_DO in " ".join(line.strip() for line in command("list")[1])
 
 
 SETS_WITH_TEXTS = [name for name, each in SETS.items() if each.texts]
