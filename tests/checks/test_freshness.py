@@ -121,3 +121,15 @@ def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):
     assert planned(made) == "nothing to make"
     (root / "card.py").write_text("edited")
     assert planned(made).startswith("made by other code than this tree's: card.py differs: orbits")
+
+
+def test_what_is_made_from_something_outdated_is_outdated_over_any_number_of_steps(made):
+    root, specs = made
+    last = "results/paper/figures/fig2.svg"
+    specs[last] = specs[DRAWING]._replace(result=last, inputs=[DRAWING])
+    with recorded(specs[last]):
+        (root / last).write_text(last)
+    assert Freshness(*made).outdated([last]) == {}
+    (root / "a.py").write_text("edited")
+    found = Freshness(*made).outdated([last])
+    assert found[last] == f"made from {DRAWING}, which is not current"

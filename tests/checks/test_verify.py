@@ -10,6 +10,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 import pytest
+import xarray as xr
 from PIL import Image
 from project import ROOT, SHIPPED
 from verdicts import commit, verified
@@ -253,3 +254,19 @@ def test_without_an_answer_of_git_the_lists_are_not_known_to_be_committed(moved,
     lists = "paper_figures/SHA256SUMS, paper_figures/MANIFEST.json"
     assert found.notes == [f"{lists}: not known to be the committed one, see git status"]
     assert (found.status, verified(moved, strict=True).status) == (0, 1)
+
+
+@pytest.mark.parametrize("size", [3, 1024, 3000])
+def test_a_description_of_data_depends_on_every_value_and_says_where(size):
+    def described(at, value):
+        values = np.zeros(size)
+        values[at] = value
+        return manifest.describe_data(xr.Dataset({"x": ("t", values)}))["variables"]["x"]
+
+    first = described(0, 0.0)
+    assert described(-1, 0.0) == first
+    for at in (0, size // 2, size - 1):
+        other = described(at, 1e-300)
+        assert other["sha256"] != first["sha256"]
+        pairs = zip(first["blocks"].split(), other["blocks"].split(), strict=True)
+        assert [a != b for a, b in pairs] == [i == at // 1024 for i in range(-(-size // 1024))]

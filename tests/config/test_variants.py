@@ -80,6 +80,7 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
         ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
         ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
         ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),
+        ("v", {"energy": 0.009, "scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 "]),
         ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
     ],
 )

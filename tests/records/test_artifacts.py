@@ -129,3 +129,11 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
     for content in (b"hello", *cut):
         path.write_bytes(content)
         assert "damaged" in refusal(path)
+
+
+def test_all_nan_and_all_byte_orders_are_one_value():
+    bits = np.array([0x7FF8000000000000, 0xFFF8000000000001, 0x3FF0000000000000], np.uint64)
+    values = bits.view(np.float64)
+    for other in (values, np.array([np.nan, np.nan, 1.0]), values.astype(">f8")):
+        dtype, found = canonical_values(xr.Variable("t", other))
+        assert dtype == "<f8" and found.tobytes() == np.array([np.nan, np.nan, 1.0]).tobytes()

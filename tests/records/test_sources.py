@@ -164,3 +164,12 @@ def test_a_damaged_store_of_hashes_is_not_used(tmp_path, monkeypatch, damage):
         store.write_text(text.replace(*edits[damage]))
         assert store.read_text() != text
     assert stored() == {}
+
+
+def test_a_module_depends_on_the_packages_around_it(tmp_path):
+    inner = tmp_path / "pseudorigid" / "deep"
+    inner.mkdir(parents=True)
+    files = [inner.parent / "__init__.py", inner / "__init__.py", inner / "module.py"]
+    for file in files:
+        file.write_text("")
+    assert sources.import_closure(tmp_path, "pseudorigid.deep.module") == sorted(files)
