@@ -145,12 +145,12 @@ def test_an_extension_is_one_folder(tree):
     assert "twice  png  identical\n" in result.stdout
     (tree.path / PUBLISHED).write_bytes(b"damaged")
     assert tree.run("verify").returncode == 1
+    result = tree.python("-P", "-m", "pipeline.renew")
+    assert result.returncode == 0, result.stderr
     tree.succeed("report")
     report = (tree.path / "results/report/report.html").read_text()
     assert "Positions of 2 orbits: the next one" in report
     assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
-    result = tree.python("-P", "-m", "pipeline.renew")
-    assert result.returncode == 0, result.stderr
     page = (tree.path / "src/extensions/returns/README.md").read_text()
     assert "### picture: returns\n\nThe next position against the present one." in page
     assert "### returns/twice: the next" in (tree.path / "docs/figures.md").read_text()
