@@ -20,11 +20,14 @@ from pseudorigid.kernel.flight import (
     impact_free_time,
     rises_to_its_root,
     rotated,
+    series,
 )
 
 from .landing import Impact, land
 
-SIMPLE, BEST = 0.0, 1.0  # find an inflection first, or look first whether none is needed
+# When no inflection is looked for: the first step has all but reached the root of a convex piece, or
+# the march would land from there.
+SIMPLE, BEST = 0.0, 1.0
 _TURN = 2.0 * math.pi
 # Tangents of pi/16, pi/8 and 3 pi/16.
 _T1, _T2, _T3 = 0.19891236737965801, 0.41421356237309503, 0.66817863791929891
@@ -93,7 +96,9 @@ def first_impact(x: float, b: float, c: float, s: float, g: float, care: float) 
         t = start
         f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
         count = 1
-        is_sure = care == BEST and rises_to_its_root(-f, df, ddf, q, g, amplitude)
+        is_sure = rises_to_its_root(-f, df, ddf, q, g, amplitude)
+        if care == SIMPLE and is_sure:
+            _, _, is_sure = series(f, df, ddf, p, q, t, amplitude)
         if is_sure or not (square > 0.0 and f < 0.0):
             low = t if f < 0.0 else 0.0
             return land(low, math.inf, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count)
