@@ -7,19 +7,15 @@ shows less. Calls take turns, so that what slows the machine down slows all of t
 import os
 import statistics
 import time
-from collections.abc import Callable
 from importlib import import_module
 
 import numpy as np
 
 from pipeline.cli.arguments import Arguments
 from pipeline.declaration import parts
-from pseudorigid.dynamics import branch as branch_rule
 from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-from pseudorigid.dynamics.manifolds import trace_manifold
 from pseudorigid.dynamics.periodic import symmetric_orbits
-from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
@@ -34,7 +30,6 @@ REPETITIONS = 9  # of a call
 SLOW_REPETITIONS, SLOW_SECONDS = 3, 0.5  # of a call that takes longer
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
-WEAK_SADDLE_ENERGY = 0.001  # of a saddle of period 10 with a small multiplier
 MANY = 1e5  # E/g^2 with many orbits of period 12
 UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
 # Two units of speed from one loop: the time of a single sincos in it, and that of three.
@@ -42,7 +37,7 @@ ONE, THREE = "one dependent sincos", "three dependent sincos"
 ORBIT, SPECTRUM = "one orbit, an impact", "spectrum here"
 FLIGHTS = "flights by the march"
 BY_MARCH = "one orbit, in this form"
-BRANCH, NONE = "that branch here", "a search finding none"
+NONE = "a search finding none"
 Triple = tuple[float, float, float]
 
 
@@ -76,7 +71,6 @@ def calls() -> dict[str, Call]:
     """Return the calls of the table by name."""
     sea, many = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
-    saddle = of_type(symmetric_orbits(BALL, WEAK_SADDLE_ENERGY, 10), "hyperbolic")
     unit_g = Ball(k=BALL.k, g=1.0)  # its energy is E/g^2: that of E = 0.01 is 6.25
 
     def flights(method: Method, aim: str, count: int = 500, base: str = ORBIT) -> Call:
@@ -86,9 +80,6 @@ def calls() -> dict[str, Call]:
 
     def of_one_orbit(method: counted.CountedMethod, aim: str) -> Call:
         return Call(lambda: method.orbit(BALL, sea, n), n, BY_MARCH, aim)
-
-    def branch() -> object:
-        return trace_manifold(BALL, WEAK_SADDLE_ENERGY, saddle, length=0.5)
 
     def spectrum(states: State, impacts: int) -> object:
         return lyapunov_spectrum(BALL, states, impacts, records=1)
@@ -125,9 +116,6 @@ def calls() -> dict[str, Call]:
             Call(lambda: _with_tangent(many, 192), of_vectors, ONE, "at most 3; 5 with AVX2"),
         "spectra of an ensemble, an impact":
             Call(lambda: spectrum(many, 192), of_vectors, SPECTRUM, "at most 0.5"),
-        BRANCH: Call(branch, 1),
-        "weak branch, each image from the segment":
-            Call(lambda: _from_the_segment(branch), 1, BRANCH, "at least 5"),
         NONE: Call(lambda: symmetric_orbits(unit_g, 6.25, 12), 1),
         "period 12 at E/g^2 = 1e5: 2,006 orbits":
             Call(lambda: symmetric_orbits(unit_g, MANY, 12), 1, NONE, "at most 50"),
@@ -181,12 +169,3 @@ def _with_tangent(start: State, impacts: int) -> None:
     orbits = begin(BALL.k, [np.array(column) / BALL.g for column in start], 0.0, 0.0)
     windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, LANES))
     propagate_with_tangent(orbits, BALL.k, 0, impacts, windows, windows, sums, sums)
-
-
-def _from_the_segment(branch: Callable[[], object]) -> None:
-    """Trace a weak branch by the rule for strong ones, each image from the first segment."""
-    usual, branch_rule.WEAK = branch_rule.WEAK, 0.0
-    try:
-        branch()
-    finally:
-        branch_rule.WEAK = usual

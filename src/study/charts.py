@@ -35,25 +35,27 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "RK45 with care": (_GREY, "v"),
     **dict.fromkeys(_SCANS, (_GREY, "h", _USUAL)),
     "time stepping": (_GREY, ">", _USUAL),
-    **{
-        f: (_GREY, m, _USUAL)
-        for f, m in (("heyoka", "s"), ("DOP853", "^"), ("LSODA", "X"), ("RK45", "v"))
-    },
+    "heyoka": (_GREY, "s", _USUAL),
+    "DOP853": (_GREY, "^", _USUAL),
+    "LSODA": (_GREY, "X", _USUAL),
+    "RK45": (_GREY, "v", _USUAL),
 }
-_COLOURS = [colour for colour, *_ in STYLES.values()][:5]
-# Names of methods in labels.
-_SHORT = {"certified march": "march", "careful scan (best)": "best scan"}
-_SHORT |= {"heyoka with care": "heyoka", "DOP853 with care": "DOP853"}
+_SHORT = {"certified march": "march", "careful scan (best)": "best scan"}  # names in labels
 _NOT_DRAWN = "careful scan", "careful scan (landing)"  # between the best scan and the simple one
 LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
 _COSTS = {"evaluations": (0, 4), "seconds": (-8, -2)}  # decades
-_MIDDLE, _AT = 10, 20  # records of the energy, and impacts, at which lines have labels
+_RECORD, _IMPACT = 10, 20  # places at which lines have labels
 _ROW = 27  # pixels: height of a row of a table
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 # Colour, mark and rise in a row of each family of hard states.
 _SEARCHES = (style.BLACK, "o", 0.2), ("#9a9a9a", "D", 0.0), (style.SKY, "v", -0.2)
 _COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
+# Shifts of a label in pixels, the nearest first; those to the left count as farther away.
+_SHIFTS = sorted(
+    ((i, 13 * j) for i in range(-600, 601, 10) for j in range(-60, 61) if abs(i) > 15),
+    key=lambda shift: ((1.5 if shift[0] > 0 else 2.0) * shift[0]) ** 2 + shift[1] ** 2,
+)
 _KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
@@ -98,14 +100,12 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     """
     which = ("uniform", "grazing").index(scene["states"])
     cost = "seconds" if "seconds" in data else "evaluations"
-    left_out = [f in _NOT_DRAWN or (f.startswith("CyRK") and cost == "evaluations")
-                for f in data["family"].values]  # fmt: skip
-    timed, seconds = ("name", "seconds") if cost == "seconds" else ("timed_name", "timed_seconds")
-    pairs = zip(data[timed].values, data[seconds].values[:, which], strict=True)
-    times = {str(name): float(value) for name, value in pairs}
-    data = data.isel(set=which, method=~np.array(left_out))
-    present = set(data["family"].values)
-    families = [family for family in STYLES if family in present]
+    timed = "" if cost == "seconds" else "timed_"
+    seconds = data[f"{timed}seconds"].values[:, which]
+    times = dict(zip(data[f"{timed}name"].values.tolist(), seconds.tolist(), strict=True))
+    left_out = [*_NOT_DRAWN, *(["CyRK DOP853 with care"] if timed else [])]
+    data = data.isel(set=which, method=~data["family"].isin(left_out))
+    families = [family for family in STYLES if family in data["family"]]
     entries = _entries(families, families)
     sheet, top = chart_sheet(1260)
     across = decades(_COSTS[cost], f"{cost.capitalize()} per flight")
@@ -129,14 +129,16 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
             panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
             panel.dots(x[own], y[own], color, hollow=hollow, marker=marker)
             places = np.stack(panel.place(x[own], y[own]), axis=1)
-            drawn.extend([places] if color in _COLOURS else places[:, None])  # texts cross grey
-            if color in _COLOURS:
+            is_grey = color in (_GREY, _DARK)
+            drawn.extend(places[:, None] if is_grey else [places])  # texts cross grey lines
+            if is_grey:
+                continue
+            short = _SHORT.get(text, text.removesuffix(" with care"))
+            if panel is panels[0]:
                 method = data.isel(method=own[-1])
-                ratio = times[str(method["name"].values)] / times["certified march"]
-                numbers = f": {_two_digits(method['evaluations'])}, {_two_digits(ratio)}"
-                numbers = numbers if panel is panels[0] else ""
-                short = f"{_SHORT.get(text, text)}{numbers}"
-                labels.append((x[own[-1]], y[own[-1]], short, color))
+                ratio = times[method["name"].item()] / times["certified march"]
+                short += f": {_two_digits(method['evaluations'])}, {_two_digits(ratio)}"
+            labels.append((x[own[-1]], y[own[-1]], short, color))
         _label(panel, drawn, labels, [note])
     text = "labels: evaluations, time (march: 1)"
     sheet.text(RIGHT - 12, note[1] + 22, text, ha="right", size=7.0)
@@ -161,32 +163,41 @@ def _label(
     steps = np.linspace(0.0, 1.0, 40)[:, None, None]
     lines = [(line[:-1] + steps * np.diff(line, axis=0)).reshape(-1, 2) for line in drawn]
     marks = np.concatenate([*lines, *drawn])
-    left, bottom, right, top = panel.frame
+    left, bottom, end, top = panel.frame
     taken = [*taken]
     for across, up, text, color in sorted(labels):
         (own_x,), (own_y,) = (a.tolist() for a in panel.place(across, up))
         wide = width(text, 7.0) + 2
-        grid = ((i, 13 * j) for i in range(-600, 601, 10) for j in range(-60, 61))
-        places = ((own_x + (i if i > 0 else i - wide), own_y + j) for i, j in grid if abs(i) > 15)
-        nearest = sorted(places, key=lambda p: _distance(own_x, own_y, p[0], wide, p[1]))
-        for at, middle in nearest:
+        for right, high in _SHIFTS:
+            at, middle = own_x + (right if right > 0 else right - wide), own_y + high
             box = at - 4, middle - 12, at + wide, middle + 12
             hides = (marks > box[:2]).all(axis=1) & (marks < box[2:]).all(axis=1)
             over = any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3]
                        for b in taken)  # fmt: skip
-            inside = left < box[0] and box[2] < right and bottom < box[1] and box[3] < top
+            inside = left < box[0] and box[2] < end and bottom < box[1] and box[3] < top
             if inside and not over and not hides.any():
                 break
         taken.append(box)
-        end = at - 4 if at > own_x else at + wide - 4
-        panel.sheet.draw([own_x, end], [own_y, middle], color=color, lw=0.4, zorder=3)
+        near = at - 4 if at > own_x else at + wide - 4
+        panel.sheet.draw([own_x, near], [own_y, middle], color=color, lw=0.4, zorder=3)
         panel.sheet.text(at, middle, text, size=7.0, color=color)
 
 
-def _distance(x: float, y: float, at: float, wide: float, middle: float) -> float:
-    """Return a squared distance of a point from a text, larger if the text is to the left."""
-    beside = 1.5 * (at - x) if at > x else 2.0 * (x - at - wide)
-    return beside * beside + (middle - y) ** 2
+def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> list[Entry]:
+    """Draw a variable of each method over another one, and return the entries of a key.
+
+    Lines of scans are labelled with their tolerances at the place `at`.
+    """
+    entries, x = _entries(data["name"].values, data["family"].values), data[over].values
+    labels, drawn = [], []
+    for i, (entry, y) in enumerate(zip(entries, data[name].values, strict=True)):
+        text, color, *_ = entry
+        panel.line(x, y, color=color, lw=0.9, ls=_dashes(entry))
+        drawn.append(np.stack(panel.place(x, y), axis=1))
+        if text.startswith("scan") and entry not in entries[:i]:
+            labels.append((x[at], y[at], text.rpartition(", ")[2], style.BLACK))
+    _label(panel, drawn, labels)
+    return entries
 
 
 @style.pinned()
@@ -258,24 +269,17 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
     lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
-    labels, drawn = [], []
-    for i, (text, color, marker, hollow) in enumerate(entries):
-        drift = data["drift"].values[i]
-        upper.line(data["record"].values, drift, color=color, lw=0.9, ls=_dashes(entries[i]))
-        end = drift[-1], float(data["missed"].values[i])
+    ends = zip(data["drift"].values[:, -1], data["missed"].values, strict=True)
+    for name, entry, end in zip(data["name"].values, entries, ends, strict=True):
+        text, color, marker, hollow = entry
         lower.dots(*end, color, hollow=hollow, marker=marker)
-        tolerance, rise = text.rpartition(", ")[2], 4.5
-        if entries.count(entries[i]) > 1:
-            setting = data["name"].values[i].partition(", ")[0].removeprefix("scan ")
-        else:
-            setting, rise = tolerance, rise if text.startswith("time") else -6
         if color == _GREY:
+            is_one_of_many = entries.count(entry) > 1
+            setting = name.partition(", ")[0].removeprefix("scan ")
+            setting = setting if is_one_of_many else text.rpartition(", ")[2]
+            rise = 4.5 if is_one_of_many or text.startswith("time") else -6
             lower.note(*end, setting, shift=(3, rise))
-            if text.startswith("scan") and entries[i] not in entries[:i]:
-                at = data["record"].values[_MIDDLE], drift[_MIDDLE]
-                labels.append((*at, tolerance, style.BLACK))
-        drawn.append(np.stack(upper.place(data["record"].values, drift), axis=1))
-    _label(upper, drawn, labels)
+    _lines(upper, data, "record", "drift", _RECORD)
     lower.note(1.5e-13, 3e3, "a check to $10^{-6}$ sees nothing")
     method_key(sheet, named, top - 1075)
     return sheet.figure
@@ -288,17 +292,8 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
     up = _from_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
-    entries = _entries(data["name"].values, data["family"].values)
-    labels, drawn = [], []
-    for i, (entry, distance) in enumerate(zip(entries, data["apart"].values, strict=True)):
-        text, color, *_ = entry
-        panel.line(data["impact"].values, distance, color=color, lw=0.9, ls=_dashes(entry))
-        drawn.append(np.stack(panel.place(data["impact"].values, distance), axis=1))
-        if text.startswith("scan") and entry not in entries[:i]:
-            labels.append((_AT + 1, distance[_AT], text.rpartition(", ")[2], style.BLACK))
-    _label(panel, drawn, labels)
-    lines = [(*entry[:2], "", _dashes(entry)) for entry in _kinds(entries)]
-    method_key(sheet, lines, top - 740)
+    named = _kinds(_lines(panel, data, "impact", "apart", _IMPACT))
+    method_key(sheet, [(*entry[:2], "", _dashes(entry)) for entry in named], top - 740)
     return sheet.figure
 
 

@@ -1,16 +1,6 @@
 """Methods in pseudorigid's arithmetic that count their evaluations of the gap.
 
 Their results have the same bytes on every machine.
-
-There are five kinds of method:
-
-    MARCH   the certified march of pseudorigid.kernel.flight
-    SCAN    the paper's method: steps of constant length until the gap changes sign, then bisection
-            until the bracket is no longer than the tolerance
-    CAREFUL a scan with care (`careful_scan`)
-    PIECES  the method of inflections (`inflections`)
-    ENGINE  a physics engine: semi-implicit Euler steps until the ball overlaps the floor; the
-            impact happens at the end of that time step
 """
 
 import math
@@ -28,6 +18,8 @@ from pseudorigid.kernel.impact import step as certified_step
 from . import Flights, Method, inflections
 from .careful_scan import BEST, CUBIC, LANDING, PARABOLA, careful_scan
 
+# Kinds of method: the certified march; the paper's, steps of constant length until the gap changes
+# sign and then bisection; steps of a physics engine; a scan with care; and inflections.
 MARCH, SCAN, ENGINE, CAREFUL, PIECES = 0, 1, 2, 3, 4
 Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or care
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
@@ -36,7 +28,10 @@ NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evalu
 
 @jit
 def _engine(x: float, b: float, c: float, g: float, step: float) -> NextImpact:
-    """Step a flight from x with velocities b, c until overlap; NaN after MOST_SCAN_STEPS steps."""
+    """Take semi-implicit Euler steps from x with velocities b, c until the ball is in the floor.
+
+    The time of flight is NaN after MOST_SCAN_STEPS steps.
+    """
     position, strain, v, w = x, -x, b, c
     count = 0
     while True:
@@ -116,9 +111,8 @@ class CountedMethod(Method):
 
 OURS = CountedMethod("certified march", "certified march", (MARCH, 0.0, 0.0))
 INFLECTIONS = CountedMethod("inflections", "inflections", (PIECES, 0.0, inflections.BEST))
-SIMPLE_INFLECTIONS = CountedMethod(
-    "inflections (simple)", "inflections (simple)", (PIECES, 0.0, inflections.SIMPLE)
-)
+_SIMPLE = "inflections (simple)"
+SIMPLE_INFLECTIONS = CountedMethod(_SIMPLE, _SIMPLE, (PIECES, 0.0, inflections.SIMPLE))
 
 
 def scan_method(step: float, tolerance: float) -> CountedMethod:

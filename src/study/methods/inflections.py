@@ -25,8 +25,8 @@ from pseudorigid.kernel.flight import (
 
 from .landing import Impact, land
 
-# When no inflection is looked for: the first step has all but reached the root of a convex piece, or
-# the march would land from there.
+# No inflection is looked for if the first step all but reaches the root, or if the march would land
+# from there.
 SIMPLE, BEST = 0.0, 1.0
 _TURN = 2.0 * math.pi
 # Tangents of pi/16, pi/8 and 3 pi/16.
