@@ -18,7 +18,7 @@ from pseudorigid.figures.canvas.sheet import pieces
 _DOT = 3.4  # points
 _THICK = 1.5  # points: width of stable branches that would hide unstable ones
 _SHORT = 50  # pixels: pieces of lines that decide nothing
-_WIDEST = 10_000  # pixels, more than a picture has
+_CELL = 3  # pixels: lines that share most cells of this size coincide
 _NAMES = style.NAMES["x"], style.NAMES["xdot"]
 empty_picture = partial(Plane, axes=("x", "xdot"), names=_NAMES, high=975, right=75)
 
@@ -69,18 +69,13 @@ def _coincide(
     cells = []
     for line in lines:
         parts = [dense(piece, picture.frame) for piece in pieces(*picture.place(*line))]
-        across, up = np.floor(np.hstack([np.empty((2, 0)), *parts]))
-        cells.append(across * _WIDEST + up)
-    near = []
-    for kind in (0, 1):
+        across, up = np.floor(np.hstack([np.empty((2, 0)), *parts]) / _CELL)
+        cells.append(across + 1j * up)
+    for own, kind in zip(cells, kinds, strict=True):
         others = [np.empty(0), *(cells[i] for i in np.flatnonzero(kinds != kind))]
-        steps = (across * _WIDEST + up for across in (-1, 0, 1) for up in (-1, 0, 1))
-        near.append(np.concatenate([part + step for step in steps for part in others]))
-    shares = (
-        np.isin(c, near[kind]).sum() / max(c.size, _SHORT)
-        for c, kind in zip(cells, kinds, strict=True)
-    )
-    return any(share > 0.5 for share in shares)
+        if np.isin(own, np.concatenate(others)).sum() > 0.5 * max(own.size, _SHORT):
+            return True
+    return False
 
 
 def hidden(scene: dict[str, Any], manifolds: xr.Dataset) -> Iterator[str]:
