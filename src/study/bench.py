@@ -13,12 +13,10 @@ import numpy as np
 
 from pipeline.cli.arguments import Arguments
 from pipeline.declaration import parts
-from pseudorigid.dynamics.ball import Ball, State
+from pseudorigid.dynamics.ball import State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
-from pseudorigid.kernel.tangents import begin, propagate_with_tangent
 
 from .measured import Call, machine
 from .methods import Method, libraries
@@ -30,14 +28,12 @@ REPETITIONS = 9  # of a call
 SLOW_REPETITIONS, SLOW_SECONDS = 3, 0.5  # of a call that takes longer
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
-MANY = 1e5  # E/g^2 with many orbits of period 12
 UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
 # Two units of speed from one loop: the time of a single sincos in it, and that of three.
 ONE, THREE = "one dependent sincos", "three dependent sincos"
 ORBIT, SPECTRUM = "one orbit, an impact", "spectrum here"
 FLIGHTS = "flights by the march"
 BY_MARCH = "one orbit, in this form"
-NONE = "a search finding none"
 Triple = tuple[float, float, float]
 
 
@@ -71,7 +67,6 @@ def calls() -> dict[str, Call]:
     """Return the calls of the table by name."""
     sea, many = chaotic(), BALL.start(0.52 + 0.1 * (np.arange(LANES) / LANES), ENERGY)
     out = np.empty((LANES, 200, 4))  # kept between calls: fresh pages are not the method's cost
-    unit_g = Ball(k=BALL.k, g=1.0)  # its energy is E/g^2: that of E = 0.01 is 6.25
 
     def flights(method: Method, aim: str, count: int = 500, base: str = ORBIT) -> Call:
         """Return the call that solves independent flights of the sea."""
@@ -86,7 +81,7 @@ def calls() -> dict[str, Call]:
 
     heyoka = libraries.taylor_method(1e-15)
     cyrk, dop853 = libraries.cyrk_method("DOP853", 1e-9), libraries.ivp_method("DOP853", 1e-9)
-    n, of_stored, of_vectors = IMPACTS, LANES * 200, LANES * 192
+    n, of_stored = IMPACTS, LANES * 200
     return {
         THREE: Call(lambda: _three_sincos(1.0, n), n),
         ONE: Call(lambda: _three_sincos(1.0, n), 3 * n),
@@ -112,13 +107,8 @@ def calls() -> dict[str, Call]:
             Call(lambda: BALL.after(many, 200), of_stored, ONE, "at most 1.9"),
         "ensemble, every impact stored":
             Call(lambda: _store(many, out), of_stored, ONE, "at most 1.9"),
-        "ensemble with a tangent vector each":
-            Call(lambda: _with_tangent(many, 192), of_vectors, ONE, "at most 3; 5 with AVX2"),
         "spectra of an ensemble, an impact":
-            Call(lambda: spectrum(many, 192), of_vectors, SPECTRUM, "at most 0.5"),
-        NONE: Call(lambda: symmetric_orbits(unit_g, 6.25, 12), 1),
-        "period 12 at E/g^2 = 1e5: 2,006 orbits":
-            Call(lambda: symmetric_orbits(unit_g, MANY, 12), 1, NONE, "at most 50"),
+            Call(lambda: spectrum(many, 192), LANES * 192, SPECTRUM, "at most 0.5"),
     }  # fmt: skip
 
 
@@ -162,10 +152,3 @@ def _store(start: State, out: np.ndarray) -> None:
     """Advance an ensemble by as many impacts as `out` has room for, and store each of them."""
     x, v, w = (np.array(column) for column in start)
     BALL.map.steps([x, v, w, np.empty(x.size)], BALL.k, BALL.g, out.shape[1], out)
-
-
-def _with_tangent(start: State, impacts: int) -> None:
-    """Advance an ensemble with a tangent vector for each orbit, in units of g R, without sums."""
-    orbits = begin(BALL.k, [np.array(column) / BALL.g for column in start], 0.0, 0.0)
-    windows, sums = np.zeros((0, 2), np.int64), np.zeros((0, LANES))
-    propagate_with_tangent(orbits, BALL.k, 0, impacts, windows, windows, sums, sums)

@@ -56,10 +56,9 @@ _SHIFTS = sorted(
     ((i, 13 * j) for i in range(-600, 601, 10) for j in range(-60, 61) if abs(i) > 15),
     key=lambda shift: ((1.5 if shift[0] > 0 else 2.0) * shift[0]) ** 2 + shift[1] ** 2,
 )
-_KEY_COLUMNS, _KEY_LINE = 3, 42  # of a key; pixels: height of its lines
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
-method_key = partial(key, columns=_KEY_COLUMNS, size=7.0)
+method_key = partial(key, columns=3, size=7.0)
 
 
 class AxisWithZero(Axis):
@@ -259,7 +258,7 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     """
     entries = _entries(data["name"].values, data["family"].values)
     named = _kinds(entries)
-    sheet, top = chart_sheet(1135, named)
+    sheet, top = chart_sheet(1230)
     drift = _from_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
@@ -384,10 +383,9 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     return sheet.figure
 
 
-def chart_sheet(least: int, entries: Sequence[Entry] = ()) -> tuple[Sheet, int]:
-    """Return a sheet for a height in pixels and a key, and the upper end of its first frame."""
-    lines = math.ceil(len(entries) / _KEY_COLUMNS)
-    high = 75 * math.ceil((least + lines * _KEY_LINE) / 75)  # whole quarters of an inch
+def chart_sheet(least: int) -> tuple[Sheet, int]:
+    """Return a sheet at least as high as that in pixels, and the upper end of its first frame."""
+    high = 75 * math.ceil(least / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
 
 

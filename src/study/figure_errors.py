@@ -1,20 +1,8 @@
 """The error of each figure under each compiled method, in pixels, and the cost of the method.
 
-The kind of a picture decides how its error is measured:
-
-    portrait  the drift of the energy over each orbit, as a change of the section's radius, which
-              moves every curve; points that slide along a curve do not show
-    motion    the error of height and time at the impacts, against the proved orbit
-    tangle, closeup
-              the error of one impact on the manifolds' branches, summed over later impacts to
-              1/(1 - 1/m) of it, for the orbit's multiplier m per impact: errors across a branch
-              shrink by 1/m each impact, errors along it do not show
-    exponents the difference of the orbits' mean exponent of a tangent vector from that of other
-              orbits by the march, whose starts are close to theirs
-
-A missed impact puts a point off the orbit. A picture of orbits shows it even if the energy is
-exact; the mean exponent of a long orbit does not. The size of a pixel is that of the drawn figure,
-so this stage imports the modules that draw.
+The kind of a picture decides how its error is measured (MEASURES). A missed impact puts a point off
+the orbit. A picture of orbits shows it even if the energy is exact; the mean exponent of a long
+orbit does not. A pixel is that of the drawn figure, so this stage imports the modules that draw.
 """
 
 import math
@@ -108,7 +96,10 @@ def figure_errors(
 
 
 def _portrait(block: Block) -> PictureErrors:
-    """Measure the drift of the energy, as a change of the section's radius."""
+    """Measure the drift of the energy, as a change of the section's radius, which moves curves.
+
+    Points that slide along a curve do not show.
+    """
     ball, orbits, counts = _orbits(block)
     pixel = _pixel_of_box(block)
     _, radius = ball.section(block["energy"])
@@ -122,10 +113,11 @@ def _portrait(block: Block) -> PictureErrors:
 
 
 def _exponents(block: Block) -> PictureErrors:
-    """Measure the difference of the orbits' mean exponent from that of other orbits.
+    """Measure the difference of a tangent vector's mean exponent from that of other orbits.
 
-    No method has the exponent of a true orbit, the march neither: chaotic orbits by two methods
-    are apart after some 100 impacts, and their exponents then are two draws.
+    These are orbits by the march, whose starts are close. No method has the exponent of a true
+    orbit, the march neither: chaotic orbits by two methods are apart after some 100 impacts, and
+    their exponents then are two draws.
     """
     ball, orbits, counts = _orbits(block)
     _, pixel = _pixels(exponents.empty_picture(block))
@@ -174,7 +166,11 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
-    """Measure the error of one impact on the manifolds' branches, summed over later impacts."""
+    """Measure the error of one impact on the manifolds' branches, summed over later impacts.
+
+    The sum is 1/(1 - 1/m) of it, for the orbit's multiplier m per impact: errors across a branch
+    shrink by 1/m each impact, and errors along it do not show.
+    """
     ball = Ball(**block["ball"])
     in_box = "view" in block
     pixel = _pixel_of_box(block) if in_box else _pixels(closeup.empty_picture(block))[0]

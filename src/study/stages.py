@@ -1,8 +1,6 @@
 """Comparisons of the methods. Their data are equal on every machine.
 
-`work` compares accuracy and cost, `edges` failures near grazing and at near misses, `drift` orbits
-of a million impacts, and `misses` counts the impacts missed in long runs. A flight time fails if it
-is missing or another root's (`is_wrong`).
+A flight time fails if it is missing or another root's (`is_wrong`).
 
 What libraries give differs between machines in the last digits, and takes long. It was computed
 once by tests/study/record.py, with what else takes long, and is read from recorded.json.

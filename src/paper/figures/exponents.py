@@ -162,7 +162,7 @@ def _free_room(
     """Return a frame for an inset with the vertical axis `up` that no line passes, or None.
 
     It lies between the first two of `ends`, at which the lines end at `reach`, if no line comes
-    between them, or else where there is room near the first. Lines and ends are pixels.
+    between them, or else where there is most room. Lines and ends are pixels.
     """
     left, bottom, right, top = picture.frame
     start, end = left + 0.2 * (right - left), right - 0.05 * (right - left)
@@ -180,10 +180,8 @@ def _free_room(
     for low, high in sorted([*lines, (top, top)]):
         bands.append((below, min(low, top)))
         below = max(below, high)
-    bands.sort(key=lambda band: (band[0] >= first, -band[1]))  # downwards, then above the first
-    if bottom <= second and first <= top:
-        bands.insert(0, (second, first))
-    for low, high in bands:
+    widest = max(bands, key=lambda band: band[1] - band[0])
+    for low, high in ((max(second, bottom), min(first, top)), widest):
         frame = start, low + _LABELS + 1.6 * _Inset.size * POINT, end, high - 0.18 * (high - low)
         if high - low > _INSET_ROOM and not any(_meets(frame, *line) for line in lines):
             return frame

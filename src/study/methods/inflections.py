@@ -1,12 +1,8 @@
 """The method of inflections: between two zeros of f'' the gap is convex or concave.
 
 The zeros are known in closed form, and there P = -g and Q = +-sqrt(x^2 + c^2 - g^2), so that the
-gap and its speed need no sine. A convex piece that begins below the floor has a root if it ends
-above it, and then one only. On a concave piece Newton's method from the left cannot pass the first
-root. docs/method.md has the argument, and what rounding does to it.
-
-The first step, the end of the search and the landing are those of the march. Each inverse function
-counts as one evaluation. Angles are computed from + - * / alone, as sine and cosine are.
+gap and its speed need no sine. docs/method.md has the rest of the argument, and what rounding does
+to it. Angles are computed from + - * / alone, as sine and cosine are.
 """
 
 import math
