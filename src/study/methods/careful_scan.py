@@ -1,12 +1,7 @@
 """A scan with care: steps of constant length, a look at each maximum of the gap, a fast landing.
 
-The first step is no longer than a bound of the first root, and near the impact the gap is computed
-without the terms that cancel (`pseudorigid.kernel.flight`). The gap's speed comes from the same
-sine and cosine. Where it falls through 0 between two steps, Newton's method looks for the maximum
-of the gap, unless the parabola through a point well below the floor stays below it.
-
-It has no proof: the gap's speed may rise and fall within one step. The best form takes whatever it
-can use from the march: its first step, its landing, from below as well, and its impact-free time.
+src/study/README.md describes its forms, of which the best takes whatever it can use from the march.
+It has no proof: the gap's speed may rise and fall within one step.
 """
 
 import math
