@@ -25,7 +25,6 @@ from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
 REPETITIONS = 9  # of a call
-SLOW_REPETITIONS, SLOW_SECONDS = 3, 0.5  # of a call that takes longer
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
 UNITS = (1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")
@@ -48,14 +47,12 @@ def run(args: Arguments) -> int:
     timed = calls()
     for module in more:
         timed |= module.calls()
-    seconds, times = _interleaved(timed)
-    lines = [f"{'':42}{'median (lowest-highest)':>30}  times  {'ratio':>7}  {'to':24}aim"]
+    seconds = _interleaved(timed)
+    lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
     for name, call in timed.items():
         if call.base:
-            ratio = f"{times[name]:5}  {seconds[name][0] / seconds[call.base][0]:7.4g}"
-            lines.append(
-                f"{name:42}{_spread(seconds[name]):>30}  {ratio}  {call.base:24}{call.aim}"
-            )
+            ratio = f"{seconds[name][0] / seconds[call.base][0]:7.4g}  {call.base:24}{call.aim}"
+            lines.append(f"{name:42}{_spread(seconds[name]):>30}  {ratio}")
     lines += [f"{name}: {_spread(seconds[name])}" for name in (THREE, SPECTRUM)]
     for module in more:
         lines += module.lines(seconds)
@@ -73,31 +70,30 @@ def calls() -> dict[str, Call]:
         columns, _ = certified_orbit(BALL, sea, count)
         return Call(lambda: method.solve(BALL, *columns), count, base, aim)
 
-    def of_one_orbit(method: counted.CountedMethod, aim: str) -> Call:
-        return Call(lambda: method.orbit(BALL, sea, n), n, BY_MARCH, aim)
+    def of_one_orbit(method: counted.CountedMethod, aim: str, base: str = BY_MARCH) -> Call:
+        return Call(lambda: method.orbit(BALL, sea, n), n, base, aim)
 
     def spectrum(states: State, impacts: int) -> object:
         return lyapunov_spectrum(BALL, states, impacts, records=1)
 
-    heyoka = libraries.taylor_method(1e-15)
     cyrk, dop853 = libraries.cyrk_method("DOP853", 1e-9), libraries.ivp_method("DOP853", 1e-9)
     n, of_stored = IMPACTS, LANES * 200
     return {
         THREE: Call(lambda: _three_sincos(1.0, n), n),
         ONE: Call(lambda: _three_sincos(1.0, n), 3 * n),
         ORBIT: Call(lambda: BALL.after(sea, n), n, THREE, "at most 2.3"),
-        BY_MARCH: of_one_orbit(counted.OURS, "at most 1.15")._replace(base=ORBIT),
+        BY_MARCH: of_one_orbit(counted.OURS, "at most 1.15", ORBIT),
         "one orbit by inflections": of_one_orbit(counted.INFLECTIONS, "0.85 to 1.05"),
         "by inflections, simple": of_one_orbit(counted.SIMPLE_INFLECTIONS, "0.95 to 1.2"),
         "by the best scan, steps of 1": of_one_orbit(counted.BEST_SCAN, "0.95 to 1.2"),
         "by a careful scan, steps of 1": of_one_orbit(counted.careful_method(1.0), "at least 1.3"),
-        "scan 0.1, bisection to 1e-12, as usual":
-            of_one_orbit(counted.scan_method(0.1, 1e-12), "at least 5"),
+        "usual scan 0.1, bisection to 1e-12": of_one_orbit(counted.SCANS[7], "at least 5"),
         FLIGHTS: flights(counted.OURS, "", 20_000, ""),
         "flights by inflections": flights(counted.INFLECTIONS, "0.85 to 1.05", 20_000, FLIGHTS),
         "heyoka, an orbit in one call (callback)":
             Call(lambda: libraries.taylor_orbit(BALL, sea, n), n, ORBIT, "at least 10"),
-        "heyoka, a call a flight (interpreted)": flights(heyoka, "at least 25"),
+        "heyoka, a call a flight (interpreted)":
+            flights(libraries.taylor_method(1e-15), "at least 25"),
         "CyRK DOP853 with care, rtol 1e-9": flights(cyrk, "at least 100"),
         "solve_ivp DOP853 with care (interpreted)": flights(dop853, "at least 2000", 20),
         SPECTRUM: Call(lambda: spectrum(sea, n), n),
@@ -112,22 +108,20 @@ def calls() -> dict[str, Call]:
     }  # fmt: skip
 
 
-def _interleaved(timed: dict[str, Call]) -> tuple[dict[str, Triple], dict[str, int]]:
-    """Return median, lowest and highest seconds a unit of each call, and how often it was timed.
+def _interleaved(timed: dict[str, Call]) -> dict[str, Triple]:
+    """Return median, lowest and highest seconds a unit of each call.
 
     Before this each call is made once, so that it compiles.
     """
     for call in timed.values():
         call.function()
     seconds: dict[str, list[float]] = {name: [] for name in timed}
-    for turn in range(REPETITIONS):
+    for _ in range(REPETITIONS):
         for name, call in timed.items():
-            if turn < SLOW_REPETITIONS or seconds[name][0] * call.units < SLOW_SECONDS:
-                start = time.process_time()
-                call.function()
-                seconds[name].append((time.process_time() - start) / call.units)
-    spreads = {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
-    return spreads, {name: len(s) for name, s in seconds.items()}
+            start = time.process_time()
+            call.function()
+            seconds[name].append((time.process_time() - start) / call.units)
+    return {name: (statistics.median(s), min(s), max(s)) for name, s in seconds.items()}
 
 
 def _spread(seconds: Triple) -> str:

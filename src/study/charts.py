@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike
 
+from pseudorigid.figures.axes.labels import label
 from pseudorigid.figures.axes.limits import decades
-from pseudorigid.figures.axes.panel import Axis, Frame, Panel, corner, key, letters, title
+from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
+from pseudorigid.figures.axes.zero import PanelWithZeros, axis_with_zero
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT, Sheet, width
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 # Colour and mark of each family of methods. The five that matter most have a colour and a label
 # beside their marks, others are grey, and captions name them. A method has one mark in all charts,
@@ -47,46 +48,12 @@ _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which 
 _COSTS = {"evaluations": (0, 4), "seconds": (-8, -2)}  # decades
 _RECORD, _IMPACT = 10, 20  # places at which lines have labels
 _ROW = 27  # pixels: height of a row of a table
-_BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 # Colour, mark and rise in a row of each family of hard states.
 _SEARCHES = (style.BLACK, "o", 0.2), ("#9a9a9a", "D", 0.0), (style.SKY, "v", -0.2)
 _COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
-# Shifts of a label in pixels, the nearest first; those to the left count as farther away.
-_SHIFTS = sorted(
-    ((i, 13 * j) for i in range(-600, 601, 10) for j in range(-60, 61) if abs(i) > 15),
-    key=lambda shift: ((1.5 if shift[0] > 0 else 2.0) * shift[0]) ** 2 + shift[1] ** 2,
-)
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
 method_key = partial(key, columns=3, size=7.0)
-
-
-class AxisWithZero(Axis):
-    """An axis of decades whose lower end stands for zero and for all that is less than it."""
-
-    def fraction(self, values: ArrayLike) -> np.ndarray:
-        """Return where values lie between the limits, 0 to 1."""
-        return super().fraction(np.maximum(values, float(f"1e{self.limits[0]}")))
-
-    def texts(self) -> Sequence[str]:
-        """Return the labels of the ticks, the first of which is zero."""
-        return self.labels or ["0", *super().texts()[1:]]
-
-
-class PanelWithZeros(Panel):
-    """A panel that marks the gap between zero and the powers of ten on an axis that has both."""
-
-    def __init__(self, sheet: Sheet, frame: Frame, across: Axis, up: Axis) -> None:
-        super().__init__(sheet, frame, across, up)
-        left, bottom, *_ = frame
-        for axis, start, level in ((across, left, bottom), (up, bottom, left)):
-            if not isinstance(axis, AxisWithZero):
-                continue
-            for shift, rise, color, points in ((0, 0, "white", 1.6), *_BREAK_STROKES):
-                along = [start + 30 + shift + end for end in (-5, 5)]
-                off = [level - rise, level + rise]
-                ends = (along, off) if axis is across else (off, along)
-                sheet.draw(*ends, color=color, lw=points, zorder=3.5)
 
 
 @style.pinned()
@@ -108,7 +75,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     entries = _entries(families, families)
     sheet, top = chart_sheet(1260)
     across = decades(_COSTS[cost], f"{cost.capitalize()} per flight")
-    median = _from_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
+    median = axis_with_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
     worst = replace(median, name="Worst relative error")
     panels = (
         PanelWithZeros(sheet, (LEFT, top - 480, RIGHT, top), across.blank(), median),
@@ -138,7 +105,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
                 ratio = times[method["name"].item()] / times["certified march"]
                 short += f": {_two_digits(method['evaluations'])}, {_two_digits(ratio)}"
             labels.append((x[own[-1]], y[own[-1]], short, color))
-        _label(panel, drawn, labels, [note])
+        label(panel, drawn, labels, [note])
     text = "labels: evaluations, time (march: 1)"
     sheet.text(RIGHT - 12, note[1] + 22, text, ha="right", size=7.0)
     return sheet.figure
@@ -147,39 +114,6 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
 def _two_digits(value: Any) -> str:
     """Return a number with two digits, or all before the decimal point."""
     return f"{float(f'{float(value):.2g}'):g}"
-
-
-def _label(
-    panel: Panel,
-    drawn: Sequence[np.ndarray],
-    labels: Sequence[tuple[float, float, str, str]],
-    taken: Sequence[tuple[float, ...]] = (),
-) -> None:
-    """Write each text (x, y, text, colour) near its point, where it hides no line and no text.
-
-    `drawn` has the vertices of lines (n, 2) in pixels, and `taken` frames of other texts.
-    """
-    steps = np.linspace(0.0, 1.0, 40)[:, None, None]
-    lines = [(line[:-1] + steps * np.diff(line, axis=0)).reshape(-1, 2) for line in drawn]
-    marks = np.concatenate([*lines, *drawn])
-    left, bottom, end, top = panel.frame
-    taken = [*taken]
-    for across, up, text, color in sorted(labels):
-        (own_x,), (own_y,) = (a.tolist() for a in panel.place(across, up))
-        wide = width(text, 7.0) + 2
-        for right, high in _SHIFTS:
-            at, middle = own_x + (right if right > 0 else right - wide), own_y + high
-            box = at - 4, middle - 12, at + wide, middle + 12
-            hides = (marks > box[:2]).all(axis=1) & (marks < box[2:]).all(axis=1)
-            over = any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3]
-                       for b in taken)  # fmt: skip
-            inside = left < box[0] and box[2] < end and bottom < box[1] and box[3] < top
-            if inside and not over and not hides.any():
-                break
-        taken.append(box)
-        near = at - 4 if at > own_x else at + wide - 4
-        panel.sheet.draw([own_x, near], [own_y, middle], color=color, lw=0.4, zorder=3)
-        panel.sheet.text(at, middle, text, size=7.0, color=color)
 
 
 def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> list[Entry]:
@@ -195,7 +129,7 @@ def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> lis
         drawn.append(np.stack(panel.place(x, y), axis=1))
         if text.startswith("scan") and entry not in entries[:i]:
             labels.append((x[at], y[at], text.rpartition(", ")[2], style.BLACK))
-    _label(panel, drawn, labels)
+    label(panel, drawn, labels)
     return entries
 
 
@@ -259,10 +193,10 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     entries = _entries(data["name"].values, data["family"].values)
     named = _kinds(entries)
     sheet, top = chart_sheet(1230)
-    drift = _from_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
+    drift = axis_with_zero(_ZERO_DECADE, 1, "Largest relative error of the energy so far")
     upper = PanelWithZeros(sheet, (LEFT, top - 430, RIGHT, top), decades((0, 6), "Impacts"), drift)
     across = decades((-13, 1), "Largest relative error of the energy after all impacts")
-    up = replace(_from_zero(-1, 4, "Impacts missed in a million", 1), labels=_COUNTS)
+    up = replace(axis_with_zero(-1, 4, "Impacts missed in a million", 1), labels=_COUNTS)
     lower = PanelWithZeros(sheet, (LEFT, top - 940, RIGHT, top - 600), across, up)
     letters(sheet, upper.frame, lower.frame)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
@@ -289,7 +223,7 @@ def separation(scene: Scene, data: xr.Dataset) -> Figure:
     """Draw the distance of each method's orbit from the proved one, from `stages.drift`."""
     sheet, top = chart_sheet(975)
     across = Axis((0, 170), (0, 50, 100, 150), "Impacts")
-    up = _from_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
+    up = axis_with_zero(_ZERO_DECADE, 0, "Median distance in $x$ from the proved orbit")
     panel = PanelWithZeros(sheet, (LEFT, top - 600, RIGHT, top), across, up)
     named = _kinds(_lines(panel, data, "impact", "apart", _IMPACT))
     method_key(sheet, [(*entry[:2], "", _dashes(entry)) for entry in named], top - 740)
@@ -309,7 +243,7 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     middles = [scenes - 0.5 - i for i in range(scenes)]
     names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
     up = Axis((0, scenes), middles, labels=names)
-    across = _from_zero(-16, 6, "Error of the picture / what it can hide")
+    across = axis_with_zero(-16, 6, "Error of the picture / what it can hide")
     panel = PanelWithZeros(sheet, (LEFT, bottom, 720, top), across, up)
     panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
     heading = "Evaluations per impact, of the two cheapest that suffice"
@@ -345,7 +279,7 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     entries = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
     sheet, top = chart_sheet(925 + 56 * rows)
-    up = replace(_from_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
+    up = replace(axis_with_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
     flights = [*data["flights"].values, *data["long_flights"].values]
     powers = [len(str(n)) - 1 for n in flights]
     labels, limits = [rf"$10^{power}$" for power in powers], (2.8, powers[-1] + 2.1)
@@ -364,12 +298,12 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
         short = re.sub(r"careful (scan) (.*) \((.*)\)", r"\3 \1 \2", text).partition(",")[0]
         notes.append((x[-1], count[-1], short, style.BLACK))
         drawn.append(np.stack(upper.place(x, count), axis=1))
-    _label(upper, drawn, notes, [(LEFT, top - 30 - 40 * len(none), LEFT + 255, top)])
+    label(upper, drawn, notes, [(LEFT, top - 30 - 40 * len(none), LEFT + 255, top)])
     for i, text in enumerate(["none missed among:", *none]):
         upper.note(2.9, 10**4.0, text, (0, -9 * i))
     high = top - 640
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
-    share = _from_zero(-7, 0, "Share of hard states at which it fails", 2)
+    share = axis_with_zero(-7, 0, "Share of hard states at which it fails", 2)
     middles = [rows - 0.5 - i for i in range(rows)]
     labels = [_printed(name, re.sub(" with care, 1e.*", "", name)) for name in searched]
     lower = PanelWithZeros(sheet, frame, share, Axis((0, rows), middles, labels=labels))
@@ -387,12 +321,6 @@ def chart_sheet(least: int) -> tuple[Sheet, int]:
     """Return a sheet at least as high as that in pixels, and the upper end of its first frame."""
     high = 75 * math.ceil(least / 75)  # whole quarters of an inch
     return Sheet(style.COLUMN, high), high - 70
-
-
-def _from_zero(low: int, high: float, name: str, every: int = 4) -> AxisWithZero:
-    """Return an axis of decades with ticks at its lower end, which stands for zero, and above."""
-    ticks = [low, *range(-(-(low + 1) // every) * every, int(high) + 1, every)]
-    return AxisWithZero((low, high), ticks, name, True)
 
 
 def _entries(names: Iterable[str], families: Iterable[str]) -> list[Entry]:

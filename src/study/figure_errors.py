@@ -25,19 +25,18 @@ from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 from pseudorigid.verified import reference_solver
 
-from .methods.counted_methods import (
-    BEST_METHODS,
-    CAREFUL_SCANS,
-    ENGINES,
-    OURS,
-    SCANS,
-    CountedMethod,
-)
+from .methods import counted_methods as counted
 from .stages import certified_orbit, dataset, energy_drift, is_wrong, proved_times, states_before
 
 # The march, inflections, the best careful scan and a simpler one, the usual scans with steps 0.5
 # and 0.1, the finest scan, and all engines but the coarsest.
-METHODS = *BEST_METHODS, CAREFUL_SCANS[0], *SCANS[:8], SCANS[-1], *ENGINES[1:]
+METHODS = (
+    *counted.BEST_METHODS,
+    counted.CAREFUL_SCANS[0],
+    *counted.SCANS[:8],
+    counted.SCANS[-1],
+    *counted.ENGINES[1:],
+)
 _AXIS = "unit of the axis"  # R for positions, 1/omega for times, 1 for exponents
 # Standard deviation, between orbits, of the exponent after 2e5 impacts with any method. A
 # difference below three standard errors of the orbits' mean does not show.
@@ -126,7 +125,7 @@ def _exponents(block: Block) -> PictureErrors:
         for method in METHODS
     ]
     others = [
-        _vector_exponent(OURS, ball, (x + i * _ASIDE, xdot, udot), impacts)
+        _vector_exponent(counted.OURS, ball, (x + i * _ASIDE, xdot, udot), impacts)
         for (x, xdot, udot), impacts in orbits
         for i in range(1, _OTHERS + 1)
     ]
@@ -136,7 +135,9 @@ def _exponents(block: Block) -> PictureErrors:
     return PictureErrors(error, *counts, pixel, limit, False)
 
 
-def _vector_exponent(method: CountedMethod, ball: Ball, state: State, impacts: int) -> float:
+def _vector_exponent(
+    method: counted.CountedMethod, ball: Ball, state: State, impacts: int
+) -> float:
     """Return the exponent of a tangent vector, which tends to the largest Lyapunov exponent."""
     track, _ = method.orbit(ball, state, impacts)
     x, xdot, udot = states_before(state, track)
@@ -161,8 +162,7 @@ def _motion(block: Block, periodic: xr.Dataset) -> PictureErrors:
         error.append(float(max(time_error.max(), height_error.max())))
         evaluations.append(count / impacts)
     missed, *_ = _count_misses(ball, *certified_orbit(ball, state, impacts))
-    counts = missed, np.array(evaluations), impacts
-    return PictureErrors(np.array(error), *counts, up)
+    return PictureErrors(np.array(error), missed, np.array(evaluations), impacts, up)
 
 
 def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> PictureErrors:
@@ -189,8 +189,7 @@ def _branches(block: Block, periodic: xr.Dataset, manifolds: xr.Dataset) -> Pict
         distance = np.abs(_next_states(ball, columns, tau) - exact).max(axis=0)
         largest = distance[~is_wrong(tau, truth)].max(initial=0.0)
         error.append(largest / (1.0 - 1.0 / growth) / pixel)
-    counts = _count_misses(ball, columns, truth)
-    return PictureErrors(np.array(error), *counts, pixel)
+    return PictureErrors(np.array(error), *_count_misses(ball, columns, truth), pixel)
 
 
 MEASURES: dict[str, Callable[..., PictureErrors]] = {

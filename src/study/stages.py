@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.ball import Ball, Result, State
+from pseudorigid.dynamics.ball import Ball, State
 from pseudorigid.dynamics.variables import LENGTH, described
 from pseudorigid.verified import reference_solver
 
@@ -176,9 +176,8 @@ def drift(impacts: int = MILLION) -> xr.Dataset:
 
 def misses(most: int = 10 * MILLION) -> xr.Dataset:
     """Count misses among ten million flights or `most`, with the recorded counts and searches."""
-    return xr.merge(
-        [missed_flights(most=most), recorded("flights"), recorded("search")], compat="override"
-    )
+    parts = missed_flights(most=most), recorded("flights"), recorded("search")
+    return xr.merge(parts, compat="override")
 
 
 def missed_flights(
@@ -223,9 +222,8 @@ def recorded(name: str) -> xr.Dataset:
 
 def with_recorded(data: xr.Dataset, name: str) -> xr.Dataset:
     """Return the methods of a dataset and then the recorded ones."""
-    return xr.concat(
-        [data, recorded(name)], "method", data_vars="minimal", combine_attrs="override"
-    )
+    parts = data, recorded(name)
+    return xr.concat(parts, "method", data_vars="minimal", combine_attrs="override")
 
 
 def dataset(
@@ -278,11 +276,9 @@ def states_before(state: State, track: np.ndarray) -> np.ndarray:
 def energy_drift(ball: Ball, state: State, track: np.ndarray) -> np.ndarray:
     """Return, at each impact of a track, the largest relative error of the energy up to it."""
 
-    def energy(x: Result, v: Result, w: Result) -> Result:
-        return (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
-
-    first = energy(*state)
-    return np.maximum.accumulate(np.abs(energy(*track[:3]) - first) / abs(first))
+    x, v, w = np.column_stack((np.array(state), track[:3]))
+    energy = (0.5 * v * v + 0.5 * ball.k * w * w) + x * (0.5 * ball.k * x - ball.g)
+    return np.maximum.accumulate(np.abs(energy[1:] - energy[0]) / abs(energy[0]))
 
 
 def _accuracy(method: Method, columns: np.ndarray, truth: np.ndarray) -> tuple[float, ...]:

@@ -122,13 +122,17 @@ def _islands(cells: np.ndarray) -> np.ndarray:
 def _at_same(
     centres: np.ndarray, islands: np.ndarray, place: np.ndarray, others: np.ndarray, reach: float
 ) -> np.ndarray:
-    """Return which centres are at the island of the outer one of two curves that is at `place`."""
-    if min(len(islands), len(others)) < 2:
+    """Return which centres are at an island nested with one at `place`, all if none are nested."""
+    nested = _lies_in(islands, others) | _lies_in(others, islands).T
+    if min(nested.shape) < 2 or not (nested.any(axis=0).all() or nested.any(axis=1).all()):
         return np.full(centres.shape[1], True)
-    larger = max(islands, others, key=lambda frames: (frames[:, 2:] - frames[:, :2]).sum())
-    larger = larger + np.array([-reach, -reach, reach, reach])
-    near, here = (
-        np.all((larger[:, None, :2] < at) & (at < larger[:, None, 2:]), axis=2)
-        for at in (centres.T, place)
-    )
-    return np.asarray(near[here[:, 0]].any(axis=0))
+    wide = np.array([-reach, -reach, reach, reach])
+    there = _lies_in(np.tile(place, 2), others + wide)[0]
+    own = islands[nested[:, there].any(axis=1)] + wide
+    return np.any(_lies_in(np.tile(centres.T, 2), own), axis=1)
+
+
+def _lies_in(frames: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return whether each frame (n, 4) lies in each of the others (m, 4)."""
+    beyond = (frames[:, None] - others) * [1.0, 1.0, -1.0, -1.0]
+    return np.all(beyond >= 0.0, axis=2)
