@@ -37,11 +37,6 @@ COMMANDS = {
         "make the present figures the committed ones",
         details="Includes other published pictures that were made, and prints what changed.",
     ),
-    "clean": Command(
-        "delete generated results; committed files stay",
-        names("folder", "variants, or other folders of results/; without a name, all"),
-        switch("--yes", "do not ask"),
-    ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
         packages="test",

@@ -139,7 +139,7 @@ class Part(NamedTuple):
     reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
     report: str = ""  # a module with a section of the report
     benchmark: str = ""  # a module with rows of the benchmark
-    generated: tuple[str, ...] = ()  # patterns of files in results/ that its commands write
+    folders: tuple[str, ...] = ()  # in results/, of its commands; no variant has such a name
     committed: str = ""  # a function () -> committed file that pipeline.renew writes -> its text
     # Result -> its seconds on one core. The longest jobs begin first, so that none of them is left
     # over at the end, when the other cores are idle.

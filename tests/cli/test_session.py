@@ -2,14 +2,17 @@
 
 import errno
 import os
+import shutil
 import signal
 import subprocess
 import sys
 
 import pytest
 from project import ROOT
+from verdicts import commit
 
 from pipeline.cli import session
+from pipeline.records.record import git
 
 RUN = """
 import sys
@@ -108,6 +111,15 @@ def test_results_that_are_no_folder_are_one_line(tmp_path, monkeypatch):
     (tmp_path / "results").symlink_to("nowhere")
     with pytest.raises(session.UsageError, match=r"^results is no folder"), session.locked():
         pass
+
+
+def test_results_that_are_a_link_are_ignored_by_git(tmp_path):
+    """As on a cluster; a pattern that ends in a slash would miss the link."""
+    shutil.copy(ROOT / ".gitignore", tmp_path)
+    commit(tmp_path, ".gitignore")
+    for name in ("results", ".snakemake"):
+        (tmp_path / name).symlink_to("/tmp")
+    assert git("status", "--porcelain", root=tmp_path) == b""
 
 
 def test_a_deleted_working_folder_is_one_line(tmp_path):

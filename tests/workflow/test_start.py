@@ -426,12 +426,11 @@ def test_a_bad_folder_of_wheels_is_reported(with_either):
     (needed,) = set_up.wheels.glob("needed*")
     whole = needed.read_bytes()
     needed.write_bytes(whole[:-9] + b"corrupted")
-    damaged = f"reproduce: {needed} is damaged: its hash is not in requirements/"
-    absent = "reproduce: could not install the packages"
-    for expected in (damaged, absent):
+    for words in ("needed==1.0 is damaged: its hash is not in requirements/ ", "ERROR: No match"):
         status, output = set_up.run()
         assert status == 1
-        assert output.splitlines()[-1].startswith(expected)
+        line = f"reproduce: could not install the packages: {words}"
+        assert output.splitlines()[-1].startswith(line)
         assert not (set_up.venv / "stamp").exists()
         needed.unlink(missing_ok=True)
     needed.write_bytes(whole)

@@ -11,6 +11,5 @@ PART = Part(
         ),
     },
     report="extensions.explorer.report",
-    generated=("explorer.html",),
     committed="extensions.explorer.page.committed",
 )

@@ -47,14 +47,5 @@ PART = Part(
             f"{_COMMANDS}.against",
         )
     },
-    generated=(
-        "article.pdf",
-        "site/*.html",
-        "site/article.pdf",
-        "site/paper/*.nc",
-        ".site.*/*",
-        ".site.*/*/*",
-        "archive/pseudorigid.tar",
-        "archive/pseudorigid-python*.tar",
-    ),
+    folders=("site", "archive"),
 )

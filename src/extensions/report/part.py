@@ -19,5 +19,5 @@ PART = Part(
             module="extensions.report.command",
         ),
     },
-    generated=("report/report.html", "compare/*..*/*.png"),
+    folders=("report", "compare"),
 )

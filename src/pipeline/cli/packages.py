@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from contextlib import chdir, suppress
 from pathlib import Path
 
-from ..records.files import FileError, file_hash, read_yaml, write_whole
+from ..records.files import FileError, read_yaml, write_whole
 from ..records.sources import ROOT
 from .arguments import read
 from .session import UsageError, interruptible, locked, one_line, print_error
@@ -144,7 +144,6 @@ def _install(*names: str, again: bool = False) -> None:
     ours = ROOT / _FOLDER  # of a tar with packages, which has only the locked ones
     folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
     if folder:
-        refuse_damaged(Path(folder))
         options += ["--no-index", f"--find-links={folder}"]
     elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
         options += ["--no-index"]
@@ -211,9 +210,15 @@ def _end(process: int) -> None:
 
 
 def _check(succeeded: bool) -> None:
-    """Raise UsageError after a command that failed, with the last line of its log."""
+    """Raise UsageError after a command that failed, with the last line of its log.
+
+    For a package with a wrong hash, pip's last lines are its name, the expected and the found hash.
+    """
     if not succeeded:
-        last = LOG.read_text(errors="replace").rstrip().rpartition("\n")[2][:200]
+        log = LOG.read_text(errors="replace").rstrip()
+        last = log.rpartition("\n")[2][:200]
+        if damaged := re.search(r"(?m)^ +(\S+).*(\n +(Expected|or|Got) .*)+\Z", log):
+            last = f"{damaged[1]} is damaged: its hash is not in requirements/"
         raise UsageError(f"could not install the packages: {last} (log: .venv/install.log)")
 
 
@@ -244,18 +249,6 @@ def pip_environment(settings: dict[str, str]) -> dict[str, str]:
     kept = {_variable(name): value for name, value in settings.items()}
     kept |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
     return _neutral_environment() | kept | {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
-
-
-def refuse_damaged(folder: Path) -> None:
-    """Raise UsageError for a file that has the name of a locked package and other bytes."""
-    names = [file.stem for file in sorted((ROOT / "requirements").glob("*.txt"))]
-    for line in [line for name in names for line in logical_lines(name)]:
-        name, version = re.findall(r"^([\w.-]+)==([^\s;]+)", line)[0]
-        form = re.sub(r"[-_.]+", "[-_.]", name) + rf"-{re.escape(version)}[-.](.*\.)?(whl|gz|zip)"
-        for file in folder.iterdir():
-            named = re.fullmatch(form, file.name, re.IGNORECASE)
-            if named and file.is_file() and file_hash(file) not in HASH.findall(line):
-                raise UsageError(f"{file} is damaged: its hash is not in requirements/")
 
 
 def logical_lines(name: str) -> list[str]:

@@ -2,6 +2,7 @@
 
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
@@ -33,18 +34,6 @@ def test_the_conditions_of_requirements_are_those_of_the_other_python(
     assert len(requirements_for("lock", python)) == (2 if python == "3.11" else 0)
 
 
-@pytest.mark.parametrize(
-    "name", ["numpy-2.4.6-cp311-cp311-any.whl", "connection_pool-0.0.3.tar.gz"]
-)
-def test_a_damaged_package_is_named(tmp_path, name):
-    (tmp_path / "notes.txt").write_text("mine")
-    (tmp_path / "other-1.0-py3-none-any.whl").write_text("another package")
-    packages.refuse_damaged(tmp_path)
-    (tmp_path / name).write_bytes(b"damaged")
-    with pytest.raises(UsageError, match=f"{name} is damaged"):
-        packages.refuse_damaged(tmp_path)
-
-
 @pytest.mark.slow
 def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accepted, tmp_path):
     tree = accepted.copy(tmp_path / "tree")
@@ -68,5 +57,4 @@ def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accept
     path = f"{os.path.dirname(sys.executable)}{os.pathsep}{os.environ['PATH']}"
     result = run(folder / "reproduce", env={"PATH": path, "HOME": str(tmp_path)}, cwd="/")
     assert result.returncode == 1
-    line = f"reproduce: {wheel} is damaged: its hash is not in requirements/"
-    assert result.stderr.splitlines()[-1] == line
+    assert re.search(r"packages: numpy\S* is damaged: ", result.stderr.splitlines()[-1])

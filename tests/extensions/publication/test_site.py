@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from archives import DATA, forge
-from project import ROOT, SHIPPED
+from project import ROOT
 from report_pages import rendered
 
 from extensions.explorer import page as explorer
@@ -16,7 +16,6 @@ from extensions.publication.commands import article, site
 from pipeline import config
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.commands import clean
 from pipeline.cli.session import UsageError
 
 
@@ -87,19 +86,3 @@ def test_the_links_of_the_site_lead_to_its_files_and_the_explorer_may_be_anywher
     for links in pages.values():
         relative = {link.partition("#")[0] for link in links} - {""}
         assert relative and {x for x in relative if not x.startswith("paper/")} <= files
-
-
-def test_clean_deletes_what_was_published_and_nothing_else(tmp_path, monkeypatch):
-    monkeypatch.setattr(clean, "ROOT", tmp_path)
-    monkeypatch.setattr(clean, "RESULTS", tmp_path / "results")
-    monkeypatch.setattr(clean, "locked", nullcontext)
-    mine = {"site/mine.txt", "archive/mine.tar"}
-    ours = {
-        *("article.pdf", "site/report.html", "site/paper/orbits_fig2.nc"),
-        ".site.77.part/paper/orbits_fig2.nc",  # its run was killed
-        "archive/pseudorigid-python3.13-x86_64.tar",
-    }
-    write(tmp_path / "results", *mine, *ours)
-    assert clean.run(Arguments(folder=[], yes=True, config=config.load(SHIPPED))) == 0
-    files = {str(f.relative_to(tmp_path / "results")) for f in tmp_path.rglob("*") if f.is_file()}
-    assert files == mine

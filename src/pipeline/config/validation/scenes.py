@@ -7,7 +7,6 @@ by L^2; bounds are checked before that.
 """
 
 import math
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -24,9 +23,7 @@ from .mistakes import Mistake, Place, refusal, unknown, validate
 
 def reserved_names() -> list[str]:
     """Return the names that a variant may not have: of other folders in results/."""
-    patterns = [p for part in parts().values() for p in part.generated]
-    folders = [p.partition("/")[0] for p in patterns if re.match(r"[\w-]+/", p)]
-    return [*dict.fromkeys([*SETS, *folders])]
+    return [*SETS, *(folder for part in parts().values() for folder in part.folders)]
 
 
 def check_scene(
