@@ -5,8 +5,8 @@ import json
 
 import pytest
 
+from extensions.processors.build import compiled
 from pipeline.declaration import parts
-from pipeline.processors.build import compiled
 
 FILES = {}
 if "atlas" in parts():

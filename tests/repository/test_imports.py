@@ -31,7 +31,7 @@ PACKAGES_OF_PARTS = {
 LAYERS = {
     "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
-        *("cli", "renew", "jobs", "checks", "config", "commands", "processors"),
+        *("cli", "renew", "jobs", "checks", "config", "commands"),
         *("records", "loading", "declaration"),
     ),
 }
@@ -112,20 +112,25 @@ def unguarded(built):
     return graph
 
 
+def with_needs(names):
+    """The names of parts, and of those that they need."""
+    return {*names}.union(*(with_needs(parts()[name].needs) for name in names if name in parts()))
+
+
 def undeclared(graph):
     """Yield (part, another one) if the first needs the second and does not say so."""
     for name, declared in parts().items():
         own = PACKAGES_OF_PARTS[name]
         inside = {module for module in graph.modules if module.startswith(f"{own}.")}
-        for other in parts().keys() - {name, *declared.needs}:
+        for other in parts().keys() - with_needs([name]):
             commands = [each for each in declared.commands.values() if each.module]
-            allowed = {each.module for each in commands if other in each.needs}
+            allowed = {each.module for each in commands if other in with_needs(each.needs)}
             if "benchmark" in parts()[other].commands:  # which alone loads rows of others
                 allowed |= {declared.benchmark} - {""}
             for module in set(allowed):
                 allowed |= graph.find_upstream_modules(module)
             # Modules by which it is entered where the other one is absent.
-            entered = {each.module for each in commands if other not in each.needs}
+            entered = {each.module for each in commands if other not in with_needs(each.needs)}
             entered |= {module for _, _, module in declared.options.values()}
             entered |= {declared.report}
             entered |= {f"{own}.{module}" for module in ("part", "kinds")}
@@ -153,7 +158,7 @@ def names_of_parts():
             found |= getattr(part, declared).keys()
         found |= {each.key for each in part.sets.values()}
         found |= {each.folder for each in part.sets.values()}
-        found |= {pattern.partition("/")[0] for pattern in part.generated}
+        found |= {*part.folders}
     keys = {each.key for each in SETS.values()}
     for file in files("scenes.yaml").values():
         for key, block in yaml.safe_load(file.read_text()).items():

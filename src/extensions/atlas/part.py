@@ -9,6 +9,7 @@ _ARGUMENTS = (
 )
 _MODULE = "extensions.atlas.command"
 PART = Part(
+    needs=("processors",),
     stages={
         "sweep": Stage(
             "extensions.atlas.sweep.dataset_of_a_sweep",

@@ -15,11 +15,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from extensions.processors.build import CompiledFile
 from pipeline import config
 from pipeline.cli.packages import add_packages
 from pipeline.cli.session import UsageError
 from pipeline.declaration import RENEW
-from pipeline.processors.build import CompiledFile
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 

@@ -3,6 +3,7 @@
 from pipeline.declaration import Command, Part, switch
 
 PART = Part(
+    needs=("processors",),
     commands={
         "explore": Command(
             "write and open a page that computes orbits, with the same bits",

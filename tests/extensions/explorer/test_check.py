@@ -5,8 +5,8 @@ import pytest
 from project import ROOT, SHIPPED, wait_for
 
 from extensions.explorer import page
+from extensions.processors.build import CompiledFile
 from pipeline import config
-from pipeline.processors.build import CompiledFile
 from pseudorigid.kernel import arithmetic
 
 SAME = (

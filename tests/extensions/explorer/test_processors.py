@@ -10,7 +10,7 @@ from doubles import bits
 from sections import sea
 
 from extensions.explorer.compiled import entry_points
-from pipeline.processors.build import compiled
+from extensions.processors.build import compiled
 from pseudorigid import Ball, orbit
 from study import states
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from extensions.processors.build import CompiledFile
 from pipeline.checks.freshness import Freshness
 from pipeline.config import Config
 from pipeline.jobs import forks
 from pipeline.jobs.heartbeat import Heartbeat
-from pipeline.processors.build import CompiledFile
 from pipeline.records.build_spec import BuildSpec
 from pipeline.records.record import failure
 from pipeline.records.sources import ROOT, source_files, syntax_hash

@@ -19,9 +19,9 @@ from itertools import count
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..declaration import RENEW
-from ..records.files import file_hash, write_whole
-from ..records.sources import ROOT, source_files, syntax_hash
+from pipeline.declaration import RENEW
+from pipeline.records.files import file_hash, write_whole
+from pipeline.records.sources import ROOT, source_files, syntax_hash
 
 # Read by numba when it is imported. Only LLVM's later pass vectorises, for the other processor.
 _SETTINGS = {
