@@ -4,6 +4,7 @@ import re
 import warnings
 from contextlib import contextmanager
 from importlib import import_module
+from textwrap import dedent
 from unittest.mock import patch
 
 import numpy as np
@@ -13,9 +14,9 @@ from legible import assert_legible
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, reported
 from pipeline.config import ConfigError, check
-from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES, upstream
+from pipeline.declaration import files
 from pseudorigid import Ball
 from pseudorigid.figures.axes.panel import Panel
 from pseudorigid.figures.canvas.render import render
@@ -30,6 +31,15 @@ UNDECIDED = re.compile(
     | rest\sis | (?:as|like)\s(?:for|in|of|on)\s(?:Figure|[`\w]+/|the\s\w+\spicture) )\b""",
     re.VERBOSE,
 )
+
+
+def example(kind):
+    """The YAML text of the example scene of a kind."""
+    for file in files("examples.yaml").values():
+        _, _, text = f"\n{file.read_text(encoding='utf-8')}".partition(f"\n{kind}:\n")
+        if text:
+            return dedent(text.partition("\n\n")[0]).rstrip()
+    raise LookupError(f"{kind}: no example")
 
 
 def checked(kind, **change):

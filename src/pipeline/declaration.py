@@ -18,7 +18,6 @@ and in each `part.py`.
 
 import importlib
 import os
-import re
 import traceback
 from collections.abc import Mapping
 from functools import cache, partial
@@ -26,7 +25,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 SRC = Path(__file__).resolve().parents[1]
-SCHEMA = "config.schema.json"
 ONLY_SET = "PSEUDORIGID_SET"
 RENEW = ".venv/bin/python -m pipeline.renew"  # writes every generated file
 
@@ -181,22 +179,6 @@ def lacking(command: str) -> str | None:
             needed = (*part.needs, *part.commands[command].needs)
             return next((name for name in needed if name not in parts()), None)
     return None
-
-
-def stale_pages() -> str:
-    """Say which parts config.schema.json describes without need, or lacks; empty if it fits."""
-    try:
-        with open(SRC.parent / SCHEMA, encoding="utf-8", errors="replace") as file:
-            lines = file.readline() + file.readline()
-    except OSError:  # there are no generated files
-        return ""
-    described = {*re.findall(r"\w+", lines.partition("Parts:")[2].partition(".")[0])}
-    differ = {
-        "describe parts that are not there": sorted(described - parts().keys()),
-        "lack parts that are there": sorted(parts().keys() - described),
-    }
-    words = [f"{what} ({', '.join(names)})" for what, names in differ.items() if names]
-    return f"generated files {' and '.join(words)}: run {RENEW}" if words else ""
 
 
 def imported(name: str) -> Any:

@@ -1,17 +1,16 @@
-"""Write every generated file: pages, the schema of config.yaml, and what parts declare.
+"""Write every generated file: pages, the schema of config.yaml, and what parts add.
 
     .venv/bin/python -m pipeline.renew
 
-They describe the parts that are there. A page that is written by hand may have one generated
-section, between two comments.
+The fields of a part's scenes are a section of its page, between two comments.
 """
 
 import sys
 
 from .checks import figures_page
 from .checks.published_sets import ChecksumError
-from .config import ConfigError, json_schema, reference
-from .declaration import RENEW, SCHEMA, SRC, SourceError, imported, parts
+from .config import MAIN, ConfigError, reference
+from .declaration import RENEW, SourceError, files, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
@@ -20,21 +19,17 @@ BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. --
 
 def generated() -> dict[str, str]:
     """Map each generated file, by its path from the root, to its text."""
-    texts = {
-        SCHEMA: json_schema.text(),
-        "docs/config.md": reference.page(),
-        "docs/figures.md": figures_page.page(),
-    }
+    texts = {"config.schema.json": reference.json_schema(), "docs/figures.md": figures_page.page()}
     for part in parts().values():
         texts |= imported(part.committed)() if part.committed else {}
-    folders = [f.parent for f in (*SRC.glob("*/part.py"), *SRC.glob("extensions/*/part.py"))]
-    sections = {folder / "README.md": reference.section(folder.name) for folder in folders}
-    for file, section in {ROOT / "README.md": reference.table_of_parts(), **sections}.items():
-        if file.exists() or (section and file.parent != ROOT):
-            text = read_text(file) if file.exists() else f"# {file.parent.name}\n"
-            if section and BEGIN not in text:
-                text += f"\n{BEGIN}{END}"
-            texts[str(file.relative_to(ROOT))] = with_section(text, BEGIN, section, END)
+    for package, file in files("part.py").items():
+        part = package.rpartition(".")[2]
+        main = MAIN in parts()[part].sets
+        page = ROOT / "docs" / "config.md" if main else file.with_name("README.md")
+        if section := reference.fields(part):
+            text = read_text(page) if page.exists() else f"# {part}\n"
+            text += f"\n{BEGIN}{END}" if BEGIN not in text else ""
+            texts[str(page.relative_to(ROOT))] = with_section(text, BEGIN, section, END)
     if (ROOT / "codecheck.yml").exists():
         text = read_text(ROOT / "codecheck.yml")
         manifest = figures_page.codecheck_manifest()

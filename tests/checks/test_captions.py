@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from examples import PAPER, SHELL, assert_decided, checked, computed
+from examples import PAPER, SHELL, assert_decided, checked, computed, example
 from project import ROOT, SHIPPED
 
 from pipeline import config
@@ -14,7 +14,6 @@ from pipeline.checks.captions import CAPTIONS, caption_of
 from pipeline.checks.figures_page import _captions, page
 from pipeline.checks.quantities import facts
 from pipeline.config import PUBLISHED
-from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
 
 SADDLE = {"ball": PAPER, "period": 6, "type": "hyperbolic", "energy": 0.01, "starts": [-0.2]}

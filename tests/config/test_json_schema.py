@@ -1,17 +1,16 @@
 """config.schema.json accepts config.yaml and refuses mistakes in one value."""
 
 import pytest
+from examples import example
 from project import ROOT, SHIPPED, check_jsonschema
 
-from pipeline.config.reference import example
 from pipeline.config.schema.kinds import KINDS
-from pipeline.declaration import SCHEMA
 
 
 def check(text, folder):
     """Check a config by the schema: return the exit status and what is printed."""
     (folder / "config.yaml").write_text(text)
-    return check_jsonschema("--schemafile", ROOT / SCHEMA, folder / "config.yaml")
+    return check_jsonschema("--schemafile", ROOT / "config.schema.json", folder / "config.yaml")
 
 
 def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):

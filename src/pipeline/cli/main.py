@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from ..commands import DEFAULT_COMMAND, all_commands, module_of
-from ..declaration import SourceError, imported, stale_pages
+from ..declaration import SourceError, imported
 from ..records.files import memory_is_short
 from . import arguments
 
@@ -60,10 +60,7 @@ def _run(words: list[str]) -> int:
 
             add_packages(command.packages)
         run = imported(f"{module_of(command, args.word, vars(args))}.run")
-        status = int(run(args))
-        if command.runs_snakemake and (fault := stale_pages()):
-            print_error(fault)
-        return status
+        return int(run(args))
     except ConfigError as error:
         print(error, file=sys.stderr)
     except (UsageError, FileError, ChangedError) as error:

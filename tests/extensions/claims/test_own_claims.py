@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import pytest
 import yaml
+from examples import example
 from project import fresh_tree, of_scenes, shipped
 
 from extensions.claims import command
 from pipeline import config
 from pipeline.cli.session import UsageError
-from pipeline.config.reference import example
 
 MINE = {"mine": yaml.safe_load(example("clusters"))}
 

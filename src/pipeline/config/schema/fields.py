@@ -123,7 +123,9 @@ class PartOfBall(Block):
     """a mapping with the keys k and g, or one of them"""
 
     k: Inertia = ABSENT
+    """Dimensionless Euler inertia."""
     g: Gravity = ABSENT
+    """Gravity in R omega^2."""
 
 
 class Axis(Block):
