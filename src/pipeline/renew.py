@@ -20,8 +20,8 @@ BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. --
 def generated() -> dict[str, str]:
     """Map each generated file, by its path from the root, to its text."""
     texts = {"config.schema.json": reference.json_schema(), "docs/figures.md": figures_page.page()}
-    for part in parts().values():
-        texts |= imported(part.committed)() if part.committed else {}
+    for declared in parts().values():
+        texts |= imported(declared.committed)() if declared.committed else {}
     for package, file in files("part.py").items():
         part = package.rpartition(".")[2]
         main = MAIN in parts()[part].sets
