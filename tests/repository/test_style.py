@@ -43,13 +43,6 @@ def test_no_setting_of_git_changes_a_file(tmp_path):
     assert attributes.splitlines() == [f"{file}: text: unset" for file in files]
 
 
-@pytest.mark.parametrize("shell", ["sh", "dash", "bash"])
-def test_the_shell_can_read_reproduce(shell):
-    if shutil.which(shell) is None:
-        pytest.skip(f"no {shell} here")
-    succeed(shell, "-n", "reproduce")
-
-
 def pins(path):
     """Name -> version of every `name==version` in a file."""
     text = (ROOT / path).read_text()
