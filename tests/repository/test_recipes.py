@@ -1,70 +1,31 @@
-"""The recipes of CONTRIBUTING in a copy: an extension with a kind and a stage, in one folder."""
+"""The recipe of CONTRIBUTING for a kind of picture, followed in a copy: its tests are green."""
 
-import json
+import os
+import re
+import shutil
 
-import numpy as np
 import pytest
-from project import APART, fresh_tree
-from runs import rows
+from project import ROOT, Tree, run
+from verdicts import commit
 
-from pipeline.declaration import SCHEMA
-from pipeline.records.artifacts import load
-
-FILES = {
-    "__init__.py": '"""Returns of orbits."""',
-    "part.py": '''
-"""What returns add to the pipeline."""
-
-from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage
-
-PART = Part(
-    stages={"flights": Stage("extensions.returns.flights.mean_flights", inputs=("orbits",))},
-    sets={
-        "returns": SceneSet(
-            "more_figures/returns", "./reproduce returns", "Returns", key="returns"
-        )
-    },
-    commands={
-        "returns": SnakemakeCommand("draw returns, in more_figures/returns/", scenes="returns"),
-    },
-)
-''',
-    "flights.py": '''
-"""Mean time of flight of orbits."""
-
-import numpy as np
-import xarray as xr
-
-from pseudorigid.dynamics.variables import variables
-
-
-def mean_flights(ball, energy, orbits):
-    """Compute the mean time of flight of each orbit."""
-    ends = np.cumsum(orbits["row_size"].values)[:-1]
-    means = [part.mean() for part in np.split(orbits["tau"].values, ends)]
-    return xr.Dataset(variables("orbit", [np.array(means)], {"mean": "mean time of flight"}))
-''',
-    "kinds.py": '''
-"""Next position against the present one."""
-
-from typing import Literal
-
-from paper.groups import OfOrbits
-from pipeline.config.schema.fields import Axis
-
+KIND = '''
 
 class Returns(OfOrbits):
     """the next position against the present one"""
 
-    stages = ("orbits", "flights")
+    stages = ("orbits",)
+    axes_depend_on = ("impacts",)
     headline = "orbits"
 
-    axes: dict[Literal["x", "next"], Axis] = None
-    """Limits and ticks."""
-''',
-    "figures/__init__.py": '"""Pictures of returns."""',
-    "figures/returns.py": '''
-"""Next position against the present one."""
+    axes: dict[Literal["x", "next"], Axis] = ABSENT
+    """Limits and ticks of the axes `x` and `next` (positions, R)."""
+'''
+DRAWING = '''"""Next position against the present one."""
+
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
 
 from pseudorigid.figures.axes.limits import complete, of_data
 from pseudorigid.figures.axes.plane import Plane
@@ -72,99 +33,124 @@ from pseudorigid.figures.canvas import style
 
 
 @style.pinned()
-def draw(scene, orbits, flights):
+def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
     """Return the Figure of x' against x."""
     x = orbits["x"].values
     scene = complete(scene, x=lambda: of_data(x), next=lambda: of_data(x))
-    picture = Plane(scene, ("x", "next"), ("$x$", "$x'$"))
+    picture = Plane(scene, ("x", "next"), ("Position $x$", "Next position $x'$"))
     picture.dots(x[:-1], x[1:], style.BLUE, 1.5)
     return picture.figure
-''',
-    "figures/reports.py": '''
-"""What they report."""
+'''
+REPORT = '''
 
-
-def returns(block, orbits, flights):
-    """Give how many orbits there are."""
+def returns(block: dict[str, Any], orbits: xr.Dataset) -> dict[str, str]:
+    """Count the orbits."""
     return {"orbits": f"{orbits.sizes['orbit']}"}
-''',
-    "scenes.yaml": """
-returns:
-  twice: {picture: returns, energy: 0.01, starts: [0.1, 0.6], impacts: 50}
-""",
-    "presets.js": """
-"use strict";
-Object.assign(PRESETS, { returns: (scene) => ({ orbits: orbitsOf(scene) }) });
-""",
-    "captions.toml": """
+'''
+CAPTION = """
 [kinds.returns]
-title = "the next position against the present one"
-shows = "Positions of {{ s.starts|length }} orbits: the next one, x', against the present one, x."
-see = "Regular orbits are closed lines."
-""",
-    "examples.yaml": """
+shows = \"\"\"
+The picture shows {{ s.starts|length|counted("orbit") }} at energy {{ s.energy }} for k =
+{{ s.ball.k }}, g = {{ s.ball.g }}: the next position x' against the present one, x.\"\"\"
+see = "A regular orbit is a closed line."
+"""
+EXAMPLE = """
 returns:
   picture: returns
+  ball: {k: 0.3, g: 0.02}
   energy: 0.001
   starts: [0.1]
-  impacts: 50
-""",
+  impacts: 300
+"""
+SCENE = """
+  returns:
+    picture: returns
+    energy: 0.01
+    starts: [0.1, 0.6]
+    impacts: 300
+    formats: [png, svg]
+"""
+PRESET = "  returns: (scene) => ({ orbits: orbitsOf(scene) }),\n"
+TEST = '''"""Returns of orbits."""
+
+from examples import checked, made
+
+
+def test_orbits_are_counted():
+    assert made(checked("returns"))[1] == {"orbits": "1"}
+'''
+
+
+def with_rule(text):
+    """Add a rule like that of portraits, which are drawn from the same stage."""
+    rule = r"(?ms)^(?:use )?rule (?:\w+ as )?draw_portrait(?: with)?:\n.*?(?=\n\n\n|\Z)"
+    (found,) = re.findall(rule, text)
+    return f"{text}\n\n{found.replace('portrait', 'returns')}\n"
+
+
+# File of a step -> its text, from the one before.
+EDITS = {
+    "src/paper/figures/NAME.py": lambda text: DRAWING,
+    "src/paper/figures/reports.py": lambda text: text + REPORT,
+    "src/paper/kinds.py": lambda text: text + KIND,
+    "workflow/rules/paper.smk": with_rule,
+    "src/paper/presets.js": lambda text: text.replace("PRESETS, {\n", f"PRESETS, {{\n{PRESET}", 1),
+    "src/paper/captions.toml": lambda text: text + CAPTION,
+    "src/paper/examples.yaml": lambda text: text + EXAMPLE,
+    "tests/figures/test_NAME.py": lambda text: TEST,
+    "config.yaml": lambda text: text.replace("\nscenes:\n", f"\nscenes:{SCENE}", 1),
 }
-PUBLISHED = "more_figures/returns/twice.png"
+# Default tests that look at kinds of picture, scenes or files.
+TESTS = ("checks", "config", "figures/test_returns.py", "paper", "repository", "extensions/report")
+TESTS += ("extensions/explorer/test_generated.py",)
+
+
+def steps():
+    """What stands first in backquotes in each step of the list: a file, or a command."""
+    _, _, rest = (ROOT / "CONTRIBUTING.md").read_text().partition("**A kind of picture**")
+    return re.findall(r"^\d+\. `(.*?)`", rest.partition("**A stage.**")[0], re.MULTILINE)
+
+
+def follow(tree, step):
+    """Edit the file of a step, or run its command."""
+    if edit := EDITS.get(step):
+        file = tree.path / step.replace("NAME", "returns")
+        file.write_text(edit(file.read_text() if file.exists() else ""))
+    elif step.startswith("./reproduce"):
+        words = step.split()[1:]
+        given = ["-q", *(f"tests/{name}" for name in TESTS)] if words == ["test"] else []
+        tree.succeed(*words, *given)
+    else:
+        command = step.replace(".venv/bin/python", tree.command()[0]).split()
+        result = run(*command, cwd=tree.path, env=tree.environment())
+        assert result.returncode == 0, result.stderr
 
 
 @pytest.fixture
-def tree(tmp_path):
-    """A copy with one small scene of the paper and with the extension."""
-    portrait = {"picture": "portrait", "energy": 0.01, "starts": [0.1, 0.6], "impacts": 50}
-    parts = {part: {} for part in APART}
-    document = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"map": portrait}} | parts
-    tree = fresh_tree(tmp_path / "one more", document)
-    for name, text in FILES.items():
-        file = tree.path / "src/extensions/returns" / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text.lstrip())
-    return tree
+def copy(tmp_path, monkeypatch):
+    """A copy of the project in a repository of its own."""
+    for name in [name for name in os.environ if name.startswith("PYTEST_")]:
+        monkeypatch.delenv(name)
+    names = (".venv", ".git", "results", ".snakemake", "__pycache__", ".*_cache")
+    shutil.copytree(ROOT, tmp_path / "copy", symlinks=True, ignore=shutil.ignore_patterns(*names))
+    commit(tmp_path / "copy", ".")
+    return Tree(tmp_path / "copy", cold=True)
 
 
 @pytest.mark.slow
-def test_an_extension_is_one_folder(tree):
-    """It has a stage, a kind, a command and a published picture, in each list and each check."""
-    assert "\n  returns " in tree.succeed("help")
-    assert rows(tree.succeed()) == {"paper_figures/map.png": "recomputed"}
-    assert rows(tree.succeed("returns")) == {PUBLISHED: "recomputed"}
-    assert rows(tree.succeed("returns")) == {PUBLISHED: "current"}
-    orbits, flights = (
-        load(tree.path / f"results/returns/{name}_twice.nc") for name in ("orbits", "flights")
-    )
-    means = [np.mean(part) for part in np.split(orbits["tau"].values, 2)]
-    assert flights["mean"].values.tolist() == means
-    tree.succeed("accept")
-    result = tree.run("verify")
-    assert (result.returncode, "note" in result.stdout) == (0, False), result.stdout
-    assert "twice  png  identical\n" in result.stdout
-    (tree.path / PUBLISHED).write_bytes(b"damaged")
-    assert tree.run("verify").returncode == 1
-    result = tree.python("-P", "-m", "pipeline.renew")
-    assert result.returncode == 0, result.stderr
-    tree.succeed("report")
-    report = (tree.path / "results/report/report.html").read_text()
-    assert "Positions of 2 orbits: the next one" in report
-    assert '<th scope="row">orbits</th><td>not printed</td><td>2</td>' in report
-    page = (tree.path / "src/extensions/returns/README.md").read_text()
-    assert "### picture: returns\n\nThe next position against the present one." in page
-    assert "### returns/twice: the next" in (tree.path / "docs/figures.md").read_text()
-    names = json.loads((tree.path / SCHEMA).read_text())["$defs"]["AnyScene"]["properties"]
-    assert "returns" in names["picture"]["enum"]
-    document = tree.document()
-    mine = {"picture": "returns", "energy": 0.01, "starts": [0.1], "impacts": 50, "axes": {"y": {}}}
-    tree.write(document | {"returns": {"mine": mine}})
-    line = "returns.mine.axes.y: unknown key: allowed here: x, next"
-    (said,) = tree.run("returns").stdout.splitlines()
-    assert said.endswith(f": {line} (this concerns ./reproduce returns alone)")
-    tree.write(document)
-    tree.append("extensions/returns/flights.py")
-    edited = "made by other code than this tree's: src/extensions/returns/flights.py differs"
-    assert f"twice: {edited}: flights; perhaps drawing\n" in tree.succeed("returns", "-n")
-    (tree.path / "src/extensions/returns/part.py").unlink()
-    assert "returns" not in tree.succeed("help")
+def test_a_kind_of_picture_that_was_added_by_the_list_leaves_the_tests_green(copy):
+    assert [step for step in steps() if step in EDITS] == [*EDITS]
+    for step in steps():
+        if step.endswith("pipeline.renew"):
+            assert_a_forgotten_preset_is_said(copy)
+        follow(copy, step)
+    assert (copy.path / "paper_figures/returns.png").is_file()
+
+
+def assert_a_forgotten_preset_is_said(copy):
+    file = copy.path / "src/paper/presets.js"
+    text = file.read_text()
+    file.write_text(text.replace(PRESET, ""))
+    line = "presets.js has no returns: write it, or say on_section = False\n"
+    assert copy.python("-m", "pipeline.renew").stderr == line
+    file.write_text(text)

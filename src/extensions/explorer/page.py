@@ -11,6 +11,7 @@ Renew it after a change, for which a package is installed that packs scripts:
 import base64
 import hashlib
 import json
+import re
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from extensions.processors.build import CompiledFile
 from pipeline import config
 from pipeline.cli.packages import add_packages
 from pipeline.cli.session import UsageError
+from pipeline.config.schema.kinds import KINDS
 from pipeline.declaration import RENEW
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
@@ -114,6 +116,11 @@ def script(name: str) -> str:
     return "".join(map(read_text, paths))
 
 
+def has_preset(kind: str) -> bool:
+    """Return whether presets.js of a part says how the page shows a kind of picture."""
+    return bool(re.search(rf"\b{kind}[:(,]", script(PRESETS)))
+
+
 def _minified(kind: str, names: tuple[str, ...]) -> str:
     """Return files of `web/` as one of a media type, without what nobody reads in the page."""
     import minify  # starts threads, which no process that forks should have
@@ -136,6 +143,10 @@ def _json(value: Any) -> str:
 
 def committed() -> dict[str, str]:
     """Return the committed copy by its path; what it is made from is compiled and packed first."""
+    lacking = [name for name, kind in KINDS.items() if kind.on_section and not has_preset(name)]
+    if lacking:
+        names = ", ".join(lacking)
+        raise ValueError(f"presets.js has no {names}: write it, or say on_section = False")
     KERNEL.renew()
     checked = config.load(ROOT / "config.yaml")
     with suppress(ValueError):
