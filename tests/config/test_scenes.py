@@ -71,7 +71,7 @@ def test_all_mistakes_of_a_file_are_reported_at_once():
 
 
 # A path, of a scene unless it begins otherwise, a value that is refused there, and how the line
-# goes on. `test_the_committed_schema_is_up_to_date` holds the bounds of single values.
+# goes on. `config.schema.json`, which `test_renew` compares, holds the bounds of single values.
 BAD = [
     ("ball", ..., ": missing: expected a mapping with the keys k and g"),
     ("ball.k", 0, ": 0 is not allowed: expected a number with 0 < k <= 1"),
