@@ -72,8 +72,9 @@ def json_schema() -> str:
 
 def fields(part: str) -> str:
     """Return the fields that a part adds to config.yaml, as Markdown; empty if it adds none."""
-    declared, seen, texts, shipped = parts()[part], dict[str, str](), [], with_shipped({})
-    scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())  # type: ignore
+    declared, seen, texts = parts()[part], dict[str, str](), []
+    shipped: Any = with_shipped({})
+    scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
     models = {key: imported(of) for key, of in {**declared.settings, **declared.methods}.items()}
     models |= {"every scene": Scene, "a variant": Variant}
