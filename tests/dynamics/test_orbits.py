@@ -9,7 +9,6 @@ from sections import BALL
 
 from pseudorigid import Ball, classify_orbits, lyapunov_spectrum, motion, orbit, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
-from pseudorigid.dynamics.variables import of_type
 
 NAMES = ("x", "xdot", "udot", "tau")
 FRACTIONS = np.array([[-0.44, -0.1, 0.142], [0.17, 0.53, 0.9]])
@@ -111,21 +110,6 @@ def test_motion_touches_the_floor_at_impacts_only(k, g, energy, period):
             assert np.allclose(np.diff(impact_t), expected, rtol=0, atol=1e-13 * max(1, duration))
             for curve in (position, strain):  # without gaps
                 assert np.max(np.abs(np.diff(curve))) < 0.2 * np.ptp(curve)
-
-
-def test_motion_is_the_flight_of_equation_26():
-    one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
-    found = motion_of(BALL, one, float(one["total_time"]))
-    x, v, w, tau = (float(one[name][0]) for name in NAMES)
-    e = 2.0 * (v + w) / (1.0 + BALL.k)
-    t = found["t"].values
-    first = t < tau
-    t = t[first]
-    b, c = v - BALL.k * e, w - e
-    expected = x + b * t + 0.5 * BALL.g * t * t
-    assert np.max(np.abs(found["position"].values[first] - expected)) < 1e-15
-    expected = -x * np.cos(t) + c * np.sin(t)
-    assert np.max(np.abs(found["strain"].values[first] - expected)) < 1e-15
 
 
 def test_a_motion_of_impacts_whose_times_lie_before_them_is_refused():

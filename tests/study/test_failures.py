@@ -5,7 +5,7 @@ import pytest
 from independent_solver import judge
 
 from study import stages, states
-from study.methods.counted_methods import OURS, engine_method, scan_method
+from study.methods.counted_methods import OURS, scan_method
 
 BALL = states.BALL
 SCAN = scan_method(0.5, 1e-12)
@@ -61,20 +61,3 @@ def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatc
     whole = stages.drift(impacts)
     assert whole["missed"].values.tolist() == [0, sum(late)]
     assert whole["drift"].values[1].max() < 1e-9  # energy does not show missed impacts
-
-
-def test_the_drift_is_the_largest_error_so_far():
-    start = states.chaotic()
-    track, _ = engine_method(1e-2).orbit(BALL, start, 300)
-    energy = [BALL.energy(*state) for state in track[:3].T.tolist()]
-    off = [abs(e / BALL.energy(*start) - 1) for e in energy]
-    expected = [max(off[: i + 1]) for i in range(300)]
-    assert stages.energy_drift(BALL, start, track) == pytest.approx(expected, rel=1e-9)
-
-
-def test_agreement_is_the_median_of_the_first_separations():
-    a = np.zeros((3, 10))
-    b = a.copy()
-    b[0, 2:] = b[1, 7:] = 2 * stages.SEPARATION
-    assert stages._impacts_until_apart(a, b) == stages._impacts_until_apart(b, a) == 7
-    assert stages._impacts_until_apart(a, a) == 10

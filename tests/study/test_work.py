@@ -46,12 +46,6 @@ def test_each_number_is_that_of_an_independent_solver(table, truths, which):
         assert float(row["evaluations"]) == count.mean()
 
 
-def test_another_root_is_wrong_and_an_inaccurate_one_is_not():
-    truth = np.array([4.0, 4.0, 0.5, 0.5, 0.5, 1.0])
-    tau = np.array([4.09, 4.11, 0.54, 0.56, np.nan, 1.0])
-    assert stages.is_wrong(tau, truth).tolist() == [False, True, False, True, True, False]
-
-
 def test_seconds_have_their_quartiles():
     data = measured.timed_work([OURS, scan_method(0.1, 1e-12)], count=20, repetitions=3)
     low, middle, high = (data[f"seconds{end}"].values for end in ("_low", "", "_high"))

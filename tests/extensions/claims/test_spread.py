@@ -5,15 +5,13 @@ import math
 import numpy as np
 import pytest
 import scipy.stats
-import xarray as xr
 from sections import BALL
 from slowly import slowly
 
 from extensions.claims.analyses.sea import section_points
 from extensions.claims.analyses.spread import spread
-from extensions.claims.analyses.stretches import in_sea, long_run, spread_of_runs, stretches
+from extensions.claims.analyses.stretches import in_sea, spread_of_runs, stretches
 from extensions.claims.ledger import chaos
-from extensions.claims.ledger.outcomes import FALSE, HOLDS
 from pseudorigid import lyapunov_spectrum, orbit
 
 ENERGY = 0.01
@@ -92,14 +90,6 @@ def test_sections_without_chaos_and_uneven_blocks_are_refused(energy, length, me
         spread(BALL, energy, 1, length, 4, [0.1], 4, 4, 4)
 
 
-def test_the_largest_exponent_of_a_stretch_is_the_largest_by_value():
-    chaotic = np.array([[1.2, 1.0, 0.8], [1.0, 1.3, 0.7]])
-    blocks = xr.Dataset({"exponent": (("block", "orbit", "index"), chaotic[None])})
-    blocks["type"] = "orbit", ["chaotic"] * 2
-    long = stretches(blocks.assign_attrs(block_impacts=100), 100)
-    assert np.array_equal(long, [1.2, 1.3])
-
-
 def second_table(ball, energy, states, length, block):
     """Exponents of runs by renormalizing one tangent vector, and by scipy their two moments.
 
@@ -152,21 +142,3 @@ def test_one_orbit_and_one_run_have_no_error():
     data = spread_of_runs(np.ones((2, 1, 3)), 10)
     assert data["run"][1].tolist() == [10, 20]
     assert np.isnan(data["deviation_error"][1]).all() and np.isnan(data["skewness"][1]).all()
-
-
-def test_an_orbit_that_stays_at_an_island_does_not_differ_from_the_others():
-    """Others spread by 0.004 a block; it has the exponent 0 in three of its fifty blocks."""
-    exponent = np.random.default_rng(1).normal(0.23, 0.004, (50, 100, 1))
-    data = xr.Dataset({"exponent": (("block", "orbit", "index"), exponent)})
-    data["type"] = "orbit", ["chaotic"] * 100
-    exponent[10:13, 7] = 0.0
-    assert chaos.independent_of_start(data).verdict == HOLDS
-    exponent[:, 7] = exponent[:, 8] - 0.01
-    assert chaos.independent_of_start(data).verdict == FALSE
-
-
-def test_the_long_run_has_two_standard_errors_between_orbits(spreading):
-    orbits = spreading["exponent"].values[:, in_sea(spreading), 0].mean(axis=0)
-    mean, error = long_run(spreading)
-    assert mean == pytest.approx(orbits.mean(), rel=1e-12)
-    assert error == pytest.approx(2.0 * orbits.std(ddof=1) / math.sqrt(orbits.size), rel=1e-12)

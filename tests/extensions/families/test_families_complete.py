@@ -1,7 +1,6 @@
 """Families hold what brute force finds and nothing else."""
 
 import math
-from time import process_time
 
 import independent_solver as judge
 import pytest
@@ -115,31 +114,8 @@ def over_all_energies(k, g, most, levels=240):
     [(0.2, 0.04, 37.5, 5), (0.1, 0.04, 6.25, 3), (1.0 / 3.0, 0.04, 10.0, 3)],
 )
 def test_families_of_longer_periods_are_complete(k, g, most, energies):
-    """Two balls up to eq. (31), one up to E/g^2 = 10; `python` on this file does more."""
+    """Two balls up to eq. (31), one up to E/g^2 = 10."""
     ball, found, ends = over_all_energies(k, g, most)
     assert [end.kind for f in found.families for end in f.ends].count("unresolved") == 0
     for energy in spread(*ends, energies):
         assert unmatched(found, ball, energy) == ([], [])
-
-
-def main():
-    """Compare with brute force at fifty energies for four balls."""
-    balls = (
-        (0.2, 0.04, 37.5, 480),
-        (0.1, 0.04, 6.25, 240),
-        (1.0 / 3.0, 0.04, 37.5, 240),
-        (0.2, 0.02, 45.0, 240),
-    )
-    for k, g, most, levels in balls:
-        ball, found, ends = over_all_energies(k, g, most, levels)
-        unnamed = [end.kind for f in found.families for end in f.ends].count("unresolved")
-        print(f"k = {k:.3f}, g = {g}: {len(found.families)} families, {unnamed} ends unnamed")
-        for energy in spread(*ends, 50):
-            missed, extra = unmatched(found, ball, energy)
-            if missed or extra:
-                print(f"  only brute force: {missed}, only families: {extra}", flush=True)
-        print(f"  compared; {process_time():.0f} s so far", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,8 @@
 """A second checker of the certificates for periodic orbits, horseshoes and the diffeomorphism.
 
-It shares no code with the package, and uses the intervals of mpmath instead of the balls of Arb. The
-theorems that it uses are those of src/extensions/proofs/README.md. It takes other ways than the
-package's checker:
+It shares no code with the package, and its intervals are mpmath's, not balls of Arb. The theorems
+that it uses are those of src/extensions/proofs/README.md. It takes other ways than the package's
+checker:
 
 - That no impact is missed follows from a bound on the distance of a function from its chord.
 - An orbit is proved by Brouwer's theorem, and alone by a comparison vector, without elimination.
@@ -19,7 +19,7 @@ linear interpolation, by Rolle's theorem.)
 
 import tomllib
 from fractions import Fraction
-from itertools import combinations, pairwise, product
+from itertools import chain, combinations, pairwise, product
 from math import gcd
 
 import numpy as np
@@ -336,7 +336,7 @@ def check_orbit(fields, surface, period, type, radius, window):
     demand(size >= radius > 0, "the radius is not that of the statement")
     orbit, trace = prove_orbit(surface, centres, size + CLOSE)
     check_type(trace, type)
-    for value, stated in zip(sum(orbit, []), sum(centres, []), strict=True):
+    for value, stated in zip(chain(*orbit), chain(*centres), strict=True):
         near = is_between(value, (stated - CLOSE, stated + CLOSE))
         demand(near, f"a point of the orbit is not the stated {float(stated):.10g}")
     check_window(surface, orbit, window)
@@ -434,7 +434,7 @@ def check_cones(at_centre, image, source, target):
 
 def check_horseshoe(fields, surface, period, radius, window, crossing, entropy):
     """Prove the statement on a horseshoe: all that the page of proofs lists but the angle."""
-    saddles, chain, leaves, enters = sets_of(fields)
+    saddles, links, leaves, enters = sets_of(fields)
     demand(len(saddles) == period, f"the certificate has {len(saddles)} saddles, not {period}")
     # the paper's orbit is in the sets at the saddles
     orbit, trace = prove_orbit(surface, [a.row[:2] for a in saddles], radius)
@@ -444,17 +444,17 @@ def check_horseshoe(fields, surface, period, radius, window, crossing, entropy):
         inside = all(abs(a) < 1 for a in saddle.coordinates(*point))
         demand(inside, f"{saddle.name} is not proved to contain the orbit's point")
     # the root of x^-period + x^-loop = 1 is above exp(h) if the left side, which falls, is above 1
-    loop, h = len(chain) + 1 + (leaves - enters) % period, interval(entropy)
+    loop, h = len(links) + 1 + (leaves - enters) % period, interval(entropy)
     demand(gcd(period, loop) == 1, f"loops of {period} and {loop} impacts do not mix")
     above = iv.exp(-period * h) + iv.exp(-loop * h) > 1
     demand(above, f"the entropy is not proved to be above {float(entropy)}")
     # M_0 tells the times of an orbit's visits, and where it crosses y = 0
-    middle = chain[len(chain) // 2]
-    for other in {*saddles, *chain} - {middle}:
+    middle = links[len(links) // 2]
+    for other in {*saddles, *links} - {middle}:
         demand(middle.is_disjoint(other), f"M_0 is not proved to be disjoint from {other.name}")
     x = middle.point(UNIT, UNIT)[0]
     demand(is_between(x, crossing), "the connection does not pass y = 0 where the statement says")
-    around, along = [*saddles, saddles[0]], [saddles[leaves], *chain, saddles[enters]]
+    around, along = [*saddles, saddles[0]], [saddles[leaves], *links, saddles[enters]]
     relations, stated = [*pairwise(around), *pairwise(along)], fields["margins"]
     demand(len(stated) == len(relations), f"{len(stated)} margins for {len(relations)} coverings")
     demand(min(map(min, stated)) >= 0, "a margin of the certificate is below 0")
@@ -479,14 +479,10 @@ def sets_of(fields):
     for i, row in enumerate(rows):
         image = rows[(leaves + enters - i) % len(rows)]
         demand(image == mirrored(row), f"S_{i} has no mirror image among the sets at the saddles")
-    chain = [*approach, [x, 0, ux, uy, ux, -uy], *(mirrored(row) for row in reversed(approach))]
+    links = [*approach, [x, 0, ux, uy, ux, -uy], *(mirrored(row) for row in reversed(approach))]
     saddles = [Parallelogram(f"S_{i}", row) for i, row in enumerate(rows)]
-    return (
-        saddles,
-        [Parallelogram(f"M_{i - steps}", r) for i, r in enumerate(chain)],
-        leaves,
-        enters,
-    )
+    links = [Parallelogram(f"M_{i - steps}", row) for i, row in enumerate(links)]
+    return saddles, links, leaves, enters
 
 
 # ---- the diffeomorphism
