@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from person import DISK, WHOLE, Visitor
+from person import DISK, WHOLE
 from project import wait_for
 from selenium.webdriver import Keys
 
@@ -144,31 +144,3 @@ def test_branches_of_an_orbit_that_is_not_symmetric_lead_to_it(person):
         for line in lines:
             assert np.abs(np.subtract(line[:3], point[:3])).max() < 1e-6
             assert line[3] > 20
-
-
-@pytest.mark.parametrize("colour", ["rotation", "exponent"])
-def test_orbits_have_colours_by_a_number(person, colour):
-    person.open(f"{DISK}&orbits=-0.4*900;-0.2*900;0.05*900;0.534522*900")
-    person.press(f"by-{colour}")
-    rows, swatches = person.settled(), person.run("return swatches()")
-    values = [float(row[colour]) for row in rows]
-    stops = person.run(
-        "return getComputedStyle(document.documentElement).getPropertyValue('--ramp').split(' ')"
-    )
-    rgb = [tuple(int(stop[i : i + 2], 16) for i in (1, 3, 5)) for stop in (stops[0], stops[-1])]
-    assert swatches[int(np.argmin(values))] == f"rgb{rgb[0]}"
-    assert swatches[int(np.argmax(values))] == f"rgb{rgb[1]}"
-    assert len(set(swatches)) == 4
-    assert person.state()["colour"] == colour
-    person.reload()
-    assert person.run("return swatches()") == swatches
-
-
-def test_the_same_orbit_is_found_in_firefox(firefox, chromium, address):
-    script = NEAREST.replace("return pseudorigid &&", "return await")
-    found = []
-    for browser in (firefox, chromium):
-        Visitor(browser, address).open(DISK)
-        found.append([browser.run(script, 0.2, 0.3, 0), browser.run(script, -0.15, 0.05, 0)])
-    assert found[0] == found[1]
-    assert firefox.errors() == []

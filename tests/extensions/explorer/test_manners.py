@@ -68,35 +68,6 @@ def test_a_reload_restores_everything(person):
     person.press("theme")
 
 
-def test_typed_numbers_start_exactly_there(person):
-    x, y = 0.1, 1e-3
-    person.press("clear")
-    person.start_at(x, y, 1000)
-    for _ in range(2):
-        found, expected = person.states(), BALL.state_xy(x, y, ENERGY)
-        assert found[0].tolist() == [*expected]
-        assert found[-1].tolist() == np.ravel(BALL.after(expected, 1000))[:3].tolist()
-        assert person.starts() == [f"@{x:g}:{y:g}"]
-        person.reload()  # the address keeps them
-    person.set("E", "0.008")  # from here on the start is a place
-    assert "@" not in person.state()["orbits"]
-
-
-def test_words_under_a_picture_stay_true(person):
-    figure = person.text("see")
-    assert "six small ones" in figure
-    person.set("E-slide", 0.3)
-    energy = person.state()["E"]
-    assert "of your own" in person.text("see") and f"E = {energy}" in person.text("see")
-    assert person.value("preset") == ""
-    person.press("undo")
-    wait_for(lambda: person.text("see") == figure)
-    person.browser.click("#section")
-    wait_for(lambda: "of your own" in person.text("see"))
-    person.open("thin-shell/fig2")
-    assert "Figure 2 of the variant thin-shell, at k = 0.333333" in person.text("see")
-
-
 def test_pictures_say_what_they_show(person):
     state = person.state()
     hashed = person.run("return location.hash")
@@ -128,9 +99,3 @@ def test_csv_of_all_orbits_says_what_they_are(person):
     expected = BALL.after(BALL.start(0.534522, ENERGY), 25000)
     found = [float(last[-1][name]) for name in ("x", "xdot", "udot", "tau")]
     assert found == np.ravel(expected).tolist()
-
-
-def test_a_double_click_starts_one_orbit(person):
-    count = len(person.starts())
-    person.dispatch("pointerdown pointerup pointerdown pointerup", 0.5, 0.5)
-    assert len(person.starts()) == count + 1

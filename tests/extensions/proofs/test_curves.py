@@ -7,7 +7,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from certificates import numbers, refused, with_bounds, with_rows
+from certificates import refused, with_bounds
 from flint import arb, ctx
 from matplotlib.path import Path
 from project import ROOT
@@ -104,60 +104,6 @@ def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(na
     for factor, inside in ((0.99, True), (1.01, False)):
         z = returns(bounds, float(centre[0] + factor * start[0]), 5_000)
         assert Path(polygon).contains_points(z.T).tolist() == [inside] * z.shape[1]
-
-
-def with_sign(rows, place):
-    """The rows with the opposite signs in one of them."""
-    return [*rows[:place], [f"-{a}".replace("--", "") for a in rows[place]], *rows[place + 1 :]]
-
-
-@pytest.fixture
-def outer_error(monkeypatch):
-    """A function that bounds the error of the outer theorem's curve with other rows."""
-    theorem, kept = THEOREMS["curve-fixed-point-outer"], {}
-    of_strip, of_error = curve._bounds, curve._bound_of_error
-
-    def bounds(*given):  # they change with the curve by less than it changes
-        if "strip" not in kept:
-            kept["strip"] = of_strip(*given)
-        return kept["strip"]
-
-    def recorded(*given):
-        kept["error"] = of_error(*given)
-        return kept["error"]
-
-    def bound(rows):
-        theorem.check(with_rows(theorem.text(), "coefficients", rows))
-        return float(kept["error"].upper())
-
-    monkeypatch.setattr(curve, "_bounds", bounds)
-    monkeypatch.setattr(curve, "_bound_of_error", recorded)
-    monkeypatch.setattr(curve, "_prove_discs", lambda *_: [])
-    return bound
-
-
-@pytest.mark.slow
-def test_the_page_says_which_coefficients_of_the_outer_curve_matter(outer_error):
-    page = (ROOT / "src/extensions/proofs/README.md").read_text(encoding="utf-8")
-    section = " ".join(
-        page.partition("*Which coefficients matter.*")[2].partition("\n\n")[0].split()
-    )
-    rows = numbers(THEOREMS["curve-fixed-point-outer"].text(), "coefficients")
-    before, most = re.search(r"from (\S+) to (\S+)\. So", section).groups()
-    assert float(before) == pytest.approx(outer_error(rows), rel=0.01)
-    limits = re.findall(r"(\S+) for q = (\d+)", section)
-    assert len(limits) == 5
-    for relative, place in limits:
-        for factor in (0.95, 1.05):
-            changed, q = [list(row) for row in rows], int(place)
-            change = Fraction(relative) * Fraction(str(factor))
-            changed[q][0] = f'"{Fraction(rows[q][0]) * (1 + change)}"'
-            assert (outer_error(changed) < float(most)) == (factor < 1)
-    count, needed = map(int, re.search(r"(\d+) rows the first (\d+) are needed", section).groups())
-    assert count == len(rows) and f"the last {count - needed} rows" in section
-    assert outer_error(rows[:needed]) < float(most) < outer_error(rows[: needed - 1])
-    assert outer_error(with_sign(rows, 1600)) < float(most)
-    assert outer_error([*rows[:-2], *rows[:-3:-1]]) < float(most)
 
 
 @pytest.mark.parametrize(("bound", "value"), [
