@@ -7,6 +7,7 @@ import pytest
 from independent_solver import exact_map, periodic_point
 from mpmath import mpf
 
+from pseudorigid import orbit
 from pseudorigid.dynamics.motion import scene_motion
 
 NAMES = ("x", "xdot", "udot", "tau")
@@ -34,10 +35,10 @@ def points_of(orbits, i):
     return np.stack([orbits[name].values[i] for name in NAMES])
 
 
-def motion_of(ball, orbit, duration):
+def motion_of(ball, one, duration):
     """The motion along one of the orbits that `symmetric_orbits` finds."""
-    kind, orbits = orbit["type"].item(), orbit.expand_dims("orbit")
-    period, energy = orbit.sizes["point"], orbit.attrs["energy"]
+    kind, orbits = one["type"].item(), one.expand_dims("orbit")
+    period, energy = one.sizes["point"], one.attrs["energy"]
     return scene_motion(ball, energy, orbits, period, kind, duration)
 
 
@@ -107,3 +108,63 @@ def check_last_bits(ball, energy, period, orbits, i):
         for number, exact in zip(point, (*state, tau), strict=True):
             assert abs(number - exact) <= 0.51 * np.spacing(abs(number)), (number, exact)
         state = tuple(after)
+
+
+def brute_force(ball, energy, period, cells=45, steps=25):
+    """Return the orbits that Newton's method in the chart finds from a grid of the section."""
+    k = ball.k
+    centre, radius = ball.section(energy)
+    height = radius * np.sqrt(k * (1 + k))
+    grid = np.linspace(-0.9999, 0.9999, cells)
+    x, y = (a.ravel() for a in np.meshgrid(grid, grid))
+    inside = x * x + y * y < 0.9999
+    x, y = centre + radius * x[inside], height * y[inside]
+
+    def image(x, y):
+        after = ball.after(ball.state_xy(x, y, energy), period)
+        return np.array([after[0], after[1] - k * after[2]])
+
+    def gap_and_derivatives(x, y, step=1e-7 * radius):
+        (a, c), (b, d) = (
+            (image(x + dx, y + dy) - image(x - dx, y - dy)) / (2 * step)
+            for dx, dy in ((step, 0.0), (0.0, step))
+        )
+        return *(image(x, y) - (x, y)), a, b, c, d
+
+    with np.errstate(all="ignore"):
+        for _ in range(steps):
+            f, h, a, b, c, d = gap_and_derivatives(x, y)
+            det = (a - 1) * (d - 1) - b * c
+            dx, dy = ((1 - d) * f + b * h) / det, (c * f + (1 - a) * h) / det
+            limit = np.minimum(1, 0.1 / np.hypot(dx / radius, dy / height))
+            x, y = x + limit * dx, y + limit * dy
+            good = ((x - centre) / radius) ** 2 + (y / height) ** 2 < 1 - 1e-5
+            x, y = x[good], y[good]
+        f, h, a, _, _, d = gap_and_derivatives(x, y)
+    solved = np.maximum(np.abs(f), np.abs(h)) < 1e-12
+    found = []
+    for x0, y0, trace in zip(x[solved], y[solved], (a + d)[solved], strict=True):
+        if any(np.min(np.hypot(u - x0, v - y0)) < 1e-7 * radius for u, v, _ in found):
+            continue
+        points = orbit(ball, ball.state_xy(x0, y0, energy), period)
+        u, v = points["x"].values, (points["xdot"] - k * points["udot"]).values
+        if period > 1 and np.min(np.hypot(u[:-1] - x0, v[:-1] - y0)) < 1e-7 * radius:
+            continue
+        found.append((u, v, trace))
+    return found
+
+
+def compare_with_brute_force(ball, energy, orbits, symmetric):
+    """Check that orbits are all those of brute force with |trace| < 500; return how many."""
+    radius, period = ball.section(energy)[1], orbits.sizes["point"]
+    starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]
+    expected = [
+        (u, v, trace)
+        for u, v, trace in brute_force(ball, energy, period)
+        if not symmetric or np.min(np.hypot(u - u[0], v + v[0])) < 1e-7 * radius
+    ]
+    for u, v, trace in expected:
+        pairs = zip(*starts, strict=True)
+        found = any(np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in pairs)
+        assert found or abs(trace) > 500, (period, trace, u[0], v[0])
+    return len(expected)

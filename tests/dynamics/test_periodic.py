@@ -7,13 +7,20 @@ no symmetric orbit that the search misses.
 import mpmath
 import numpy as np
 import pytest
-from cycles import NAMES, PERIODS, SETTINGS, check, check_last_bits
+from cycles import (
+    NAMES,
+    PERIODS,
+    SETTINGS,
+    check,
+    check_last_bits,
+    compare_with_brute_force,
+)
 from independent_solver import judge
 from mpmath import mpf
 from sections import BALL
 from slowly import slowly
 
-from pseudorigid import Ball, orbit, symmetric_orbits
+from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
 
 
@@ -137,64 +144,6 @@ def test_fixed_points_against_the_closed_form(k, g, energy):
                 assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
 
 
-def brute_force(ball, energy, period, cells=45, steps=25):
-    """Return symmetric orbits found by Newton's method in the chart from a grid of the section."""
-    k = ball.k
-    centre, radius = ball.section(energy)
-    height = radius * np.sqrt(k * (1 + k))
-    grid = np.linspace(-0.9999, 0.9999, cells)
-    x, y = (a.ravel() for a in np.meshgrid(grid, grid))
-    inside = x * x + y * y < 0.9999
-    x, y = centre + radius * x[inside], height * y[inside]
-
-    def image(x, y):
-        after = ball.after(ball.state_xy(x, y, energy), period)
-        return np.array([after[0], after[1] - k * after[2]])
-
-    def gap_and_derivatives(x, y, step=1e-7 * radius):
-        (a, c), (b, d) = (
-            (image(x + dx, y + dy) - image(x - dx, y - dy)) / (2 * step)
-            for dx, dy in ((step, 0.0), (0.0, step))
-        )
-        return *(image(x, y) - (x, y)), a, b, c, d
-
-    with np.errstate(all="ignore"):
-        for _ in range(steps):
-            f, h, a, b, c, d = gap_and_derivatives(x, y)
-            det = (a - 1) * (d - 1) - b * c
-            dx, dy = ((1 - d) * f + b * h) / det, (c * f + (1 - a) * h) / det
-            limit = np.minimum(1, 0.1 / np.hypot(dx / radius, dy / height))
-            x, y = x + limit * dx, y + limit * dy
-            good = ((x - centre) / radius) ** 2 + (y / height) ** 2 < 1 - 1e-5
-            x, y = x[good], y[good]
-        f, h, a, _, _, d = gap_and_derivatives(x, y)
-    solved = np.maximum(np.abs(f), np.abs(h)) < 1e-12
-    found = []
-    for x0, y0, trace in zip(x[solved], y[solved], (a + d)[solved], strict=True):
-        if any(np.min(np.hypot(u - x0, v - y0)) < 1e-7 * radius for u, v, _ in found):
-            continue
-        points = orbit(ball, ball.state_xy(x0, y0, energy), period)
-        u, v = points["x"].values, (points["xdot"] - k * points["udot"]).values
-        if period > 1 and np.min(np.hypot(u[:-1] - x0, v[:-1] - y0)) < 1e-7 * radius:
-            continue
-        if np.min(np.hypot(u - x0, v + y0)) < 1e-7 * radius:
-            found.append((u, v, trace))
-    return found
-
-
-def compare_with_brute_force(ball, energy, period):
-    """Check that the search finds each orbit of brute force with |trace| < 500."""
-    radius = ball.section(energy)[1]
-    orbits = symmetric_orbits(ball, energy, period)
-    starts = orbits["x"].values[:, 0], (orbits["xdot"] - ball.k * orbits["udot"]).values[:, 0]
-    expected = brute_force(ball, energy, period)
-    for u, v, trace in expected:
-        pairs = zip(*starts, strict=True)
-        found = any(np.min(np.hypot(u - x, v - y)) < 1e-6 * radius for x, y in pairs)
-        assert found or abs(trace) > 500, (period, trace, u[0], v[0])
-    return len(expected)
-
-
 @pytest.mark.parametrize(
     ("k", "g", "energy", "periods"),
     [
@@ -205,5 +154,8 @@ def compare_with_brute_force(ball, energy, period):
     ],
 )
 def test_brute_force_finds_no_orbit_that_the_search_misses(k, g, energy, periods):
-    found = [compare_with_brute_force(Ball(k, g), energy, period) for period in periods]
-    assert sum(found) > 0
+    found, ball = 0, Ball(k, g)
+    for period in periods:
+        orbits = symmetric_orbits(ball, energy, period)
+        found += compare_with_brute_force(ball, energy, orbits, symmetric=True)
+    assert found > 0
