@@ -39,14 +39,6 @@ def apex(k, g, state):
     return x * mp.cos(t) - c * mp.sin(t), -k * (x * mp.sin(t) + c * mp.cos(t))
 
 
-def fall(k, g, energy, a, eta, guess):
-    """The state at the end of the fall from an apex with strain -a and U' = -eta/k."""
-    rate = -eta / k
-    height = (k * a * a / 2 + k * rate * rate / 2 - energy) / g
-    t = mp.findroot(lambda t: height + g * t * t / 2 - a * mp.cos(t) + rate * mp.sin(t), mpf(guess))
-    return a * mp.cos(t) - rate * mp.sin(t), g * t, a * mp.sin(t) + rate * mp.cos(t)
-
-
 def derivative(function, at, number, step=STEP):
     """The derivative of a function that returns several numbers by one of its arguments."""
     ends = ([x + d * (i == number) for i, x in enumerate(at)] for d in (step, -step))

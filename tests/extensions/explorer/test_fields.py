@@ -73,16 +73,6 @@ def test_a_refused_value_leaves_the_field_and_says_why(person, name, text, words
     assert person.text(f"{name}-error") == ""
 
 
-@pytest.mark.parametrize(
-    ("text", "count"), [("2,000", 2000), ("6000/2", 3000), ("1e3", 1000), ("20", 20)]
-)
-def test_impacts_are_the_number_that_was_typed(person, text, count):
-    person.press("clear")
-    person.type("impacts", text)
-    person.browser.click("#section")
-    assert person.settled()[0]["impacts"] == count
-
-
 @pytest.mark.parametrize("text", ["1/3", " 2 / 7 ", "0,25", "3e-1/1"])
 def test_every_number_field_takes_fractions(person, text):
     value = float(Fraction(text.replace(" ", "").replace(",", "."))) if "e" not in text else 0.3

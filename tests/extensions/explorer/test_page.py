@@ -1,6 +1,8 @@
 """The explorer's page in Chromium, used as a person uses it: pointer, touch, keys and fields."""
 
+import struct
 from itertools import pairwise
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -265,17 +267,6 @@ def test_a_bad_address_is_a_line_and_shows_figure_2(person):
     assert "has fig99:" in person.text("hint")
 
 
-def test_points_of_a_scene_are_places(person):
-    """Starts of a scene may be points with x and y, or with x and xdot."""
-    x, y = BALL.section(ENERGY)[0] + 0.01, 0.02
-    xdot = float(BALL.state_xy(x, y, ENERGY)[1])
-    starts = [{"x": x, "y": y}, {"x": x, "xdot": xdot}, 0.5]
-    block = {"ball": {"k": K, "g": G}, "energy": ENERGY}
-    places = person.run("return args[0].map(s => placeOf(s, args[1]))", starts, block)
-    assert np.allclose(places[0], places[1], rtol=1e-9)
-    assert places[2] == [0.5, 0]
-
-
 def test_the_atlas_goes_to_a_ball_and_an_energy_by_pointer_and_keys(person):
     person.unfold("atlas-panel")
     canvas, small = person.find("atlas"), "return document.getElementById('peek').toDataURL()"
@@ -293,6 +284,39 @@ def test_the_atlas_goes_to_a_ball_and_an_energy_by_pointer_and_keys(person):
     assert k != 0.17 and energy < k / 2 - g
     assert f"k = {state['k']}" in person.text("hint")
     assert len(person.settled()) == 8
+
+
+def test_pictures_say_what_they_show(person):
+    state = person.state()
+    hashed = person.run("return location.hash")
+    width = person.run(
+        "return Math.round(document.getElementById('section').getBoundingClientRect().width)"
+    )
+    for name, ratio in (("png2", 2), ("png4", 4)):
+        kind, content = person.saved(name)
+        assert kind == "image/png"
+        assert struct.unpack(">I", content[16:20])[0] == ratio * width
+    kind, content = person.saved("svg")
+    assert kind == "image/svg+xml"
+    root = ElementTree.fromstring(content)
+    space = "{http://www.w3.org/2000/svg}"
+    texts = "".join(node.text for node in root.iter(f"{space}text"))
+    for words in (texts, root.find(f"{space}metadata").text):
+        assert "k = 0.2, g = 0.04, E = 0.01" in words and hashed in words
+    dots = sum(node.get("d").count("h0") for node in root.iter(f"{space}path"))
+    impacts = sum(int(part.split("*")[1].strip("!")) for part in state["orbits"].split(";"))
+    assert 0.5 * impacts < dots <= impacts  # the surface hides some
+
+
+def test_csv_of_all_orbits_says_what_they_are(person):
+    comments, rows = person.table("csv-all")
+    assert "# k = 0.2, g = 0.04, E = 0.01" in comments
+    assert any("explorer.html#k=0.2" in line for line in comments) and len(comments) == 3
+    last = [row for row in rows if row["orbit"] == "8"]
+    assert len(last) == 25001 and {row["orbit"] for row in rows} == set("12345678")
+    expected = BALL.after(BALL.start(0.534522, ENERGY), 25000)
+    found = [float(last[-1][name]) for name in ("x", "xdot", "udot", "tau")]
+    assert found == np.ravel(expected).tolist()
 
 
 @pytest.mark.parametrize(("width", "theme"), [(360, "dark"), (2000, "light")])

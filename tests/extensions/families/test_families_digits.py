@@ -1,7 +1,7 @@
 """Energies of events along families are right to 12 digits, against computations in 60 digits."""
 
 import pytest
-from exact_orbits import after, apex, at_rest, derivative, event_energy, fall, on_section
+from exact_orbits import after, apex, at_rest, derivative, on_section
 from family_search import PAPER, energy_of, rho, searched, six_born_at, up_to_period_six
 from mpmath import mp, mpf
 
@@ -62,39 +62,6 @@ def test_the_births_of_the_three_period_six_orbits_are_right_to_12_digits():
         born = energy_of(six, end.p)
         exact = mp.findroot(beyond, (mpf(born), mpf(born) * (1 + mpf("1e-9"))), solver="secant")
         assert abs(born / exact - 1) < mpf("1e-12")
-
-
-def energy_and_place(found, event):
-    """The energy of an event, and the position of its half orbit's start along the line."""
-    q, p = event.point.place
-    unit = mpf(repr(PAPER.g)) / PAPER.k
-    return energy_of(found, p), (1.0 + p * 2.0 * q / (1.0 + q**2)) * unit
-
-
-@pytest.mark.slow
-def test_the_first_doublings_of_the_period_six_orbits_are_right_to_12_digits():
-    six = up_to_period_six()
-    with mp.workdps(60):
-        family = six_born_at(six, 0, "resonance")
-        event = next(e for e in family.events if e.kind == "doubling")
-        energy, x = energy_and_place(six, event)
-
-        def on_fix_r(energy, x, y):
-            return on_section(K, G, energy, x, y, 3)
-
-        exact = event_energy(on_fix_r, "doubling", energy, x)
-        assert abs(energy / exact - 1) < mpf("1e-12")
-        family = six_born_at(six, 1, "touch")
-        events = [e for e in family.events if e.kind == "doubling"]
-        event = min(events, key=lambda e: e.point.p)
-        energy, a = energy_and_place(six, event)
-        guess = event.point.data.times[0]
-
-        def on_fix_rp(energy, a, eta):
-            return apex(K, G, after(K, G, fall(K, G, energy, a, eta, guess), 2))
-
-        exact = event_energy(on_fix_rp, "doubling", energy, a)
-        assert abs(energy / exact - 1) < mpf("1e-12")
 
 
 @pytest.mark.slow

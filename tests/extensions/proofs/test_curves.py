@@ -1,13 +1,12 @@
 """Invariant curves: what their checkers prove, and the certificates that they refuse."""
 
 import re
-from fractions import Fraction
 from functools import cache
 from math import pi, sqrt
 
 import numpy as np
 import pytest
-from certificates import refused, with_bounds
+from certificates import with_bounds
 from flint import arb, ctx
 from matplotlib.path import Path
 from project import ROOT
@@ -104,13 +103,6 @@ def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(na
     for factor, inside in ((0.99, True), (1.01, False)):
         z = returns(bounds, float(centre[0] + factor * start[0]), 5_000)
         assert Path(polygon).contains_points(z.T).tolist() == [inside] * z.shape[1]
-
-
-@pytest.mark.parametrize(("bound", "value"), [
-    ("period", 2), ("window", ((Fraction(1), Fraction(2)), (Fraction(1), Fraction(2)))),
-])  # fmt: skip
-def test_a_stronger_statement_is_not_proved_by_the_same_certificate(bound, value):
-    assert refused(SMALL, TEXT, **{bound: value})
 
 
 @pytest.mark.slow
