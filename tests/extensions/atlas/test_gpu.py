@@ -7,7 +7,6 @@ import shutil
 import sys
 from pathlib import Path
 
-import finer_cells
 import numpy as np
 import pytest
 from host_card import HostCard
@@ -89,26 +88,6 @@ def test_verdicts_on_the_orbits_of_64_cells(place):
         states = np.stack(sunflower_points(k, e, starts))
         theirs = classify_orbits(k, states, numbers[0] * each, numbers[2] * each, impacts)
         assert all(same(mine[name], theirs[name]) for name, *_ in VERDICT), (k, e)
-
-
-@pytest.mark.slow
-def test_committed_cells_of_the_finer_atlas_are_the_processor_s():
-    committed = json.loads(finer_cells.FILE.read_text())
-    assert [each for each, _ in committed] == finer_cells.drawn()
-    chosen = [committed[i] for i in range(0, 100, 5)]
-    found = finer_cells.numbers([each for each, _ in chosen])
-    assert json.dumps(found) == json.dumps([numbers for _, numbers in chosen])
-
-
-def test_cells_of_the_finer_atlas(place):
-    there, size = place
-    committed = json.loads(finer_cells.FILE.read_text())[: 2 if size == 1 else 100]
-    drawn = [each for each, _ in committed]
-    fixed = cells.fixed_points(drawn)
-    of_cells = np.column_stack([drawn, fixed[:, [0, 2]]])
-    verdicts = cells.classified(there, of_cells, **finer_cells.ORBITS)
-    found = finer_cells.numbers(drawn, (fixed, verdicts))
-    assert json.dumps(found) == json.dumps([numbers for _, numbers in committed])
 
 
 def test_a_plan_opens_each_window_for_its_impacts_with_its_weights():

@@ -6,7 +6,6 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from certificates import with_bounds
 from flint import arb, ctx
 from matplotlib.path import Path
 from project import ROOT
@@ -18,7 +17,6 @@ from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, prove_curve
 from extensions.proofs.checkers import curve
 from extensions.proofs.search import curve as search
-from extensions.proofs.search.rotation_numbers import quotients_near
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of
 
@@ -66,32 +64,6 @@ def test_the_area_is_a_little_more_than_that_of_the_polygon():
     polygons = finding.parts["polygons"]
     assert len(polygons) == bounds["period"]
     assert 0.99 * area < Polygon(np.array(polygons[0]).T).area() < area
-
-
-@pytest.mark.slow
-def test_a_hundred_million_impacts_started_inside_a_curve_stay_inside():
-    """400 orbits all over the disc, each impact compared with a radius in doubles."""
-    _, finding = bounds_and_finding("curve-fixed-point-outer")
-    centre = np.array([float(a) for a in finding.parts["orbit"].points[0]])[:, None]
-    corners = np.array(finding.parts["polygons"][0]).T - centre
-    angle, radius = np.arctan2(*corners[::-1]), np.hypot(*corners)
-    order = np.argsort(angle)
-    angle, radius = angle[order], radius[order] / 0.999  # of the curve
-    places = np.arange(400)
-    at, share = np.pi * (3 - sqrt(5)) * places, np.sqrt((places + 0.5) / 400)
-    at = (at + np.pi) % (2 * np.pi) - np.pi
-    length = 0.99 * share * np.interp(at, angle, radius, period=2 * np.pi)
-    x, y = centre + length * np.array([np.cos(at), np.sin(at)])
-    states, furthest, impacts = BALL.state_xy(x, y, 0.01), 0.0, 0
-    for _ in range(100):
-        out = BALL.history(states, 2_500)
-        states = out[:, -1, :3].T
-        dx, dy = chart(0.2, *np.moveaxis(out[..., :3], 2, 0)).reshape(2, -1) - centre
-        bound = np.interp(np.arctan2(dy, dx), angle, radius, period=2 * np.pi)
-        furthest = max(furthest, np.max((dx * dx + dy * dy) / (bound * bound)))
-        impacts += dx.size
-    assert impacts == 10**8
-    assert 0.98 < furthest < 1
 
 
 @pytest.mark.parametrize("name", [SMALL.name, *slowly(*CURVES)])
@@ -148,20 +120,3 @@ def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, 
     with pytest.raises(ValueError, match=re.escape(reason)) as error:
         prove_curve(BALL, energy, rotation)
     assert "\n" not in str(error.value)
-
-
-@pytest.mark.slow
-def test_the_nearest_numbers_are_those_of_smooth_curves():
-    """Those on both sides of a resonance that breaks the curves between them."""
-    bounds = THEOREMS["curve-fixed-point-low"].bounds
-    scan = search._scan(with_bounds(SMALL, surface=bounds["surface"]))
-    words = search._nearest(scan, 0.1001)
-    below, above = map(float, re.findall(r"[\d.]+", words))
-    assert below < 0.1001 < above
-    for number in (below, above):
-        start = search._curve_in_doubles(scan, quotients_near(number))
-        assert len(start.xs) <= search._ROUGH
-        x = sum(start.xs)
-        turns = search.turns(bounds["surface"], x, start.points, 20_000)
-        assert turns == pytest.approx(number, abs=5e-4)
-        assert turns == pytest.approx(search._omega(start.quotients), abs=1e-7)
