@@ -70,20 +70,6 @@ def test_cells_have_the_colours_of_their_values_and_a_resonance_its_curve():
         assert (around(image, across + shift, up, 3).sum(axis=1).max() > 700) == drawn
 
 
-def test_cells_fill_whole_pixels():
-    # At these energies and k there is no curve.
-    sweep = {"energy": list(np.arange(101, 261) / 10), "k": list(np.arange(1, 101) / 5000)}
-    share = np.random.default_rng(1).random((100, 160))
-    image, scale = image_of(sweep, regular=share), colours("viridis")
-    upper = LOWER + 600 + (UPPER - LOWER - 3 * HEIGHT)
-    for row in range(0, 100, 3):
-        for column in range(0, 160, 7):
-            x, y = atlas.LEFT + 5 * column, upper + 6 * row
-            patch = image[y + 2 : y + 4, x + 2 : x + 4].reshape(-1, 3)
-            wanted = scale[int(share[row, column] * 64)]
-            assert all("#" + bytes(pixel).hex() == wanted for pixel in patch)
-
-
 def drawn(figure, color, dots):
     """Return the pixels (n, 2) of each artist in this colour: dots, or lines."""
     parts = [a for a in figure.artists if color in (a.get_color(), a.get_markerfacecolor())]

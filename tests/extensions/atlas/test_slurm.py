@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 import slurm_node
-from project import fresh_tree, wait_for
+from project import fresh_tree
 
 pytestmark = pytest.mark.slurm
 
@@ -70,19 +70,3 @@ def test_a_sweep_on_slurm_gives_the_same_bytes(cluster, local, tmp_path):
     done = cluster.jobs("CD")
     assert len(done) >= len(SWEEP["k"]) * len(SWEEP["energy"])
     assert set(done.values()) == set(slurm_node.NODES)
-
-
-def test_a_rerun_after_a_cancelled_job_finishes_with_the_same_bytes(cluster, local, tmp_path):
-    tree = small_tree(tmp_path)
-    process = begin(tree, cluster)
-    wait_for(lambda: cluster.jobs("R"))
-    job = next(iter(cluster.jobs("R")))
-    cluster.ask("scancel", job)
-    assert finish(process)[0] != 0
-    assert job in cluster.jobs("CA")
-    present = hashes(tree)
-    assert present != local and present.items() <= local.items()
-    status, output = finish(begin(tree, cluster))
-    assert status == 0, output
-    assert hashes(tree) == local
-    assert not list((tree.path / "results/atlas").rglob("*.part"))

@@ -6,7 +6,6 @@ from examples import (
     PAPER,
     SHELL,
     assert_bounded,
-    assert_made_or_refused_in_one_line,
     checked,
     made,
     no_clipping,
@@ -69,23 +68,6 @@ def test_beyond_its_bound(scene, beyond, line):
 def test_no_data_are_clipped_to_the_frame(name, change):
     with no_clipping():
         made(checked(name, **change))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("rotation", {"starts": 2, "impacts": 100, "detail": [0.5, 0.6], "detail_impacts": 100}),
-        ("rotation", {"ball": SHELL, "energy": 0.01, "energies": [-0.0001], "detail": [0.5, 0.9]}),
-        ("spread", {"orbits": 4, "length": 1000, "blocks": 2, "starts": [0.3], "impacts": 2000}),
-        ("clusters", {"orbits": 4, "impacts": 1000, "lags": 1, "resamples": 10}),
-        ("control", {"ball": PAPER, "energy": -0.003999, "period": 12}),
-        ("jumps", {"ball": PAPER, "energy": 0.00177, "energies": [0.00176], "sides": 4}),
-        ("last_curve", {"ball": PAPER, "energy": 0.02, "between": [-0.2, 0.2]}),
-    ],
-)
-def test_unusual_values_are_drawn_or_refused_in_one_line(name, change):
-    assert_made_or_refused_in_one_line(checked(name, **change))
 
 
 @pytest.mark.slow

@@ -30,31 +30,31 @@ def start_of(i):
     return sea_states(BALL, ENERGY, ORBITS)[:, i].tolist()
 
 
-@pytest.mark.parametrize("row, cut", [(0, 4.0), (1, 6.5)])
-def test_clusters_are_those_of_a_loop_over_the_impacts(clustering, row, cut):
-    count, within, time, pairs = 0, 0.0, 0.0, []
-    for i in range(CHAOTIC):
-        path = orbit(BALL, start_of(i), 1500)
-        x, tau = path["x"].values, path["tau"].values
-        y = path["xdot"].values - 0.2 * path["udot"].values
-        begun = [i for i in range(1500) if tau[i] > cut]
-        count += len(begun)
-        within += sum(t for t in tau if t <= cut)
-        time += sum(tau)
-        for first, then in itertools.pairwise(begun):
-            pairs.append((x[first], y[first], x[then], y[then]))
-    assert int(clustering["count"].values[row]) == count
-    size, length, period = CHAOTIC * 1500 / count, within / count, time / count
-    assert float(clustering["cluster_impacts"].values[row]) == pytest.approx(size)
-    assert float(clustering["cluster_time"].values[row]) == pytest.approx(length)
-    assert float(clustering["period"].values[row]) == pytest.approx(period)
+def test_clusters_are_those_of_a_loop_over_the_impacts(clustering):
+    paths = [orbit(BALL, start_of(i), 1500) for i in range(CHAOTIC)]
+    rows = [(path["x"].values, (path["xdot"] - 0.2 * path["udot"]).values, path["tau"].values)
+            for path in paths]  # fmt: skip
+    time = sum(tau.sum() for *_, tau in rows)
+    for row, cut in ((0, 4.0), (1, 6.5)):
+        begun = [np.flatnonzero(tau > cut) for *_, tau in rows]
+        count = sum(map(len, begun))
+        within = sum(tau[tau <= cut].sum() for *_, tau in rows)
+        pairs = [(x[first], y[first], x[then], y[then])
+                 for (x, y, _), at in zip(rows, begun, strict=True)
+                 for first, then in itertools.pairwise(at)]  # fmt: skip
+        found = clustering.isel(cut=row)
+        assert int(found["count"]) == count
+        size, length, period = CHAOTIC * 1500 / count, within / count, time / count
+        assert float(found["cluster_impacts"]) == pytest.approx(size)
+        assert float(found["cluster_time"]) == pytest.approx(length)
+        assert float(found["period"]) == pytest.approx(period)
+        expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
+        np.testing.assert_allclose(found["correlation"].values[0], expected, atol=1e-10)
+        for measure in ("correlation", "dependence"):
+            value, low, high = (found[f"{measure}{end}"].values for end in ("", "_low", "_high"))
+            assert np.all(low < high)
+            assert np.all((low <= value) & (value <= high)) or measure == "dependence"
     assert clustering.sizes["orbit"] == CHAOTIC
-    expected = np.corrcoef(np.array(pairs).T)[:2, 2:]
-    np.testing.assert_allclose(clustering["correlation"].values[row, 0], expected, atol=1e-10)
-    for measure in ("correlation", "dependence"):
-        value, low, high = (clustering[f"{measure}{end}"].values for end in ("", "_low", "_high"))
-        assert np.all(low < high)
-        assert np.all((low <= value) & (value <= high)) or measure == "dependence"
 
 
 def test_energies_and_strains_are_those_of_quadrature(clustering):

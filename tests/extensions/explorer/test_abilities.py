@@ -115,24 +115,6 @@ def test_a_click_finds_a_saddle_with_its_branches_and_the_link_keeps_them(person
     assert "near" not in person.state() and person.text("periodic") == ""
 
 
-def test_branches_of_an_orbit_that_is_not_symmetric_lead_to_it(person):
-    """Their first points are near the saddle, also those of the mirror image's branch."""
-    script = """const worker = new Computer(), ball = { k: 0.2, g: 0.04, energy: 0.01 };
-        const one = await worker.ask("near", { ...ball, p: args[0], q: args[1], period: 24 });
-        const lines = [];
-        for (const stable of [true, false]) {
-          const spec = { saddle: 0, side: "outer", stable, length: 0.2 };
-          const line = await worker.ask("branch", { ...ball, points: one.points, spec });
-          lines.push([line.x[5], line.xdot[5], line.udot[5], line.x.length]);
-        }
-        return [one.points[0], one.period, ...lines];"""
-    for place in ((0.5, 0.5), (0.3, -0.4)):
-        point, _, *lines = person.run(script, *place)
-        for line in lines:
-            assert np.abs(np.subtract(line[:3], point[:3])).max() < 1e-6
-            assert line[3] > 20
-
-
 def test_no_orbit_is_called_regular_before_it_has_made_a_whole_turn(person):
     """Short orbits are followed further."""
     orbits = "0.9999999*3000;0.9999999*600;0.9999999*15000;-0.2*600;-0.2*3000;0.6*600;-0.2*100"

@@ -1,11 +1,10 @@
 """Families end where events or grazings say so, and go on beyond them; the stage keeps them."""
 
 import json
-import math
 
 import pytest
 from dataset_hash import content_hash
-from family_search import PAPER, crossings, energy_of, rho, searched, up_to_period_six
+from family_search import PAPER, crossings, energy_of, rho, up_to_period_six
 
 from extensions.families.continuation import search
 from extensions.families.continuation.half_orbit import ENERGY, INERTIA
@@ -37,27 +36,6 @@ def test_families_go_on_where_an_impact_grazes():
     (end,) = (end for end in five.ends if end.kind == "touch")
     assert energy_of(found, end.p) == pytest.approx(0.012520264234, abs=1e-12)
     assert found.families[end.family].period == 6
-
-
-@pytest.mark.slow
-def test_families_without_symmetry_go_on_where_an_impact_grazes():
-    """Period 9 touches the floor, solved for to 12 digits; period 10 begins there."""
-    found = searched(PAPER, 0.0413, 0.0436, 10, 2)
-    (nine,) = (
-        f for f in found.families for e in f.ends if (f.period, f.line, e.kind) == (9, -1, "touch")
-    )
-    (touch,) = (end for end in nine.ends if end.kind == "touch")
-    assert energy_of(found, touch.p) == pytest.approx(0.043378707450, abs=1e-12)
-    ten = found.families[touch.family]
-    assert (ten.period, ten.line) == (10, -1)
-    middle = ten.points[len(ten.points) // 2]
-    at_x, at_y, radius = middle.place
-    x = PAPER.g * (1.0 + radius * at_x) / PAPER.k
-    y = PAPER.g * radius * math.sqrt((1.0 + PAPER.k) / PAPER.k) * at_y
-    start = PAPER.state_xy(x, y, energy_of(found, middle.p))
-    orbit = PAPER.history(start, 10)[0]
-    assert orbit[-1, :3] == pytest.approx(start, abs=1e-10 * (2.0 + abs(ten.system.trace(middle))))
-    assert orbit[:, 3].sum() == pytest.approx(middle.data.time, abs=1e-6)
 
 
 # --- the stage ------------------------------------------------------------------------------------

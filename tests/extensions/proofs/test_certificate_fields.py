@@ -32,7 +32,8 @@ def of(field, **given):
 
 
 @pytest.mark.parametrize(("text", "given", "reason"), [
-    ("kind = ", {}, "cannot be read"), ('kind = "tes"', {}, "not one of kind 'test'"),
+    ("kind = ", {}, "cannot be read"), (f"{TEXT}a = {'[' * 10_000}", {}, "cannot be read"),
+    ('kind = "tes"', {}, "not one of kind 'test'"),
     ("", {}, "not one of kind 'test'"),
     (TEXT.replace("1/5", "1/4"), {"surface": PAPER}, "of k 1/4, not 1/5"),
     (TEXT.replace("1/25", "1/24"), {"surface": PAPER}, "of g 1/24, not 1/25"),
@@ -67,8 +68,9 @@ FORM, ROW, TWO = "missing or of another form", "no row of 2 numbers", Fraction(2
     ("2", "at_most", [TWO], 2), ("2", "check", [TWO], None),
     *((number, "number", [], "more than 100 digits")
       for number in (f"1{ZEROS}", f"-1{ZEROS}", f'"1/1{ZEROS}"')),
-    ("nan", "number", [], "not an exact number"), ("1\na = 1", "number", [], "cannot be read"),
-    ("1", "number", [str], FORM), ("[]", "numbers", [2], "no rows"),
+    ("nan", "number", [], "not an exact number"),
+    ('"\u0661/\u0665"', "number", [], "not an exact number"), ("1", "number", [str], FORM),
+    ("1\na = 1", "number", [], "cannot be read"), ("[]", "numbers", [2], "no rows"),
     ("[[1, 2], [1]]", "numbers", [2], ROW), ("[[1, 2], [1, 2, 3]]", "numbers", [2], ROW),
     ('[[1, 2], "12"]', "numbers", [2], ROW), ("[1, 2]", "row", [3], "no row of 3 numbers"),
     ("true", "whole", [], FORM), ("[1, 1.5]", "whole_numbers", [], "no list of whole numbers"),

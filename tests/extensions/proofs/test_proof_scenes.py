@@ -8,7 +8,6 @@ from examples import (
     SHELL,
     assert_bounded,
     checked,
-    computed,
     made,
     no_clipping,
 )
@@ -62,21 +61,6 @@ def test_energies_and_values_outside_the_axes_are_reported():
     assert line == f"axes.energy.limits [0, 0.004] {words}"
     axes["twist"] = {"limits": [2, 6], "ticks": [2]}
     assert len(hidden(SCENE | {"picture": "twist", "axes": axes}, data)) == 2
-
-
-@pytest.mark.slow
-def test_a_horseshoe_shows_only_what_lies_within_its_limits():
-    given = {"x": {"limits": [0, 0.1], "ticks": [0]}, "q": {"limits": [-0.9, 0.9], "ticks": [0]}}
-    data = computed(checked("horseshoe"))
-    made(checked("horseshoe", axes=given), data)
-    said = hidden(checked("horseshoe", axes=given), data)
-    assert [line.partition(" of ")[0] for line in said] == [
-        "axes.x.limits [0, 0.1] hide 39.5 %",
-        "axes.q.limits [-0.9, 0.9] hide 10.4 %",
-    ]
-    far = {"x": {"limits": [1.0, 2.0], "ticks": [1]}}
-    with pytest.raises(ValueError, match=r"axes.x.limits \[1.0, 2.0\]: all data lie beyond them"):
-        made(checked("horseshoe", axes=far), data)
 
 
 # ---- the picture of the twist
