@@ -65,6 +65,7 @@ def test_the_symmetric_orbits_are_among_them_with_the_same_bits(k, g, energy, pe
         assert np.all(np.max(np.abs(mirrored), axis=-1).min(axis=1).min(axis=0, initial=1.0) < 1e-9)
 
 
+@pytest.mark.slow
 def test_orbits_without_symmetry_are_right_to_the_last_bit():
     orbits = periodic_orbits(BALL, 0.01, 20)
     assert (orbits.sizes["orbit"], int(orbits["symmetric"].sum())) == (24, 14)

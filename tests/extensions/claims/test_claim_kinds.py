@@ -31,7 +31,7 @@ SCENES = {
     "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
     "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
-    "exclusion": SCENE | {"followed": 40},
+    "exclusion": SCENE | {"followed": 30},
 }  # fmt: skip
 # A kind, the number of one of its datasets, a variable, and a change of it that must show.
 CHANGES = [
@@ -81,7 +81,7 @@ def horseshoe():
 
 
 OTHERS = {
-    "exclusion": lambda: [exclusion(BALL, 0.01, 60, 40), *curves()],
+    "exclusion": lambda: [exclusion(BALL, 0.01, 40, 30), *curves()],
     "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
     "curves": curves,
     "horseshoe": horseshoe,

@@ -23,7 +23,7 @@ from pseudorigid.dynamics.variables import chart, states_of
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]
-DEAR = [*CURVES, "entropy", "horseshoe-inner", "horseshoe-smooth"]  # to check
+DEAR = [*CURVES, "entropy", "horseshoe-inner", "horseshoe-smooth", "twist-one-zero"]  # to check
 QUICK = [n for n in THEOREMS if n not in DEAR]
 DEAR_SEARCHES = ["horseshoe-outer", "no-circle", "twist-one-zero", "entropy-lower"]
 SEARCHES = [n for n in ONE_OF_EACH if n not in (*DEAR, *DEAR_SEARCHES)]
