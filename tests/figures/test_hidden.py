@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from examples import computed, function
 from project import shipped
+from slowly import slowly
 
 from pipeline.checks.quantities import hidden, reported
 from pipeline.config import check
@@ -136,7 +137,7 @@ PAPER = shipped()["scenes"]["fig2"]["axes"]
 WIDE = {name: {"limits": [-9, 9], "ticks": [0]} for name in style.NAMES}
 
 
-@pytest.mark.parametrize("energy", [0.003, 0.0125, 0.0599])
+@pytest.mark.parametrize("energy", [0.0125, *slowly(0.003, 0.0599)])
 @pytest.mark.parametrize(
     "axes", [PAPER, {"udot": axis(0, 0.3)}, {"x": axis(0.1, 0.2)}, {"xdot": axis(-0.1, 0.05)}, {}]
 )

@@ -60,6 +60,7 @@ def times(tree):
     return {file.name: file.stat().st_mtime_ns for file in files}
 
 
+@pytest.mark.slow
 def test_no_other_command_sees_the_finer_atlas(tree):
     assert tree.succeed("atlas", "finer", "-n") == "finer: not made yet: block, data, drawing\n"
     assert "finer" not in tree.succeed("list") + tree.succeed("atlas", "-n")
