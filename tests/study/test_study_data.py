@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from described import assert_describes_itself, stages_of
+from project import shipped
 
 from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
@@ -12,18 +13,7 @@ from study import figure_errors, measured, stages
 from study.methods.counted_methods import METHODS
 
 BALL = Ball(0.2, 0.04)
-SCENE = {
-    "picture": "motion",
-    "ball": {"k": 0.2, "g": 0.04},
-    "energy": 0.01,
-    "period": 1,
-    "type": "elliptic",
-    "duration": 1.0,
-    "axes": {
-        "t": {"limits": [0, 1], "ticks": [0, 1]},
-        "displacement": {"limits": [-0.5, 0.5], "ticks": [0]},
-    },
-}
+SCENE = shipped()["scenes"]["fig3"] | {"ball": {"k": 0.2, "g": 0.04}, "energy": 0.01}
 
 
 def needs():

@@ -136,16 +136,6 @@ def test_the_exponent_is_that_of_long_orbits():
     assert numbers["exponent_low"] < numbers["exponent"] < numbers["exponent_high"]
 
 
-def test_the_energy_of_figure_8_has_chains_and_a_wider_interval_for_the_threshold():
-    numbers = cell.cell(0.2, 0.625, 400, 1000)
-    assert numbers["chains"][9] > 2 and numbers["chains"][11] > 2
-    assert 0.62 < numbers["regular"] < 0.76
-    low, _ = cell.wilson(round(400 * numbers["regular_strict"]), 400)
-    _, high = cell.wilson(round(400 * numbers["regular_lenient"]), 400)
-    assert (numbers["regular_low"], numbers["regular_high"]) == (low, high)
-    assert numbers["regular_strict"] < numbers["regular"] < numbers["regular_lenient"]
-
-
 @pytest.mark.slow
 def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
     """The random orbits have other starts and longer runs, and exponents of the spectrum."""

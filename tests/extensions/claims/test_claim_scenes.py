@@ -70,22 +70,6 @@ def test_no_data_are_clipped_to_the_frame(name, change):
         made(checked(name, **change))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("change", "sides"),
-    [({"ball": PAPER, "energy": 0.009}, 2), ({"ball": PAPER, "energy": 0.011}, 1),
-     ({"ball": PAPER, "energy": 0.002, "period": 10}, 2),
-     ({"ball": {"k": 0.3, "g": 0.02}, "energy": 0.002}, 1)],
-)  # fmt: skip
-def test_flux_has_the_lobes_that_exist_and_says_why_others_do_not(change, sides):
-    block = checked("flux", **({"orbits": 40} | change))
-    _, numbers, _ = made(block)
-    assert len(numbers["lobes"].split(", ")) == sides
-    if sides == 1:
-        assert numbers["no outer lobes"].startswith("a jump of the map cuts the branch")
-    assert ("no inner region" in numbers) == (block["ball"]["k"] == 0.3)
-
-
 def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     document = shipped()
     document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}

@@ -7,16 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from project import of_scenes
 
-from extensions.claims import command as claim_verdicts
 from extensions.claims import ledger as claims
 from extensions.claims.ledger import VERDICTS, chaos, schema
 from extensions.claims.ledger.outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNCHECKED, UNDECIDED
 from extensions.proofs import THEOREMS
 from extensions.proofs.kinds import theorems
-from pipeline import config
-from pipeline.cli.session import UsageError
 from pipeline.config import ConfigError
 from pipeline.records.sources import ROOT
 from pseudorigid import Ball
@@ -214,12 +210,6 @@ def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other, line):
     with pytest.raises(ConfigError) as error:
         schema.load(claims.TEXT.replace(text, other, 1), claims.CHECKS)
     assert error.value.lines[0].startswith(f"claims.toml: claims.{line}")
-
-
-def test_a_dataset_that_no_scene_makes_is_named_with_its_claim():
-    checked = config.check(of_scenes("fig3", "fig5"))
-    with pytest.raises(UsageError, match="makes fig2/orbits, which claim 4 needs"):
-        claim_verdicts.dataset_paths(checked, ["fig2/orbits"])
 
 
 @pytest.mark.parametrize(

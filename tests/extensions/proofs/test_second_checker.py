@@ -5,19 +5,13 @@ from fractions import Fraction
 import pytest
 import second_checker
 from certificates import altered, with_field
-from flint import arb, ctx
 from mpmath import iv
-from second_checker import ImpactMap, NotProvedError, Series, interval
-from sections import sea
+from second_checker import NotProvedError
 from slowly import slowly
 
-from extensions.proofs import THEOREMS, Surface
+from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import horseshoe, jump, periodic
-from extensions.proofs.enclosure.jets import Jet
-from extensions.proofs.enclosure.surface import ball_of
-from pseudorigid.dynamics.variables import chart
 
-PAPER = Surface("1/5", "1/25", "1/100")
 KINDS = {periodic.check: "periodic orbit", jump.check_smooth: "no touch"}
 QUICK = [name for name, theorem in THEOREMS.items() if theorem.checker in KINDS]
 KINDS[horseshoe.check] = "horseshoe"
@@ -66,26 +60,3 @@ def test_it_refuses_altered_certificates_and_stronger_statements(name):
     for bound in bounds.keys() & ({"radius"} if "type" in bounds else {"entropy", "energy"}):
         with pytest.raises(NotProvedError):
             check(name, **{bound: 2 * bounds[bound]})
-
-
-def test_it_encloses_the_images_and_derivatives_of_a_box():
-    surface, undecided = ImpactMap(PAPER.k, PAPER.g, PAPER.energy), 0
-    for point in chart(0.2, *sea(20)).T:
-        centre = [Fraction(a) for a in point]
-        box = [interval(a) + iv.mpf([-1, 1]) * 1e-5 for a in centre]
-        series = Series(box[0], iv.mpf(1)), Series(box[1], iv.mpf(0), iv.mpf(1))
-        try:
-            image = surface.image(*series, surface.first_root(*box))
-        except NotProvedError:
-            undecided += 1
-            continue
-        for shift in (-9e-6, 3e-6, 9e-6):
-            with ctx.workprec(300):
-                near = [ball_of(centre[0]) + arb(shift), ball_of(centre[1]) - arb(9e-6)]
-                jets = PAPER.impact(*Jet.plane(2, *near))[:2]
-                true = [[iv.mpf(a.mid().str(60, radius=False)) for a in jet.coefficients]
-                        for jet in jets]  # fmt: skip
-            for part, row in zip(image, true, strict=True):
-                for found, value in zip(part.c, row, strict=True):
-                    assert value.a > found.a and value.b < found.b
-    assert undecided < 5
