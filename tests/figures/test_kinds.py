@@ -104,6 +104,7 @@ def test_impacts_graze_on_the_rim_which_ends_the_outline():
     around = picture.surface.outline(picture.view)
     x, y, z = around[:, ~np.isnan(around[0])]
     assert np.all(y + z >= 0.0) and np.min(y + z) < 0.01
+    assert np.allclose((y * y + k * z * z + k * x * x) / 2 - g * x, energy, rtol=0, atol=1e-15)
     normal = np.array([k * x - g, y, k * z])
     assert np.max(np.abs(picture.view.eye @ normal)) < 1e-15
     assert 0 < x.size < around.shape[1]
