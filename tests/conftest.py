@@ -112,24 +112,13 @@ def variants(shared, finished):
         tree.make_here("results/low/figures/fig3.png", "results/low/figures/fig7.png")
         with suppress(ValueError):  # which is recorded: there is no such orbit
             tree.make_here("results/low/motion_fig4.nc")
-        if "report" in parts():
+        if "publication" in parts():
             (folder / "said of paper and low").write_text(tree.succeed("compare", "paper", "low"))
         else:
             tree.succeed()
             tree.succeed("variant", "low")
 
     return Tree(shared("variants in a folder with spaces", compare))
-
-
-@pytest.fixture(scope="session")
-def reported(shared, variants):
-    """A read-only copy with three small scenes, two of them also in a variant, and their report."""
-
-    def make(folder):
-        tree = fresh_tree(folder, of_scenes("fig3", "fig6", "fig7", variants=VARIANTS), variants)
-        (folder / "said").write_text(tree.succeed("report"))
-
-    return Tree(shared("reported in a folder with spaces", make))
 
 
 # File of pseudorigid/dynamics -> code appended to it: other data, the same data, and a bug.

@@ -135,7 +135,6 @@ class Part(NamedTuple):
     methods: Mapping[str, str] = {}  # key of a scene's `method` -> the class of its block
     exact: Mapping[str, Mapping[str, str]] = {}  # method -> stage -> the function that computes it
     reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
-    report: str = ""  # a module with a section of the report
     benchmark: str = ""  # a module with rows of the benchmark
     folders: tuple[str, ...] = ()  # in results/, of its commands; no variant has such a name
     committed: str = ""  # a function () -> committed file that pipeline.renew writes -> its text

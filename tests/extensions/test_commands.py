@@ -18,7 +18,7 @@ MISTAKES = {
         "prove --impact": " prove: no argument --impact: did you mean --impacts?",
     },
     "publication": {
-        "report --against": " report: no argument --against: verify has it",
+        "article --against": " article: no argument --against: verify has it",
     },
 }
 

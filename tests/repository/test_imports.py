@@ -132,7 +132,6 @@ def undeclared(graph):
             # Modules by which it is entered where the other one is absent.
             entered = {each.module for each in commands if other not in with_needs(each.needs)}
             entered |= {module for _, _, module in declared.options.values()}
-            entered |= {declared.report}
             entered |= {f"{own}.{module}" for module in ("part", "kinds")}
             for module in (inside - allowed) | (entered & inside):
                 reached = graph.find_upstream_modules(module)

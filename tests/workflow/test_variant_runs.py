@@ -68,8 +68,8 @@ def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
 
 def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert figures_of(variants, "low") == {"fig3.png", "fig7.png"}
-    if "report" not in parts():
-        pytest.skip("two variants are compared by the part report")
+    if "publication" not in parts():
+        pytest.skip("two variants are compared by the part publication")
     output = (variants.path / "said of paper and low").read_text()
     named = [line.split()[0] for line in output.splitlines() if ABSENT in line]
     assert named[0].startswith("results/low/figures/fig4.") and named[1:] == ["low:"]

@@ -38,7 +38,6 @@ PART = Part(
             details="Makes missing results first, including the sweeps of the atlas.",
         ),
     },
-    report="extensions.claims.report",
     seconds={
         "results/claims/spread_spread.nc": 90,
         "results/claims/rotation_rotation.nc": 8,

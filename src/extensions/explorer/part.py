@@ -11,6 +11,5 @@ PART = Part(
             module="extensions.explorer.command",
         ),
     },
-    report="extensions.explorer.report",
     committed="extensions.explorer.page.committed",
 )

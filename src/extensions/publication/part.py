@@ -1,6 +1,6 @@
-"""What publishing adds to the pipeline: archive, article and site, and Figure 1."""
+"""What publishing adds: archive, article, site, the comparison of variants, and Figure 1."""
 
-from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, switch
+from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, names, switch
 
 _COMMANDS, _TEXT = "extensions.publication.commands", ("claims", "explorer", "proofs")
 PART = Part(
@@ -28,12 +28,21 @@ PART = Part(
             details="Installs the typesetter first (once).",
             needs=_TEXT,
         ),
+        "compare": SnakemakeCommand(
+            "show what differs between two variants, figure by figure",
+            ("a", {"nargs": "?", "help": "a variant of config.yaml, or paper", "metavar": "A"}),
+            ("b", {"nargs": "?", "help": "another one", "metavar": "B"}),
+            names(
+                "figure", "figures to compare, by their names in config.yaml; without a name, all"
+            ),
+            module="extensions.publication.compare.command",
+        ),
         "site": SnakemakeCommand(
-            "write results/site/: report, explorer and article, to mail or serve",
+            "write results/site/: all pages with a search, figures, explorer and article",
             module=f"{_COMMANDS}.site",
-            details="All published files must be the committed ones. Installs the typesetter "
-            "first (once).",
-            needs=(*_TEXT, "report"),
+            details="All published files must be the committed ones. Installs Sphinx and the "
+            "typesetter first (once).",
+            needs=_TEXT,
         ),
     },
     options={
@@ -47,5 +56,5 @@ PART = Part(
             f"{_COMMANDS}.against",
         )
     },
-    folders=("site", "archive"),
+    folders=("site", "archive", "compare"),
 )

@@ -55,7 +55,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot just before each impact on (orbit, point), in ascending order of |multiplier|;
+        x, xdot, udot just before each impact on (orbit, point), in ascending order of `|multiplier|`;
         tau, the time of flight from that point to the next (1/omega). On `orbit`: type, elliptic,
         hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface;
         multiplier, its eigenvalue of largest modulus, or the modulus, 1, of an elliptic orbit;
@@ -63,7 +63,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
         tau. `orbit` has length 0 if none is found. The first point lies on a symmetry line.
         Points, times and traces of orbits that are unstable (MOST_GROWTH) or almost parabolic are
         right to the last bit. Those of others are right to rounding times up to MOST_GROWTH and
-        1/|trace - 2|; for periods up to 40 all tried were good to 2e-12 section radii and traces
+        `1/|trace - 2|`; for periods up to 40 all tried were good to 2e-12 section radii and traces
         to 1e-12. Attributes: resolution, the number of cells of each line; unsolved, the number of
         orbits that were seen but on which Newton's method does not converge.
 

@@ -4,7 +4,8 @@ CLAIMS.json has the verdicts as data, and CLAIMS.md is rendered from it.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from inspect import getmembers, isfunction
 from pathlib import Path
@@ -12,6 +13,9 @@ from pathlib import Path
 import xarray as xr
 from pydantic import TypeAdapter
 
+from pipeline.records.sources import ROOT
+
+from ..mathematics import typeset
 from . import chaos, model, periodic, schema
 from .outcomes import UNCHECKED
 from .schema import Verdict
@@ -29,6 +33,7 @@ DOCUMENT = schema.load(TEXT, CHECKS)
 # number -> claim, and verdict word -> what the verdict needs, in the order of CLAIMS.md
 CLAIMS, VERDICTS = DOCUMENT.claims, DOCUMENT.verdicts
 _ROWS = TypeAdapter(list[Verdict])
+_ROW = re.compile(r"\b(?:row|statement) (\d+)\b")
 
 
 def required_datasets() -> list[str]:
@@ -72,18 +77,40 @@ def by_verdict(verdicts: Iterable[Verdict]) -> dict[str, list[Verdict]]:
 
 
 def render(verdicts: list[Verdict]) -> str:
-    """Return the text of CLAIMS.md: a table of the verdict words, and one of each word's rows."""
-    tables, count = by_verdict(verdicts), checkable_count(verdicts)
+    """Return the text of CLAIMS.md: a table of the verdict words, and a heading for each claim."""
+    groups, count = by_verdict(verdicts), checkable_count(verdicts)
     rest = f"{count} checkable statements, and on {len(verdicts) - count} more"
     lines = [DOCUMENT.head, f"The verdicts on {rest}, and what each needs:", ""]
-    lines += ["| verdict | rows | what it needs |", 3 * "|---" + "|"]
-    lines += [f"| {word} | {len(tables[word])} | {needs} |" for word, needs in VERDICTS.items()]
-    lines.append("")
-    for word in filter(tables.get, tables):
-        lines += [f"## {word.capitalize()}", ""]
-        lines += ["| | where | statement | our value | error | look at |", 6 * "|---" + "|"]
-        for v in tables[word]:
-            cells = str(v.number), v.place, v.statement, v.value, v.error, v.evidence
-            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-        lines.append("")
-    return "\n".join(lines)
+    lines += ["| verdict | statements | what it needs |", 3 * "|---" + "|"]
+    lines += [
+        f"| [{word}](#{word.replace(' ', '-')}) | {len(groups[word])} | {needs} |"
+        for word, needs in VERDICTS.items()
+    ]
+    for word in filter(groups.get, groups):
+        lines += ["", f"## {word.capitalize()}"]
+        for verdict in groups[word]:
+            lines += ["", f"### Statement {verdict.number}", "", *_described(verdict)]
+    return "\n".join([*lines, ""])
+
+
+def _described(verdict: Verdict) -> Iterator[str]:
+    """Yield the lines below the heading of a verdict."""
+    texts = {"Our value": verdict.value, "Error": verdict.error}
+    yield f"**The paper, {verdict.place}:** {typeset(verdict.statement)}"
+    for name, text in texts.items():
+        if text:
+            words = _ROW.sub(r"[\g<0>](#statement-\1)", typeset(text))
+            yield f"\n**{name}:** {words}"
+    if verdict.evidence:
+        yield f"\n**Look at:** {', '.join(_linked(verdict.evidence))}"
+
+
+def _linked(evidence: str) -> Iterator[str]:
+    """Yield each thing to look at: a link to a file of the tree, or code."""
+    folder = ""
+    for name in evidence.split(", "):
+        path = name if "/" in name else f"{folder}/{name}"
+        folder = path.rpartition("/")[0]
+        is_file = (ROOT / path).is_file() and not path.startswith("results/")
+        code = f"`{name}`" if "/" in name else name
+        yield f"[{path}]({path})" if is_file else code

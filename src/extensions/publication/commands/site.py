@@ -1,4 +1,4 @@
-"""./reproduce site: write one folder with the report, the explorer and the article."""
+"""./reproduce site: write one folder with all pages, the explorer and the article."""
 
 import os
 import shutil
@@ -13,15 +13,9 @@ from pipeline.records.sources import ROOT
 
 from .. import archive
 
-SITE = "results/site"
-# Name in the menu of the report -> the file beside it.
-_BESIDE = {"Article (web page)": "article.html", "Article (PDF)": "article.pdf"}
-# A web server shows this page for the folder itself.
-_INDEX = Path(__file__).with_name("site_index.html")
+SITE, LIST = "results/site", "files.txt"  # the latter lists the files of the former
 # These links are put into the explorer, which has none where it stands alone.
-_LINKS = (
-    '<nav><a href="report.html">Report</a> · <a href="article.html">Article</a></nav>\n</header>'
-)
+_LINKS = '<nav><a href="index.html">Site</a> · <a href="article.html">Article</a></nav>\n</header>'
 
 
 def run(args: Arguments) -> int:
@@ -35,11 +29,12 @@ def run(args: Arguments) -> int:
             archive.refuse_unpublished(ROOT, args.config)  # before packages are downloaded
             _refuse_others(ROOT / SITE)
     add_packages("article")
+    add_packages("site")
     part = (ROOT / SITE).with_name(f".site.{os.getpid()}.part")
     with locked(), interruptible(), one_line("site: "):
         try:
-            _write(part, args)
-            _replace(part, ROOT / SITE)
+            _write(part / "site", args)
+            _replace(part / "site", ROOT / SITE)
         except OSError as error:
             raise UsageError(f"{error.filename}: cannot be written: {error.strerror}") from None
         finally:
@@ -50,34 +45,35 @@ def run(args: Arguments) -> int:
 
 
 def _refuse_others(folder: Path) -> None:
-    """Raise ValueError for a file that this command cannot have written: it would be deleted."""
-    own = [*folder.glob("*.html"), folder / "article.pdf", *(folder / MAIN).glob("*.nc")]
-    others = [file for file in sorted(folder.rglob("*")) if file.is_file() and file not in own]
-    if others:
-        raise ValueError(f"{others[0]} was not written by this command: move it away")
+    """Raise ValueError for a file that this command did not write: it would be deleted."""
+    own = folder / LIST
+    known = own.read_text(encoding="utf-8").splitlines() if own.is_file() else []
+    for file in sorted(folder.rglob("*")):
+        if file.is_file() and str(file.relative_to(folder)) not in known:
+            raise ValueError(f"{file} was not written by this command: move it away")
 
 
 def _write(folder: Path, args: Arguments) -> None:
     """Write all files of the site into a new folder."""
     from extensions.explorer import page as explorer
-    from extensions.report import page
 
     from ..article import numbers, typesetting
+    from ..site.build import build
 
-    data = sorted((ROOT / "results" / MAIN).glob("*.nc"))
-    (folder / MAIN).mkdir(parents=True)
-    for file in data:
+    build(ROOT, args.config, folder)
+    (folder / MAIN).mkdir()
+    for file in sorted((ROOT / "results" / MAIN).glob("*.nc")):
         shutil.copyfile(file, folder / MAIN / file.name)
     measured = numbers.numbers_of(ROOT, args.config)
     files = {
-        "index.html": _INDEX.read_bytes(),
-        "report.html": page.render(ROOT, args.config, _BESIDE).encode(),
         "explorer.html": explorer.render(args.config).replace("</header>", _LINKS, 1).encode(),
         "article.pdf": typesetting.typeset(ROOT, measured),
         "article.html": typesetting.web_page(ROOT, measured),
     }
     for name, content in files.items():
         (folder / name).write_bytes(content)
+    names = sorted(str(f.relative_to(folder)) for f in folder.rglob("*") if f.is_file())
+    (folder / LIST).write_text("\n".join([*names, LIST, ""]), encoding="utf-8")
 
 
 def _replace(part: Path, folder: Path) -> None:

@@ -1,42 +1,22 @@
-"""docs/api.md names all of the public API and its examples are true; bad input is one line."""
+"""Each function of the public API has an example, quantities are right; bad input is one line."""
 
-import doctest
+import inspect
 import math
-import re
 
 import numpy as np
 import pytest
-from project import ROOT
 
 import pseudorigid
-from pipeline.declaration import parts
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.ensemble import ImpactMap
 
-PAGE = ROOT / "docs" / "api.md"
 BALL = Ball(k=0.2, g=0.04)
 REGULAR, CHAOTIC = -0.2, 0.6  # starts at E = 0.01, in section radii
 
 
-# Examples that take seconds; .ci/documented runs these too.
-DEAR = re.compile(r"0\.1787|proof\.digits|\bflux\b")
-
-
-def test_the_examples_of_the_page_are_true():
-    text, *of_extensions = re.split(r"\n### (\w+)\n", PAGE.read_text(encoding="utf-8"))
-    for name, part in zip(of_extensions[::2], of_extensions[1::2], strict=True):
-        text += part if name in parts() else ""
-    page = doctest.DocTestParser().get_doctest(text, {}, PAGE.name, str(PAGE), 0)
-    page.examples = [one for one in page.examples if not DEAR.search(one.source)]
-    assert len(page.examples) > 20
-    assert doctest.DocTestRunner().run(page).failed == 0
-
-
 @pytest.mark.parametrize("name", pseudorigid.__all__)
-def test_the_page_names_every_function_with_an_example(name):
-    text = PAGE.read_text(encoding="utf-8")
-    assert f"\n| `{name}" in text
-    assert f" {name}" in "".join(line for line in text.splitlines() if ">>> from" in line)
+def test_each_function_has_an_example(name):
+    assert f"{name}(" in inspect.getdoc(getattr(pseudorigid, name)).partition(">>> ")[2]
 
 
 def test_the_rotation_number_tends_to_that_of_the_fixed_point():

@@ -6,7 +6,7 @@ import xarray as xr
 from commands import mistake
 from sections import BALL
 
-from extensions.report.compare import datasets
+from extensions.publication.compare import datasets
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents

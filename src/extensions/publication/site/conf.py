@@ -1,0 +1,58 @@
+"""The settings of Sphinx: pages in Markdown (MyST), docstrings by numpydoc, formulas as MathML.
+
+The folder of the sources has the repository's entries and a folder `pages`, which build.py writes.
+"""
+
+from pathlib import Path
+
+from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
+
+project = "pseudorigid"
+root_doc = "README"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc"]
+include_patterns = ["*.md", "pages/*.md", "docs/**.md", "src/**.md", "tests/README.md"]
+exclude_patterns = ["config", "results", "src/pipeline"]
+default_role = "literal"
+highlight_language = "none"
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+numpydoc_show_class_members = False
+autodoc_member_order = "bysource"
+
+html_theme = "furo"
+html_title = "pseudorigid"
+html_static_path = ["site.css", "filter.js"]
+html_css_files = ["site.css"]
+html_js_files = [("filter.js", {"defer": "defer"})]
+html_copy_source = html_show_sourcelink = html_show_sphinx = False
+html_permalinks_icon = "#"
+html_math_renderer = "mathml"
+html_sidebars = {
+    "**": [
+        *(f"sidebar/{name}.html" for name in ("brand", "search", "scroll-start", "navigation")),
+        "beside.html",
+        "sidebar/scroll-end.html",
+    ]
+}
+templates_path = ["."]
+HERE = Path(__file__).parent
+
+
+def _formula(translator, node):
+    """Write a formula as MathML, which needs no script."""
+    block = isinstance(node, nodes.math_block)
+    translator.body.append(tex2mathml(node.astext(), as_block=block))
+    raise nodes.SkipNode
+
+
+def _with_contents(app, name, source):
+    """Add the table of contents to the first page, which GitHub shows without it."""
+    if name == root_doc:
+        source[0] += "\n" + (HERE / "contents.txt").read_text(encoding="utf-8")
+
+
+def setup(app):
+    """Register the two functions above."""
+    app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
+    app.connect("source-read", _with_contents)

@@ -1,0 +1,182 @@
+"""Pages that are written for each site: this run, the gallery, the theorems, and Python."""
+
+import importlib.resources
+import re
+import tomllib
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pseudorigid
+from extensions.claims import ledger
+from extensions.claims.ledger.outcomes import CORRECTED, FALSE
+from extensions.explorer.data import address
+from extensions.proofs.theorems.statements import THEOREMS
+from paper.numbers import printed
+from pipeline.checks import published_sets
+from pipeline.checks.captions import caption_of
+from pipeline.checks.freshness import CURRENT, Freshness
+from pipeline.checks.quantities import measured
+from pipeline.config import MAIN, Config
+from pipeline.config.results import drawn
+from pipeline.config.schema.sets import SETS
+from pipeline.records.artifacts import load
+from pipeline.records.files import read_text
+from pipeline.records.record import read_record, record_path
+
+_PROOFS = "src/extensions/proofs"
+# Functions of parts, which are no part of the wheel.
+_OF_PARTS = {
+    "extensions.proofs": ("prove_orbit", "prove_curve", "prove_horseshoe", "true_orbit"),
+    "extensions.claims": ("turnstile_flux",),
+}
+
+
+def pages(root: Path, config: Config) -> dict[str, str]:
+    """Map each page, by its name in the folder `pages`, to its text in MyST.
+
+    Raises ValueError, which names the file, if a result cannot be read.
+    """
+    writers: dict[str, Callable[[Path, Config], Iterable[str]]] = {
+        "run": _run,
+        "gallery": _gallery,
+        "theorems": _theorems,
+        "api": _api,
+    }
+    texts = {name: "\n".join([*write(root, config), ""]) for name, write in writers.items()}
+    return texts | {f"theorem-{name}": "\n".join(_theorem(root, config, name)) for name in THEOREMS}
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
+    """Return the lines of a table, between empty lines."""
+    lines = [[*head]]
+    lines += [["---"] * len(lines[0]), *([str(cell) for cell in row] for row in rows)]
+    return ["", *("| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines), ""]
+
+
+def _run(root: Path, config: Config) -> Iterator[str]:
+    """Yield the page on this run: states, reported numbers, corrections, and what made the results."""
+    freshness = Freshness(root, config.build_specs())
+    shown: dict[str, None] = {}
+    yield "# This run"
+    yield "\nThis page was written with the site, from the results that are current."
+    for variant in (MAIN, *config.own_variants):
+        absent = config.left_out.get(variant, {})
+        states = {s: freshness.state(drawn(s, "png", variant)) for s in config.variants[variant]}
+        counts = Counter("current" if state == CURRENT else state for state in states.values())
+        if variant != MAIN and CURRENT not in states.values():
+            continue
+        yield f"\n## {'The figures' if variant == MAIN else f'Variant {variant}'}\n"
+        yield f"{', '.join(f'{count} {state}' for state, count in counts.items())}."
+        for scene, state in states.items():
+            block = config.variants[variant][scene]
+            caption = caption_of(scene, block.as_mapping())
+            yield f"\n### {caption.name}: {caption.title}\n"
+            if state != CURRENT:
+                yield f"Not shown: {state}."
+                continue
+            shown |= dict.fromkeys([*config.data_of(variant, scene).values(), drawn(scene, "png", variant)])
+            if place := address(config, variant, scene, block.as_mapping()):
+                yield f'<a href="../explorer.html#{place}">Open it in the explorer</a>'
+            values = measured(root, config, variant, scene)
+            yield from _table(
+                ("quantity", "the paper", "measured here"),
+                ((name, printed(scene, name), value) for name, value in values.items()),
+            )
+        yield from (f"\n{scene} is left out: {reason}." for scene, reason in absent.items())
+    yield "\n## Corrections to the paper\n"
+    verdicts = ledger.by_verdict(ledger.read_json(read_text(root / ledger.DATA)))
+    for word in (FALSE, CORRECTED):
+        numbers = ", ".join(f"[{v.number}](../CLAIMS.md#statement-{v.number})" for v in verdicts[word])
+        yield f"- {word}: statements {numbers}"
+    yield "\n## What made the results\n"
+    yield "Seconds and commit are those of the run that made a file."
+    rows, packages = [], set()
+    for path in shown:
+        record = read_record(root, record_path(path))
+        packages.add(", ".join(f"{n} {v}" for n, v in record["environment"].items()))
+        commit = (record.get("commit") or "none")[:12] + ", with changes" * bool(record.get("dirty"))
+        seconds = record.get("seconds")
+        rows.append([f"`{path}`", f"`{record['output']['sha256'][:16]}`", commit,
+                     f"{seconds:.1f}" if isinstance(seconds, float) else "not known"])  # fmt: skip
+    yield from _table(("file", "sha256", "commit", "seconds"), rows)
+    yield from (f"Made with {names}." for names in sorted(packages))
+
+
+def _gallery(root: Path, config: Config) -> Iterator[str]:
+    """Yield the gallery: each committed picture with the lines of YAML that make it."""
+    yield "# Gallery"
+    yield "\nEach picture is made by the lines below it, a block of `config.yaml` or of a part's"
+    yield "`scenes.yaml`. [Examples](../docs/examples/README.md) has pictures made by Python."
+    for each in published_sets.committed_sets(config):
+        yield f"\n## {SETS[each.group].heading}\n\n`{each.command}`"
+        key = SETS[each.group].key
+        for name in sorted(n for n in [*each.drawn, *each.measured] if n.endswith(".png")):
+            scene, picture = Path(name).stem, f"{each.folder}/{name}"
+            if not (root / picture).is_file():
+                continue
+            title = caption_of(scene, config.variants[each.group][scene].as_mapping()).title
+            yield f"\n### {each.group}/{scene}\n\n[![{title}](../{picture})](../docs/figures.md)\n"
+            yield f"```yaml\n{key}:\n{_lines(root, key, scene)}```"
+
+
+def _lines(root: Path, key: str, scene: str) -> str:
+    """Return the lines of a scene, from config.yaml or from the file of its part."""
+    for file in (root / "config.yaml", *sorted(root.glob("src/**/scenes.yaml"))):
+        text = re.search(rf"^{key}:.*\n((?:(?:[ #].*)?\n)+)", read_text(file), re.M)
+        if text and (own := re.search(rf"^  {scene}:.*\n(?:(?:    .*)?\n)*", text[1], re.M)):
+            return own[0].rstrip() + "\n"
+    return f"  {scene}\n"
+
+
+def _premises() -> list[dict[str, Any]]:
+    """Return the groups of theorems with the premises that a checker decides."""
+    file = importlib.resources.files("extensions.proofs") / "theorems" / "premises.toml"
+    groups: list[dict[str, Any]] = tomllib.loads(file.read_text(encoding="utf-8"))["group"]
+    return groups
+
+
+def _theorems(root: Path, config: Config) -> Iterator[str]:
+    """Yield the list of theorems."""
+    yield "# Theorems\n"
+    yield f"All are about the paper's ball, k = 1/5 and g = 1/25. [Proofs](../{_PROOFS}/README.md)"
+    yield "says how they are checked.\n"
+    yield "```{toctree}\n:maxdepth: 1\n"
+    yield from (f"theorem-{name}" for name in THEOREMS)
+    yield "```"
+
+
+def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
+    """Yield the page of a theorem: its statement, what was found, and its premises."""
+    yield f"# {name}\n\n{THEOREMS[name].statement[:1].upper()}{THEOREMS[name].statement[1:]}.\n"
+    path = next(p for (_, scene, stage), p in config.datasets.items() if (scene, stage) == (name, "theorem"))
+    if Freshness(root, config.build_specs()).state(path) == CURRENT:
+        found = load(root / path).attrs["line"].split("; ")
+        yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
+    certificate = f"{_PROOFS}/certificates/{THEOREMS[name].certificate}"
+    for group in _premises():
+        if name in group["theorems"] or group["title"] == "All":
+            yield f"[Proof](../{_PROOFS}/theory/{group['proof']}) · [Certificate](../{certificate})"
+            yield "\n## Premises\n\nThe checker decides each of them, or refuses the certificate."
+            yield from _table(("premise", "checked by"), group["premises"])
+    yield "[Premises of all theorems](../src/extensions/proofs/README.md#premises)"
+
+
+def _api(root: Path, config: Config) -> Iterator[str]:
+    """Yield the reference of the Python functions, from their docstrings."""
+    yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n```"
+    for name in pseudorigid.__all__:
+        yield from _described("pseudorigid", name)
+    yield "\n## Functions of parts\n\nThese are imported in a checkout, and are no part of the wheel."
+    for module, names in _OF_PARTS.items():
+        for name in names:
+            yield from _described(module, name)
+
+
+def _described(module: str, name: str) -> Iterator[str]:
+    """Yield the documentation of a class or a function."""
+    is_class = isinstance(getattr(importlib.import_module(module), name), type)
+    kind = "autoclass" if is_class else "autofunction"
+    yield f"\n## {name}\n\n```{{eval-rst}}\n.. {kind}:: {module}.{name}"
+    yield "   :members:\n```" if is_class else "```"

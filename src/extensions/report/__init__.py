@@ -1,1 +1,0 @@
-"""The report: one HTML page with the figures, their numbers and what made them."""
