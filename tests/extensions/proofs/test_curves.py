@@ -78,10 +78,9 @@ def test_an_orbit_just_inside_stays_inside_and_one_just_outside_stays_outside(na
 
 
 @pytest.mark.slow
-def test_the_curve_of_docs_api_is_proved_and_within_the_bounds_of_the_energy():
-    page = (ROOT / "docs/api.md").read_text(encoding="utf-8")
+def test_the_curve_of_the_docstring_is_proved_and_within_the_bounds_of_the_energy():
+    page = " ".join(prove_curve.__doc__.split())
     of, encloses = r"At k = (\S+), g = (\S+) and E = (\S+) ", r"the curve .* (\S+) encloses (\S+) "
-    page = " ".join(page.split())
     k, g, energy, rotation, share = map(float, re.search(of + encloses, page).groups())
     ball = Ball(k, g)
     low, high = ball.energy_bounds()

@@ -82,7 +82,8 @@ def test_no_checker_imports_a_search_and_searches_say_that_they_use_checkers():
 # ---- the page
 
 
-PAGE = (ROOT / "src/extensions/proofs/README.md").read_text(encoding="utf-8")
+FOLDER = ROOT / "src/extensions/proofs"
+PAGE = "".join(file.read_text(encoding="utf-8") for file in sorted(FOLDER.glob("theory/*.md")))
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 CELLS = {  # of each row about a theorem in a table of the page
     name: row.split(" | ") for name, row in re.findall(r"^\| `(.*?)` \| (.*) \|$", PAGE, re.M)
