@@ -14,6 +14,7 @@ from .declaration import RENEW, SourceError, files, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
+FIGURES = f"<!-- The figures, written by {RENEW}. -->\n"
 BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. -->\n"
 
 
@@ -30,6 +31,9 @@ def generated() -> dict[str, str]:
             text = read_text(page) if page.exists() else f"# {part}\n"
             text += f"\n{BEGIN}{END}" if BEGIN not in text else ""
             texts[str(page.relative_to(ROOT))] = with_section(text, BEGIN, section, END)
+    if (ROOT / "README.md").exists():
+        text = read_text(ROOT / "README.md")
+        texts["README.md"] = with_section(text, FIGURES, figures_page.table(), END)
     if (ROOT / "codecheck.yml").exists():
         text = read_text(ROOT / "codecheck.yml")
         manifest = figures_page.codecheck_manifest()

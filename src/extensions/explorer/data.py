@@ -15,7 +15,7 @@ from urllib.parse import quote
 
 import yaml
 
-from pipeline.checks.captions import caption_of
+from pipeline.checks.captions import caption_of, see_in_explorer
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
@@ -56,16 +56,16 @@ def of_parts(name: str) -> list[Path]:
 
 
 def presets(checked: Config) -> list[dict[str, str]]:
-    """Return titles of scenes and what to see in them: those of parts, and captions of others."""
-    found = [each for file in of_parts("presets.json") for each in json.loads(read_text(file))]
-    names = {each["name"] for each in found}
+    """Return titles of scenes and what to see in them, from the captions."""
+    found = []
     for variant in PUBLISHED:
         for scene, block in checked.variants[variant].items():
             mapping = block.as_mapping()
-            if scene not in names and address(checked, variant, scene, mapping) == scene:
+            if address(checked, variant, scene, mapping) == scene:
                 caption = caption_of(scene, mapping)
                 title = f"{caption.name}: {caption.title}"
-                found.append({"name": scene, "title": title, "see": caption.see})
+                see = see_in_explorer(mapping) or caption.see
+                found.append({"name": scene, "title": title, "see": see})
     return found
 
 

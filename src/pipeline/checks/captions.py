@@ -1,4 +1,4 @@
-"""Captions of all pictures, from files captions.toml, for the report and docs/figures.md."""
+"""Captions of all pictures, from files captions.toml: for README, docs/figures.md and the site."""
 
 import re
 import tomllib
@@ -45,6 +45,12 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
     hidden = [f"Note: {line}." for line in known["hidden"] or ()]
     return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
+
+
+def see_in_explorer(block: dict[str, Any]) -> str:
+    """Return what to see of a scene in the explorer, if this differs from its picture."""
+    template = CAPTIONS.get(block["picture"], {}).get("explorer", "")
+    return " ".join(_ENVIRONMENT.from_string(template).render(s=block).split())
 
 
 def _with_commas(value: object) -> object:

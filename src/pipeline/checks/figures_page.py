@@ -1,6 +1,6 @@
-"""Texts about every committed picture: docs/figures.md, and the manifest of codecheck.yml.
+"""Texts about committed pictures: docs/figures.md, README's table, the manifest of codecheck.yml.
 
-The captions are those of the report, with the values from which the committed pictures were made.
+The captions have the values from which the committed pictures were made.
 """
 
 from collections.abc import Iterator
@@ -31,6 +31,16 @@ def page() -> str:
 
     sections = [(SETS[each.group].heading, each, of) for each, of in _captions()]
     return environment.from_string(template).render(sections=sections, fill=wrapped)
+
+
+def table() -> str:
+    """Return the main set's pictures and captions as a table, for README.md."""
+    (main, captions), *_ = _captions()
+    rows = [
+        f"| ![{c.name}]({main.folder}/{scene}.png) | **{c.name}: {c.title}.** {c.shows} {c.see} |"
+        for scene, c in captions.items()
+    ]
+    return "\n".join(["| | |", "|---|---|", *rows, ""])
 
 
 def codecheck_manifest() -> str:
