@@ -3,6 +3,7 @@
 The folder of the sources has the repository's entries and a folder `pages`, which build.py writes.
 """
 
+import re
 from pathlib import Path
 
 from docutils import nodes
@@ -37,12 +38,20 @@ html_sidebars = {
 }
 templates_path = ["."]
 HERE = Path(__file__).parent
+# Space around a function, none around a bar, a slash or a prime, which browsers would add.
+SPACES = (
+    (r"<mi>([a-z]{2,})</mi>", r'<mo form="prefix" lspace="0.17em" rspace="0.17em">\1</mo>'),
+    (r"<mo(?: [^>]*)?>([|/])</mo>", r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>'),
+    (r"<mo>('+)</mo>", lambda found: f'<mo lspace="0" rspace="0">{"′" * len(found[1])}</mo>'),
+)
 
 
 def _formula(translator, node):
     """Write a formula as MathML, which needs no script."""
-    block = isinstance(node, nodes.math_block)
-    translator.body.append(tex2mathml(node.astext(), as_block=block))
+    formula = tex2mathml(node.astext(), as_block=isinstance(node, nodes.math_block))
+    for mark, spaced in SPACES:
+        formula = re.sub(mark, spaced, formula)
+    translator.body.append(formula)
     raise nodes.SkipNode
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import pseudorigid
 from extensions.claims import ledger
+from extensions.claims.mathematics import typeset
 from extensions.claims.ledger.outcomes import CORRECTED, FALSE
 from extensions.explorer.data import address
 from extensions.proofs.theorems.statements import THEOREMS
@@ -116,8 +117,9 @@ def _gallery(root: Path, config: Config) -> Iterator[str]:
             scene, picture = Path(name).stem, f"{each.folder}/{name}"
             if not (root / picture).is_file():
                 continue
-            title = caption_of(scene, config.variants[each.group][scene].as_mapping()).title
-            yield f"\n### {each.group}/{scene}\n\n[![{title}](../{picture})](../docs/figures.md)\n"
+            caption = caption_of(scene, config.variants[each.group][scene].as_mapping())
+            yield f"\n### {caption.name}: {caption.title}\n"
+            yield f"[![{caption.title}](../{picture})](../docs/figures.md)\n"
             yield f"```yaml\n{key}:\n{_lines(root, key, scene)}```"
 
 
@@ -149,18 +151,21 @@ def _theorems(root: Path, config: Config) -> Iterator[str]:
 
 def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     """Yield the page of a theorem: its statement, what was found, and its premises."""
-    yield f"# {name}\n\n{THEOREMS[name].statement[:1].upper()}{THEOREMS[name].statement[1:]}.\n"
+    statement = typeset(THEOREMS[name].statement)
+    yield f"# {name}\n\n{statement[:1].upper()}{statement[1:]}.\n"
     path = next(p for (_, scene, stage), p in config.datasets.items() if (scene, stage) == (name, "theorem"))
     if Freshness(root, config.build_specs()).state(path) == CURRENT:
         found = load(root / path).attrs["line"].split("; ")
         yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
+    groups = [g for g in _premises() if name in g["theorems"] or g["title"] == "All"]
+    proofs = {group["proof"] for group in groups[1:]}
+    links = [f"[Proof: {p.removesuffix('.md')}](../{_PROOFS}/theory/{p})" for p in sorted(proofs)]
     certificate = f"{_PROOFS}/certificates/{THEOREMS[name].certificate}"
-    for group in _premises():
-        if name in group["theorems"] or group["title"] == "All":
-            yield f"[Proof](../{_PROOFS}/theory/{group['proof']}) · [Certificate](../{certificate})"
-            yield "\n## Premises\n\nThe checker decides each of them, or refuses the certificate."
-            yield from _table(("premise", "checked by"), group["premises"])
-    yield "[Premises of all theorems](../src/extensions/proofs/README.md#premises)"
+    yield " · ".join([*links, f"[Certificate](../{certificate})"])
+    yield "\n## Premises\n\nThe checker decides each of them, or refuses the certificate."
+    for group in groups:
+        yield f"\n### {group['title']}"
+        yield from _table(("premise", "checked by"), group["premises"])
 
 
 def _api(root: Path, config: Config) -> Iterator[str]:
