@@ -1,13 +1,13 @@
 """Dynamics of a pseudo-rigid ball bouncing on a rigid foundation (Kanso & Papadopoulos).
 
-The public names are `__all__`. Each is imported when it is first used, so that a program loads only
-what it uses.
+The public names are `__all__`. Each is imported when it is first used, so that a program loads
+only what it uses.
 
-All numbers are dimensionless: lengths in R, times in 1/omega, energies in m omega^2 R^2. A *state* is
-(x, xdot, udot) just before an impact, with x pointing down; it lies on the section if xdot + udot >=
-0. Methods of `Ball` give a state of a given energy: `start`, a fraction of the section's radius along
-the symmetry line; `state_xy`, in the chart y = xdot - k udot, in which the map keeps areas; `state`,
-from x and xdot.
+All numbers are dimensionless: lengths in R, times in 1/omega, energies in m omega^2 R^2. A *state*
+is (x, xdot, udot) just before an impact, with x pointing down; it lies on the section if xdot +
+udot >= 0. Methods of `Ball` give a state of a given energy: `start`, a fraction of the section's
+radius along the symmetry line; `state_xy`, in the chart y = xdot - k udot, in which the map keeps
+areas; `state`, from x and xdot.
 
 All functions read numbers by one rule:
 

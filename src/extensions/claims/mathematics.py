@@ -17,7 +17,9 @@ _NUMBER = r"-?\d+(?:\.\d+)?(?:/\d+)?\b"
 # Symbols, joined by signs, and the number at the end of an equation.
 _FORMULA = re.compile(
     rf"(?P<as_is>`[^`]*`|\S*\w/\S*\.\w+)"
-    rf"|(?P<formula>(?:(?<![\w.])-?\d+(?:\.\d+)?\ <=?\ )?(?:{_SYMBOL})(?:(?:{_JOIN})(?:{_SYMBOL}))*(?:/\d+)?(?:\ (?:<=|>=|<|>|=)\ {_NUMBER})?)",
+    rf"|(?P<formula>(?:(?<![\w.])-?\d+(?:\.\d+)?\ <=?\ )?"
+    rf"(?:{_SYMBOL})(?:(?:{_JOIN})(?:{_SYMBOL}))*(?:/\d+)?"
+    rf"(?:\ (?:<=|>=|<|>|=)\ {_NUMBER})?)",
     re.VERBOSE,
 )
 _TEX = (

@@ -2,21 +2,25 @@
 
 import json
 import re
+import sys
+from collections import defaultdict
 from contextlib import nullcontext
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 from archives import DATA, forge
-from project import ROOT
-from report_pages import rendered
+from outline import Outline
+from project import ROOT, SHIPPED
 
 from extensions.explorer import page as explorer
-from extensions.publication.article import numbers
 from extensions.publication.commands import article, site
 from pipeline import config
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
+
+BESIDE = ("explorer.html", "article.html", "article.pdf")  # of other writers than Sphinx
 
 
 def write(folder, *names):
@@ -27,16 +31,17 @@ def write(folder, *names):
 
 def test_a_new_folder_replaces_the_old_one(tmp_path):
     folder, part = tmp_path / "site", tmp_path / ".site.1.part"
-    write(folder, "report.html", "paper/orbits_gone.nc")
-    write(part, "report.html", "paper/orbits_fig2.nc")
+    write(folder, "index.html", "paper/orbits_gone.nc")
+    write(part, "index.html", "paper/orbits_fig2.nc")
     site._replace(part, folder)
     files = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
-    assert files == {"site/report.html", "site/paper/orbits_fig2.nc"}
+    assert files == {"site/index.html", "site/paper/orbits_fig2.nc"}
 
 
-@pytest.mark.parametrize("name", ["mine.txt", "paper/mine.txt", "more/report.html"])
+@pytest.mark.parametrize("name", ["mine.txt", "paper/mine.txt", "more/index.html"])
 def test_a_file_that_the_command_did_not_write_is_refused(tmp_path, name):
-    write(tmp_path, "report.html", "article.pdf", "paper/orbits_fig2.nc")
+    write(tmp_path, "index.html", "paper/orbits_fig2.nc")
+    (tmp_path / site.LIST).write_text(f"index.html\npaper/orbits_fig2.nc\n{site.LIST}\n")
     site._refuse_others(tmp_path)
     write(tmp_path, name)
     with pytest.raises(ValueError, match=re.escape(f"{name} was not written by this command")):
@@ -60,29 +65,91 @@ def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
 
 
 def test_a_site_that_cannot_be_replaced_stays(tmp_path):
-    write(tmp_path, "site/report.html")
+    write(tmp_path, "site/index.html")
     with pytest.raises(FileNotFoundError):
         site._replace(tmp_path / ".site.part", tmp_path / "site")
-    assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/report.html"]
+    assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/index.html"]
+
+
+def test_the_explorer_may_be_anywhere():
+    """Its page is in results/, in the site, in archives and where people copy it."""
+    text = (ROOT / explorer.COPY).read_text(encoding="utf-8")
+    stored = re.search(r'<script type="application/json" id="data">(.*?)</script>', text)
+    data = json.loads(stored[1])["citation"]["links"].values()
+    fixed = re.findall(r'<a [^>]*href="?([^">\s]+)', text.partition("<script")[0])
+    assert all(link.startswith(("#", "https://", "data:")) for link in (*data, *fixed))
+    own = re.findall('href="([^"]*)"', site._LINKS)
+    assert {*own} <= {*BESIDE, "index.html"}
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The pages of this tree, without those that other writers than Sphinx make."""
+    pytest.importorskip("furo", reason="./reproduce site installs it")
+    from extensions.publication.site.build import build
+
+    folder = tmp_path_factory.mktemp("site") / "pages"
+    build(ROOT, config.load(SHIPPED), folder)
+    return folder
 
 
 @pytest.mark.slow
-def test_the_links_of_the_site_lead_to_its_files_and_the_explorer_may_be_anywhere(reported):
-    """The explorer's page is in results/, in the site, in archives and where people copy it."""
-    explorer_page = (ROOT / explorer.COPY).read_text(encoding="utf-8")
-    stored = re.search(r'<script type="application/json" id="data">(.*?)</script>', explorer_page)
-    data = json.loads(stored[1])["citation"]["links"].values()
-    fixed = re.findall(r'<a [^>]*href="?([^">\s]+)', explorer_page.partition("<script")[0])
-    assert all(link.startswith(("#", "https://", "data:")) for link in (*data, *fixed))
-    files = {"report.html", "explorer.html", "article.html", "article.pdf"}
-    with_report = rendered(reported, beside=site._BESIDE)
-    source = (Path(numbers.__file__).parent / "template.typ").read_text()
-    pages = {
-        "index": re.findall('href="([^"]*)"', site._INDEX.read_text()),
-        "explorer": re.findall('href="([^"]*)"', site._LINKS),
-        "report": re.findall(r'<a [^>]*href="([^"]*)"', with_report),
-        "article": re.findall(r'link\("([\w.]+html|[\w.]+pdf)', source),
-    }
-    for links in pages.values():
-        relative = {link.partition("#")[0] for link in links} - {""}
-        assert relative and {x for x in relative if not x.startswith("paper/")} <= files
+def test_links_of_the_site_have_targets_and_pages_load_nothing_from_elsewhere(built):
+    ids, links = {}, defaultdict(set)
+    for file in built.rglob("*.html"):
+        tags = Outline(file.read_text(encoding="utf-8"), closed=False).tags
+        ids[file] = {attributes["id"] for _, attributes in tags if "id" in attributes}
+        links[file] = {
+            attributes["href"] for tag, attributes in tags if tag == "a" and "href" in attributes
+        }
+        loaded = [
+            a.get("src") or a.get("href", "") for tag, a in tags if tag in ("img", "script", "link")
+        ]
+        assert not [each for each in loaded if re.match(r"(https?:)?//", each)], file
+    assert len(links) > 60
+    for file, found in links.items():
+        for link in found:
+            path, _, place = unquote(link).partition("#")
+            if re.match(r"(https?|mailto):", link) or path.rpartition("/")[2] in BESIDE:
+                continue
+            target = (file.parent / path).resolve() if path else file
+            assert target.is_file(), (file, link)
+            assert not place or target not in ids or place in ids[target], (file, link)
+
+
+@pytest.mark.slow
+def test_what_is_missing_stops_the_site(built, tmp_path, monkeypatch):
+    """A link without a target is a warning of Sphinx, and so an error of one line."""
+    from extensions.publication.site import build
+
+    written = build.pages(ROOT, config.load(SHIPPED)) | {"run": "# Run\n\n[gone](gone.md)\n"}
+    monkeypatch.setattr(build, "pages", lambda *_: written)
+    with pytest.raises(ValueError, match=r"^[^\n]*gone\.md[^\n]*$"):
+        build.build(ROOT, config.load(SHIPPED), tmp_path / "site")
+
+
+@pytest.mark.slow
+def test_the_site_is_accessible_and_statements_are_filtered(built, tmp_path):
+    sys.path.append(str(Path(__file__).parents[1] / "explorer"))
+    import browsers
+    from axe_core_python.selenium import Axe
+
+    pages = ["index.html", "CLAIMS.html", "pages/run.html", "docs/method.html", "pages/api.html"]
+    with browsers.started("chromium", tmp_path) as chromium:
+        for page in pages:
+            chromium.open((built / page).as_uri())
+            found = Axe().run(chromium.driver)["violations"]
+            serious = [v for v in found if v["impact"] in ("serious", "critical")]
+            assert not serious, (page, [(v["id"], v["nodes"][0]["html"]) for v in serious])
+        chromium.open((built / "CLAIMS.html").as_uri())
+        shown = "return [...document.querySelectorAll('section[id^=statement-]')]"
+        count = f"{shown}.filter(e => e.checkVisibility()).length"
+        every = chromium.run(count)
+        chromium.run(
+            "const f = document.querySelector('.filter'); f.verdict.value = 'Does not hold';"
+            "f.dispatchEvent(new Event('input'))"
+        )
+        assert (chromium.run(count), every) == (2, 74)
+        chromium.run("location.hash = 'statement-40'; await new Promise(r => setTimeout(r, 300))")
+        assert chromium.run(count) == every
+        assert chromium.errors() == []

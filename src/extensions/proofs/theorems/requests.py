@@ -139,9 +139,9 @@ def prove_curve(
 
     Notes
     -----
-    Larger curves take longer, up to some minutes. At k = 0.1, g = 0.03 and E = 0.015 the curve of the
-    rotation number 0.141 encloses 0.0768 of the section. Energies beyond eq. (31), which limits those
-    of config.yaml, are allowed.
+    Larger curves take longer, up to some minutes. At k = 0.1, g = 0.03 and E = 0.015 the curve of
+    the rotation number 0.141 encloses 0.0768 of the section. Energies beyond eq. (31), which limits
+    those of config.yaml, are allowed.
 
     References
     ----------

@@ -5,7 +5,6 @@ Title, authors and addresses are those of CITATION.cff, a file in the Citation F
 
 import hashlib
 import json
-import tomllib
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
@@ -29,10 +28,6 @@ CITATION = "CITATION.cff"
 _ADDRESSES = {"repository-code": "{}", "doi": "https://doi.org/{}"}  # of CITATION.cff
 _HASH_DIGITS = 16  # of a dataset's hash
 Table = dict[str, Any]
-# scene -> axis -> the labels that the paper prints at its ticks
-PRINTED_TICKS: dict[str, dict[str, list[float]]] = tomllib.loads(
-    Path(__file__).with_name("printed_ticks.toml").read_text(encoding="utf-8")
-)
 
 
 def read_citation() -> Table:
@@ -119,16 +114,9 @@ def _source_lines(root: Path) -> dict[str, int]:
 
 
 def _rows(root: Path, config: Config, scene: str) -> Table:
-    """Return quantity -> the paper's value and ours: measured ones, then the ticks of the axes."""
+    """Return quantity -> the paper's value and ours."""
     values = measured(root, config, MAIN, scene)
-    rows = {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
-    axes = config.scenes[scene].given_axes()
-    for axis, ticks in PRINTED_TICKS.get(scene, {}).items():
-        labels = {"paper": ticks, "ours": axes[axis].ticks if axis in axes else []}
-        rows[f"ticks, {axis}"] = {
-            who: ", ".join(f"{tick:g}" for tick in given) for who, given in labels.items()
-        }
-    return rows
+    return {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
 
 
 def _figure(

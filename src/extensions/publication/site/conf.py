@@ -61,7 +61,16 @@ def _with_contents(app, name, source):
         source[0] += "\n" + (HERE / "contents.txt").read_text(encoding="utf-8")
 
 
+def _with_levels(app, name, template, context, tree):
+    """Give the captions of the menu a level, which their role of a heading requires."""
+    menu = context["furo_navigation_tree"]
+    context["furo_navigation_tree"] = menu.replace(
+        'role="heading"', 'role="heading" aria-level="2"'
+    )
+
+
 def setup(app):
-    """Register the two functions above."""
+    """Register the functions above."""
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("source-read", _with_contents)
+    app.connect("html-page-context", _with_levels, priority=900)

@@ -10,8 +10,8 @@ from typing import Any
 
 import pseudorigid
 from extensions.claims import ledger
-from extensions.claims.mathematics import typeset
 from extensions.claims.ledger.outcomes import CORRECTED, FALSE
+from extensions.claims.mathematics import typeset
 from extensions.explorer.data import address
 from extensions.proofs.theorems.statements import THEOREMS
 from paper.numbers import printed
@@ -53,11 +53,15 @@ def _table(head: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
     """Return the lines of a table, between empty lines."""
     lines = [[*head]]
     lines += [["---"] * len(lines[0]), *([str(cell) for cell in row] for row in rows)]
-    return ["", *("| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines), ""]
+    return [
+        "",
+        *("| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines),
+        "",
+    ]
 
 
 def _run(root: Path, config: Config) -> Iterator[str]:
-    """Yield the page on this run: states, reported numbers, corrections, and what made the results."""
+    """Yield the page on this run: states, reported numbers, corrections, and seconds."""
     freshness = Freshness(root, config.build_specs())
     shown: dict[str, None] = {}
     yield "# This run"
@@ -77,7 +81,9 @@ def _run(root: Path, config: Config) -> Iterator[str]:
             if state != CURRENT:
                 yield f"Not shown: {state}."
                 continue
-            shown |= dict.fromkeys([*config.data_of(variant, scene).values(), drawn(scene, "png", variant)])
+            shown |= dict.fromkeys(
+                [*config.data_of(variant, scene).values(), drawn(scene, "png", variant)]
+            )
             if place := address(config, variant, scene, block.as_mapping()):
                 yield f'<a href="../explorer.html#{place}">Open it in the explorer</a>'
             values = measured(root, config, variant, scene)
@@ -89,7 +95,9 @@ def _run(root: Path, config: Config) -> Iterator[str]:
     yield "\n## Corrections to the paper\n"
     verdicts = ledger.by_verdict(ledger.read_json(read_text(root / ledger.DATA)))
     for word in (FALSE, CORRECTED):
-        numbers = ", ".join(f"[{v.number}](../CLAIMS.md#statement-{v.number})" for v in verdicts[word])
+        numbers = ", ".join(
+            f"[{v.number}](../CLAIMS.md#statement-{v.number})" for v in verdicts[word]
+        )
         yield f"- {word}: statements {numbers}"
     yield "\n## What made the results\n"
     yield "Seconds and commit are those of the run that made a file."
@@ -97,7 +105,9 @@ def _run(root: Path, config: Config) -> Iterator[str]:
     for path in shown:
         record = read_record(root, record_path(path))
         packages.add(", ".join(f"{n} {v}" for n, v in record["environment"].items()))
-        commit = (record.get("commit") or "none")[:12] + ", with changes" * bool(record.get("dirty"))
+        commit = (record.get("commit") or "none")[:12] + ", with changes" * bool(
+            record.get("dirty")
+        )
         seconds = record.get("seconds")
         rows.append([f"`{path}`", f"`{record['output']['sha256'][:16]}`", commit,
                      f"{seconds:.1f}" if isinstance(seconds, float) else "not known"])  # fmt: skip
@@ -153,7 +163,9 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     """Yield the page of a theorem: its statement, what was found, and its premises."""
     statement = typeset(THEOREMS[name].statement)
     yield f"# {name}\n\n{statement[:1].upper()}{statement[1:]}.\n"
-    path = next(p for (_, scene, stage), p in config.datasets.items() if (scene, stage) == (name, "theorem"))
+    path = next(
+        p for (_, scene, stage), p in config.datasets.items() if (scene, stage) == (name, "theorem")
+    )
     if Freshness(root, config.build_specs()).state(path) == CURRENT:
         found = load(root / path).attrs["line"].split("; ")
         yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
@@ -173,7 +185,7 @@ def _api(root: Path, config: Config) -> Iterator[str]:
     yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n```"
     for name in pseudorigid.__all__:
         yield from _described("pseudorigid", name)
-    yield "\n## Functions of parts\n\nThese are imported in a checkout, and are no part of the wheel."
+    yield "\n## Functions of parts\n\nThese are for a checkout, and are no part of the wheel."
     for module, names in _OF_PARTS.items():
         for name in names:
             yield from _described(module, name)
