@@ -55,12 +55,12 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
     Returns
     -------
     xarray.Dataset
-        x, xdot, udot just before each impact on (orbit, point), in ascending order of the modulus of
-        the multiplier; tau, the time of flight from that point to the next (1/omega). On `orbit`:
-        type, elliptic,
-        hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on the energy surface;
-        multiplier, its eigenvalue of largest modulus, or the modulus, 1, of an elliptic orbit;
-        rotation_number, the argument of the multiplier over 2 pi, 0 to 1/2; total_time, the sum of
+        x, xdot, udot just before each impact on (orbit, point), in ascending order of the
+        multiplier's modulus; tau, the time of flight from that point to the next (1/omega). On
+        `orbit`: type, elliptic, hyperbolic or inverse hyperbolic; trace, of the Jacobian of P^n on
+        the energy surface; multiplier, its eigenvalue of largest modulus, or the modulus, 1, of an
+        elliptic orbit; rotation_number, the argument of the multiplier over 2 pi, 0 to 1/2;
+        total_time, the sum of
         tau. `orbit` has length 0 if none is found. The first point lies on a symmetry line.
         Points, times and traces of orbits that are unstable (MOST_GROWTH) or almost parabolic are
         right to the last bit. Those of others are right to rounding times up to MOST_GROWTH and

@@ -5,6 +5,7 @@ The folder of the sources has the repository's entries and a folder `pages`, whi
 
 import re
 from pathlib import Path
+from typing import Any
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
@@ -39,14 +40,14 @@ html_sidebars = {
 templates_path = ["."]
 HERE = Path(__file__).parent
 # Space around a function, none around a bar, a slash or a prime, which browsers would add.
-SPACES = (
+SPACES: tuple[tuple[str, Any], ...] = (
     (r"<mi>([a-z]{2,})</mi>", r'<mo form="prefix" lspace="0.17em" rspace="0.17em">\1</mo>'),
     (r"<mo(?: [^>]*)?>([|/])</mo>", r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>'),
     (r"<mo>('+)</mo>", lambda found: f'<mo lspace="0" rspace="0">{"′" * len(found[1])}</mo>'),
 )
 
 
-def _formula(translator, node):
+def _formula(translator: Any, node: Any) -> None:
     """Write a formula as MathML, which needs no script."""
     formula = tex2mathml(node.astext(), as_block=isinstance(node, nodes.math_block))
     for mark, spaced in SPACES:
@@ -55,13 +56,13 @@ def _formula(translator, node):
     raise nodes.SkipNode
 
 
-def _with_contents(app, name, source):
+def _with_contents(app: Any, name: str, source: list[str]) -> None:
     """Add the table of contents to the first page, which GitHub shows without it."""
     if name == root_doc:
         source[0] += "\n" + (HERE / "contents.txt").read_text(encoding="utf-8")
 
 
-def _with_levels(app, name, template, context, tree):
+def _with_levels(app: Any, name: str, template: str, context: dict[str, Any], tree: Any) -> None:
     """Give the captions of the menu a level, which their role of a heading requires."""
     menu = context["furo_navigation_tree"]
     context["furo_navigation_tree"] = menu.replace(
@@ -69,7 +70,7 @@ def _with_levels(app, name, template, context, tree):
     )
 
 
-def setup(app):
+def setup(app: Any) -> None:
     """Register the functions above."""
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("source-read", _with_contents)

@@ -183,7 +183,7 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
 def _api(root: Path, config: Config) -> Iterator[str]:
     """Yield the reference of the Python functions, from their docstrings."""
     yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n```"
-    for name in pseudorigid.__all__:
+    for name in vars(pseudorigid)["__all__"]:
         yield from _described("pseudorigid", name)
     yield "\n## Functions of parts\n\nThese are for a checkout, and are no part of the wheel."
     for module, names in _OF_PARTS.items():
