@@ -22,13 +22,29 @@ FILES = [
     if file.is_file()
 ]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
-PAGES = sorted(str(file.relative_to(ROOT)) for file in ROOT.glob("src/**/README.md"))
+PAGES = sorted(
+    str(file.relative_to(ROOT))
+    for pattern in ("src/**/README.md", "src/extensions/*/*/*.md", "tests/README.md")
+    for file in ROOT.glob(pattern)
+)
 
 
 def links(text):
     """The links of a document to files, without the places in them."""
-    found = re.findall(r"\]\(([^)\s#]+)[^)\s]*\)", text)
+    found = [link.partition("#")[0] for link in targets(text)]
+    return [link for link in found if link]
+
+
+def targets(text):
+    """The links of a document to files and to places in them or in itself."""
+    found = re.findall(r"\]\(([^)\s]+)\)", text)
     return [link for link in found if not link.startswith(("http:", "https:"))]
+
+
+def anchors(text):
+    """The places of a document, as GitHub names its headings."""
+    titles = re.findall(r"^#+ (.*)$", text, re.M)
+    return {re.sub(r"[^\w -]", "", title).strip().lower().replace(" ", "-") for title in titles}
 
 
 def is_absent(name):
@@ -52,8 +68,12 @@ def blocks(document):
 
 @pytest.mark.parametrize("document", DOCUMENTS + PAGES)
 def test_links_lead_to_files(document):
-    for link in links(text_of(document)):
-        assert (ROOT / document).parent.joinpath(link).exists() or is_absent(link), link
+    for link in targets(text_of(document)):
+        path, _, place = link.partition("#")
+        file = (ROOT / document).parent / path if path else ROOT / document
+        assert file.exists() or is_absent(path), link
+        if place and file.exists():
+            assert place in anchors(file.read_text(encoding="utf-8")), link
 
 
 def test_readme_has_the_commands_of_parts():

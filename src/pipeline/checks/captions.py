@@ -47,9 +47,9 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
 
 
-def see_in_explorer(block: dict[str, Any]) -> str:
-    """Return what to see of a scene in the explorer, if this differs from its picture."""
-    template = CAPTIONS.get(block["picture"], {}).get("explorer", "")
+def further_text(block: dict[str, Any], key: str) -> str:
+    """Return a further text of a complete scene in captions.toml, or an empty one."""
+    template = CAPTIONS.get(block["picture"], {}).get(key, "")
     return " ".join(_ENVIRONMENT.from_string(template).render(s=block).split())
 
 

@@ -12,7 +12,7 @@ from pipeline.records import artifacts
 from pseudorigid.dynamics.variables import rows
 
 PAGE = (ROOT / "src/extensions/families/README.md").read_text(encoding="utf-8")
-
+EVENTS = (ROOT / "src/extensions/families/events.csv").read_text(encoding="utf-8")
 SHARES = ("breakup_at", "energy", "regular", "beyond", "extremum_at", "side_at", "side_event_at",
           "slope_from", "slope_to", "slope_change")  # fmt: skip
 
@@ -35,7 +35,7 @@ def test_numbers_are_those_of_events_ends_and_shares(datasets):
     known += [shares[name].values for name in SHARES]
     known = np.abs(np.concatenate([values.ravel() for values in known]))
     number, tables = r"(?<![\d.])0\.\d{%s}(?!\d)", re.findall(r"^\|.*$", PAGE, re.MULTILINE)
-    numbers = re.findall(number % "5,12", PAGE) + re.findall(number % "4", " ".join(tables))
+    numbers = re.findall(number % "5,12", PAGE + EVENTS) + re.findall(number % "4", " ".join(tables))
     assert len(numbers) > 100
     for digits in {len(text) - 2 for text in numbers}:
         rounded = {f"{value:.{digits}f}" for value in known.tolist()}

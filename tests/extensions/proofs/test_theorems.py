@@ -1,6 +1,7 @@
 """The theorems are proved, and other methods find their digits."""
 
 import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -110,6 +111,18 @@ def test_the_tables_of_the_page_have_the_checkers_numbers(name, results):
     assert len(cut) in (0, 1, len(margins))
     for text, margin in zip(cut, margins, strict=False):
         assert 1 <= margin / float(text) < 1.3
+
+
+def test_each_theorem_has_premises_whose_functions_exist():
+    groups = tomllib.loads((FOLDER / "theorems" / "premises.toml").read_text(encoding="utf-8"))
+    assert {name for group in groups["group"] for name in group["theorems"]} == {*THEOREMS}
+    files = [*FOLDER.glob("*/*.py"), ROOT / "src/pseudorigid/verified/flight.py"]
+    defined = set(re.findall(r"(?:def|class) (\w+)", "".join(f.read_text() for f in files)))
+    for group in groups["group"]:
+        assert not group["proof"] or (FOLDER / "theory" / group["proof"]).is_file()
+        for premise, functions in group["premises"]:
+            names = re.findall(r"`(?:[\w.]*\.)?(\w+)`", functions)
+            assert names and {*names} <= defined, (premise, {*names} - defined)
 
 
 # ---- digits against other methods
