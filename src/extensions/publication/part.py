@@ -38,7 +38,7 @@ PART = Part(
             module="extensions.publication.compare.command",
         ),
         "site": SnakemakeCommand(
-            "write results/site/: all pages with a search, figures, explorer and article",
+            "write results/site/: all pages, with explorer and article",
             module=f"{_COMMANDS}.site",
             details="All published files must be the committed ones. Installs Sphinx and the "
             "typesetter first (once).",
