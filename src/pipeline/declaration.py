@@ -10,7 +10,7 @@ PART. Files beside it are found by their names:
     scenes.yaml       blocks of config.yaml that it ships, and variants
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
-    README.md         its page of documentation; pipeline.renew adds the fields of its scenes
+    README.md         its page of documentation
 
 `reproduce` prints its help before anything is installed: only the standard library is used here,
 and in each `part.py`.

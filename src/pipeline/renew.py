@@ -2,15 +2,15 @@
 
     .venv/bin/python -m pipeline.renew
 
-The fields of a part's scenes are a section of its page, between two comments.
+The fields of all parts' scenes, and README's figures, are sections between two comments.
 """
 
 import sys
 
 from .checks import figures_page
 from .checks.published_sets import ChecksumError
-from .config import MAIN, ConfigError, reference
-from .declaration import RENEW, SourceError, files, imported, parts
+from .config import ConfigError, reference
+from .declaration import RENEW, SourceError, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
@@ -23,17 +23,13 @@ def generated() -> dict[str, str]:
     texts = {"config.schema.json": reference.json_schema(), "docs/figures.md": figures_page.page()}
     for declared in parts().values():
         texts |= imported(declared.committed)() if declared.committed else {}
-    for package, file in files("part.py").items():
-        part = package.rpartition(".")[2]
-        main = MAIN in parts()[part].sets
-        page = ROOT / "docs" / "config.md" if main else file.with_name("README.md")
-        if section := reference.fields(part):
-            text = read_text(page) if page.exists() else f"# {part}\n"
-            text += f"\n{BEGIN}{END}" if BEGIN not in text else ""
-            texts[str(page.relative_to(ROOT))] = with_section(text, BEGIN, section, END)
-    if (ROOT / "README.md").exists():
-        text = read_text(ROOT / "README.md")
-        texts["README.md"] = with_section(text, FIGURES, figures_page.table(), END)
+    fields = "".join(map(reference.fields, parts()))
+    for name, begin, section in (
+        ("docs/config.md", BEGIN, fields),
+        ("README.md", FIGURES, figures_page.table()),
+    ):
+        if (ROOT / name).exists():
+            texts[name] = with_section(read_text(ROOT / name), begin, section, END)
     if (ROOT / "codecheck.yml").exists():
         text = read_text(ROOT / "codecheck.yml")
         manifest = figures_page.codecheck_manifest()

@@ -29,12 +29,6 @@ PAGES = sorted(
 )
 
 
-def links(text):
-    """The links of a document to files, without the places in them."""
-    found = [link.partition("#")[0] for link in targets(text)]
-    return [link for link in found if link]
-
-
 def targets(text):
     """The links of a document to files and to places in them or in itself."""
     found = re.findall(r"\]\(([^)\s]+)\)", text)

@@ -93,7 +93,7 @@ def fields(part: str) -> str:
         cells = f"`{name}` | {_quoted(stage.names)} | {_quoted(stage.inputs)}"
         rows.append(f"| {cells} | {'yes' if stage.follows else 'no'} |")
     texts += ["\n".join(rows)] if declared.stages else []
-    return "\n\n".join(["\n## Fields in config.yaml", *texts, ""]) if texts else ""
+    return "\n\n".join([f"\n## Fields of {part}", *texts, ""]) if texts else ""
 
 
 def _listed(block: Any, blocks: Any, where: str, seen: Any, indent: str = "") -> Iterator[str]:
