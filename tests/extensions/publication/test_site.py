@@ -29,15 +29,6 @@ def write(folder, *names):
         (folder / name).write_text(name)
 
 
-def test_a_new_folder_replaces_the_old_one(tmp_path):
-    folder, part = tmp_path / "site", tmp_path / ".site.1.part"
-    write(folder, "index.html", "paper/orbits_gone.nc")
-    write(part, "index.html", "paper/orbits_fig2.nc")
-    site._replace(part, folder)
-    files = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
-    assert files == {"site/index.html", "site/paper/orbits_fig2.nc"}
-
-
 @pytest.mark.parametrize("name", ["mine.txt", "paper/mine.txt", "more/index.html"])
 def test_a_file_that_the_command_did_not_write_is_refused(tmp_path, name):
     write(tmp_path, "index.html", "paper/orbits_fig2.nc")
@@ -62,13 +53,6 @@ def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
     with pytest.raises(UsageError, match=rf"^{name}: [^\n]*{DATA}[^\n]*$"):
         command.run(args)
     assert not [*(moved.path / "results").glob("*site*"), *moved.path.glob("results/article*")]
-
-
-def test_a_site_that_cannot_be_replaced_stays(tmp_path):
-    write(tmp_path, "site/index.html")
-    with pytest.raises(FileNotFoundError):
-        site._replace(tmp_path / ".site.part", tmp_path / "site")
-    assert [str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*.html")] == ["site/index.html"]
 
 
 def test_the_explorer_may_be_anywhere():

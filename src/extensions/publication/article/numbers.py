@@ -70,7 +70,9 @@ def numbers_of(root: Path, config: Config) -> str:
             figures[name] = _figure(root, each, name, committed[each.folder], drawing)
             if each.group == MAIN:
                 settings = committed[each.folder]["results"][drawing]["config"]
-                figures[name] |= {"rows": _rows(root, config, scene), "settings": settings}
+                ours = measured(root, config, MAIN, scene)
+                rows = {q: {"paper": printed(scene, q), "ours": value} for q, value in ours.items()}
+                figures[name] |= {"rows": rows, "settings": settings}
     return json.dumps(
         {
             **_of_citation(cff),
@@ -79,7 +81,6 @@ def numbers_of(root: Path, config: Config) -> str:
             "statements": claims.checkable_count(verdicts),
             "figures": figures,
             "printed": {"exponent": EXPONENT},
-            "lines": _source_lines(root),
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
             "packages": committed[PUBLISHED[MAIN]]["environment"],
         },
@@ -102,21 +103,6 @@ def _of_citation(cff: Table) -> Table:
         "keywords": cff["keywords"],
         "version": cff["version"],
     }
-
-
-def _source_lines(root: Path) -> dict[str, int]:
-    """Return the lines of Python of the science alone, and of everything."""
-    folders = {"science": "src/pseudorigid", "all": "src"}
-    return {
-        name: sum(read_text(file).count("\n") for file in sorted((root / folder).rglob("*.py")))
-        for name, folder in folders.items()
-    }
-
-
-def _rows(root: Path, config: Config, scene: str) -> Table:
-    """Return quantity -> the paper's value and ours."""
-    values = measured(root, config, MAIN, scene)
-    return {name: {"paper": printed(scene, name), "ours": ours} for name, ours in values.items()}
 
 
 def _figure(

@@ -1,13 +1,13 @@
 """./reproduce site: write one folder with all pages, the explorer and the article."""
 
-import os
 import shutil
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from pipeline.cli import figures
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.packages import add_packages
-from pipeline.cli.session import UsageError, interruptible, locked, one_line
+from pipeline.cli.session import interruptible, locked, one_line
 from pipeline.config import MAIN
 from pipeline.records.sources import ROOT
 
@@ -30,15 +30,18 @@ def run(args: Arguments) -> int:
             _refuse_others(ROOT / SITE)
     add_packages("article")
     add_packages("site")
-    part = (ROOT / SITE).with_name(f".site.{os.getpid()}.part")
-    with locked(), interruptible(), one_line("site: "):
-        try:
-            _write(part / "site", args)
-            _replace(part / "site", ROOT / SITE)
-        except OSError as error:
-            raise UsageError(f"{error.filename}: cannot be written: {error.strerror}") from None
-        finally:
-            shutil.rmtree(part, ignore_errors=True)
+    scratch = TemporaryDirectory(prefix=".site.", dir=ROOT / "results")
+    with (
+        locked(),
+        interruptible(),
+        one_line("site: "),
+        one_line("site: ", OSError),
+        scratch as part,
+    ):
+        _write(Path(part, "new"), args)
+        if (ROOT / SITE).exists():
+            (ROOT / SITE).rename(Path(part, "old"))
+        Path(part, "new").rename(ROOT / SITE)
     size = sum(file.stat().st_size for file in (ROOT / SITE).rglob("*") if file.is_file())
     print(f"\n{SITE}/  {size / 1e6:.1f} MB: open {SITE}/index.html, or serve the folder")
     return 0
@@ -74,17 +77,3 @@ def _write(folder: Path, args: Arguments) -> None:
         (folder / name).write_bytes(content)
     names = sorted(str(f.relative_to(folder)) for f in folder.rglob("*") if f.is_file())
     (folder / LIST).write_text("\n".join([*names, LIST, ""]), encoding="utf-8")
-
-
-def _replace(part: Path, folder: Path) -> None:
-    """Put a new folder in the place of an old one, which is deleted, or else put back."""
-    old = part.with_name(part.name + ".old")
-    try:
-        if folder.exists():
-            folder.rename(old)
-        part.rename(folder)
-    except BaseException:
-        if old.exists() and not folder.exists():
-            old.rename(folder)
-        raise
-    shutil.rmtree(old, ignore_errors=True)

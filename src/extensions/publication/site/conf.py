@@ -21,6 +21,7 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 numpydoc_show_class_members = False
 autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True}
 
 html_theme = "furo"
 html_title = "pseudorigid"

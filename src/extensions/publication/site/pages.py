@@ -1,10 +1,8 @@
 """Pages that are written for each site: this run, the gallery, the theorems, and Python."""
 
-import importlib.resources
 import re
 import tomllib
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -39,14 +37,13 @@ def pages(root: Path, config: Config) -> dict[str, str]:
 
     Raises ValueError, which names the file, if a result cannot be read.
     """
-    writers: dict[str, Callable[[Path, Config], Iterable[str]]] = {
-        "run": _run,
-        "gallery": _gallery,
-        "theorems": _theorems,
-        "api": _api,
+    written = {
+        "run": _run(root, config),
+        "gallery": _gallery(root, config),
+        "api": _api(),
+        **{f"theorem-{name}": _theorem(root, config, name) for name in THEOREMS},
     }
-    texts = {name: "\n".join([*write(root, config), ""]) for name, write in writers.items()}
-    return texts | {f"theorem-{name}": "\n".join(_theorem(root, config, name)) for name in THEOREMS}
+    return {name: "\n".join([*lines, ""]) for name, lines in written.items()}
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
@@ -62,57 +59,47 @@ def _table(head: Iterable[str], rows: Iterable[Iterable[object]]) -> list[str]:
 
 def _run(root: Path, config: Config) -> Iterator[str]:
     """Yield the page on this run: states, reported numbers, corrections, and seconds."""
-    freshness = Freshness(root, config.build_specs())
-    shown: dict[str, None] = {}
-    yield "# This run"
-    yield "\nThis page was written with the site, from the results that are current."
+    freshness, shown = Freshness(root, config.build_specs()), dict[str, None]()
+    yield "# This run\n\nThis page was written with the site, from the results that are current."
     for variant in (MAIN, *config.own_variants):
-        absent = config.left_out.get(variant, {})
-        states = {s: freshness.state(drawn(s, "png", variant)) for s in config.variants[variant]}
-        counts = Counter("current" if state == CURRENT else state for state in states.values())
+        drawings = {scene: drawn(scene, "png", variant) for scene in config.variants[variant]}
+        states = {scene: freshness.state(path) for scene, path in drawings.items()}
         if variant != MAIN and CURRENT not in states.values():
             continue
-        yield f"\n## {'The figures' if variant == MAIN else f'Variant {variant}'}\n"
-        yield f"{', '.join(f'{count} {state}' for state, count in counts.items())}."
-        for scene, state in states.items():
-            block = config.variants[variant][scene]
-            caption = caption_of(scene, block.as_mapping())
+        yield f"\n## {'The figures' if variant == MAIN else f'Variant {variant}'}"
+        for scene, state in (states | config.left_out.get(variant, {})).items():
+            block = config.variants[variant].get(scene, config.scenes[scene]).as_mapping()
+            caption = caption_of(scene, block)
             yield f"\n### {caption.name}: {caption.title}\n"
             if state != CURRENT:
                 yield f"Not shown: {state}."
                 continue
-            shown |= dict.fromkeys(
-                [*config.data_of(variant, scene).values(), drawn(scene, "png", variant)]
-            )
-            if place := address(config, variant, scene, block.as_mapping()):
+            shown |= dict.fromkeys([*config.data_of(variant, scene).values(), drawings[scene]])
+            if place := address(config, variant, scene, block):
                 yield f'<a href="../explorer.html#{place}">Open it in the explorer</a>'
             values = measured(root, config, variant, scene)
-            yield from _table(
-                ("quantity", "the paper", "measured here"),
-                ((name, printed(scene, name), value) for name, value in values.items()),
-            )
-        yield from (f"\n{scene} is left out: {reason}." for scene, reason in absent.items())
+            rows = ((name, printed(scene, name), value) for name, value in values.items())
+            yield from _table(("quantity", "the paper", "measured here"), rows)
     yield "\n## Corrections to the paper\n"
     verdicts = ledger.by_verdict(ledger.read_json(read_text(root / ledger.DATA)))
     for word in (FALSE, CORRECTED):
-        numbers = ", ".join(
-            f"[{v.number}](../CLAIMS.md#statement-{v.number})" for v in verdicts[word]
-        )
-        yield f"- {word}: statements {numbers}"
+        numbers = [f"[{v.number}](../CLAIMS.md#statement-{v.number})" for v in verdicts[word]]
+        yield f"- {word}: statements {', '.join(numbers)}"
     yield "\n## What made the results\n"
     yield "Seconds and commit are those of the run that made a file."
-    rows, packages = [], set()
-    for path in shown:
-        record = read_record(root, record_path(path))
-        packages.add(", ".join(f"{n} {v}" for n, v in record["environment"].items()))
-        commit = (record.get("commit") or "none")[:12] + ", with changes" * bool(
-            record.get("dirty")
-        )
-        seconds = record.get("seconds")
-        rows.append([f"`{path}`", f"`{record['output']['sha256'][:16]}`", commit,
-                     f"{seconds:.1f}" if isinstance(seconds, float) else "not known"])  # fmt: skip
-    yield from _table(("file", "sha256", "commit", "seconds"), rows)
-    yield from (f"Made with {names}." for names in sorted(packages))
+    records = {path: read_record(root, record_path(path)) for path in shown}
+    yield from _table(("file", "sha256", "commit", "seconds"), map(_made, records.items()))
+    versions = {tuple(record["environment"].items()) for record in records.values()}
+    yield from (f"Made with {', '.join(map(' '.join, each))}." for each in sorted(versions))
+
+
+def _made(result: tuple[str, dict[str, Any]]) -> list[str]:
+    """Return the cells of a result, given with its record."""
+    path, record = result
+    seconds, commit = record.get("seconds"), (record.get("commit") or "none")[:12]
+    commit += ", with changes" * bool(record.get("dirty"))
+    took = f"{seconds:.1f}" if isinstance(seconds, float) else "not known"
+    return [f"`{path}`", f"`{record['output']['sha256'][:16]}`", commit, took]
 
 
 def _gallery(root: Path, config: Config) -> Iterator[str]:
@@ -142,23 +129,6 @@ def _lines(root: Path, key: str, scene: str) -> str:
     return f"  {scene}\n"
 
 
-def _premises() -> list[dict[str, Any]]:
-    """Return the groups of theorems with the premises that a checker decides."""
-    file = importlib.resources.files("extensions.proofs") / "theorems" / "premises.toml"
-    groups: list[dict[str, Any]] = tomllib.loads(file.read_text(encoding="utf-8"))["group"]
-    return groups
-
-
-def _theorems(root: Path, config: Config) -> Iterator[str]:
-    """Yield the list of theorems."""
-    yield "# Theorems\n"
-    yield f"All are about the paper's ball, k = 1/5 and g = 1/25. [Proofs](../{_PROOFS}/README.md)"
-    yield "says how they are checked.\n"
-    yield "```{toctree}\n:maxdepth: 1\n"
-    yield from (f"theorem-{name}" for name in THEOREMS)
-    yield "```"
-
-
 def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     """Yield the page of a theorem: its statement, what was found, and its premises."""
     statement = typeset(THEOREMS[name].statement)
@@ -169,7 +139,9 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     if Freshness(root, config.build_specs()).state(path) == CURRENT:
         found = load(root / path).attrs["line"].split("; ")
         yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
-    groups = [g for g in _premises() if name in g["theorems"] or g["title"] == "All"]
+    text = read_text(root / _PROOFS / "theorems" / "premises.toml")
+    known = tomllib.loads(text)["group"]
+    groups = [g for g in known if name in g["theorems"] or g["title"] == "All"]
     proofs = {group["proof"] for group in groups[1:]}
     links = [f"[Proof: {p.removesuffix('.md')}](../{_PROOFS}/theory/{p})" for p in sorted(proofs)]
     certificate = f"{_PROOFS}/certificates/{THEOREMS[name].certificate}"
@@ -180,20 +152,11 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
         yield from _table(("premise", "checked by"), group["premises"])
 
 
-def _api(root: Path, config: Config) -> Iterator[str]:
+def _api() -> Iterator[str]:
     """Yield the reference of the Python functions, from their docstrings."""
-    yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n```"
-    for name in vars(pseudorigid)["__all__"]:
-        yield from _described("pseudorigid", name)
-    yield "\n## Functions of parts\n\nThese are for a checkout, and are no part of the wheel."
-    for module, names in _OF_PARTS.items():
+    yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n   :no-members:\n```"
+    yield "\nFunctions of `extensions` are for a checkout, and are no part of the wheel."
+    for module, names in ("pseudorigid", vars(pseudorigid)["__all__"]), *_OF_PARTS.items():
         for name in names:
-            yield from _described(module, name)
-
-
-def _described(module: str, name: str) -> Iterator[str]:
-    """Yield the documentation of a class or a function."""
-    is_class = isinstance(getattr(importlib.import_module(module), name), type)
-    kind = "autoclass" if is_class else "autofunction"
-    yield f"\n## {name}\n\n```{{eval-rst}}\n.. {kind}:: {module}.{name}"
-    yield "   :members:\n```" if is_class else "```"
+            kind = "autoclass" if name[0].isupper() else "autofunction"
+            yield f"\n## {name}\n\n```{{eval-rst}}\n.. {kind}:: {module}.{name}\n```"
