@@ -35,7 +35,8 @@ def test_numbers_are_those_of_events_ends_and_shares(datasets):
     known += [shares[name].values for name in SHARES]
     known = np.abs(np.concatenate([values.ravel() for values in known]))
     number, tables = r"(?<![\d.])0\.\d{%s}(?!\d)", re.findall(r"^\|.*$", PAGE, re.MULTILINE)
-    numbers = re.findall(number % "5,12", PAGE + EVENTS) + re.findall(number % "4", " ".join(tables))
+    numbers = re.findall(number % "5,12", PAGE + EVENTS)
+    numbers += re.findall(number % "4", " ".join(tables))
     assert len(numbers) > 100
     for digits in {len(text) - 2 for text in numbers}:
         rounded = {f"{value:.{digits}f}" for value in known.tolist()}

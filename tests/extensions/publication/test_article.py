@@ -50,11 +50,10 @@ def data():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             numbers,
-            "_rows",
-            lambda root, checked, scene: {
-                quantity: {"paper": "a", "ours": "b"} for name, quantity in used if name == scene
-            },
+            "measured",
+            lambda *given: {quantity: "b" for name, quantity in used if name == given[-1]},
         )
+        patch.setattr(numbers, "printed", lambda *_: "a")
         return json.loads(numbers.numbers_of(ROOT, config.load(ROOT / "config.yaml")))
 
 
