@@ -10,6 +10,7 @@ from sections import BALL
 
 from extensions.claims.analyses.flux import SIDES
 from extensions.claims.analyses.spread import spread
+from extensions.claims.figures import clusters as clusters_figure
 from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
 from extensions.claims.figures import rotation as rotation_figure
@@ -110,3 +111,10 @@ def test_the_panels_along_the_same_line_are_aligned(datasets):
     ]
     assert len(lines[0]) > 4 and lines[0] == lines[1]
     assert (frames[0].x0, frames[0].x1) == (frames[1].x0, frames[1].x1)
+
+
+def test_marks_of_clusters_stand_at_their_ticks(datasets):
+    figure = clusters_figure.draw(SCENE, datasets["clusters/clusters"])
+    artists = [(a.get_marker(), a.get_xdata() * style.DPI, a.get_color()) for a in figure.artists]
+    (marks,) = {tuple(x) for mark, x, _ in artists if mark == "s" and len(x) > 1 and x[0] < 540}
+    assert {*marks} <= {x[0] for _, x, hue in artists if hue == style.GRID and np.ptp(x) == 0}

@@ -88,18 +88,18 @@ def _panel_by_lag(sheet: Sheet, frame: Frame, clusters: xr.Dataset, up: Axis) ->
 
 
 def _marks(panel: Panel, clusters: xr.Dataset, estimates: list[np.ndarray]) -> None:
-    """Draw a mark with its interval for each cut and lag, from (value, low, high)."""
+    """Draw a mark with its interval at each lag, joined for each cut, from (value, low, high)."""
     value, low, high = estimates
     lags, cuts = clusters["lag"].values, clusters["cut"].values
-    steps = min(0.2, 0.8 / cuts.size) * (np.arange(cuts.size) - 0.5 * (cuts.size - 1))
-    places = np.add.outer(steps, lags)
-    for i, (at, hue) in enumerate(zip(places, style.ordered(cuts.size), strict=True)):
-        panel.bars(at, low[i], high[i], color=hue, lw=0.7)
-        panel.dots(at, value[i], hue, size=3.2, marker=_MARKS[i % 4])
+    for i, hue in enumerate(style.ordered(cuts.size)):
+        panel.line(lags, value[i], color=style.pale(hue), lw=0.6)
+        panel.bars(lags, low[i], high[i], color=hue, lw=0.7)
+        panel.dots(lags, value[i], hue, size=3.2, marker=_MARKS[i % 4])
     widest = 0.5 * float((high - low).max())
     _, bottom, right, top = panel.frame
     text = f"95 %: at most \N{PLUS-MINUS SIGN}{widest:.3f}"
-    x, y = panel.place(places, high)
+    at = np.linspace(1.0, lags[-1], 100)
+    x, y = panel.place(np.tile(at, (len(high), 1)), [np.interp(at, lags, line) for line in high])
     taken = (x > right - 12 * POINT - width(text, 7.0)) & (y > top - 10 * POINT)
     place, va = (bottom + 3 * POINT, "bottom") if taken.any() else (top - 3 * POINT, "top")
     panel.sheet.text(right - 3 * POINT, place, text, ha="right", va=va, size=7.0)
