@@ -94,6 +94,7 @@ def test_no_mark_of_a_twist_lies_outside_its_frame():
 @pytest.mark.parametrize("count", [1, 6])
 def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
     impact, distance = np.array([1, 10, 100, 1000]), np.full((count, 4), 0.05)
+    distance[:, ::2] *= 1.5
     data = xr.Dataset({"impact": ("i", impact), "distance": (("e", "i"), distance)})
     scene = {"beside": [1e-4 * i for i in range(count)], "distance": 0.02}
     figure = draw_escape(SCENE | scene, data)
@@ -102,8 +103,10 @@ def test_lines_of_escapes_that_coincide_are_all_seen_above_the_start(count):
     assert "at the start" in texts(figure)
     lines = (a for a in figure.artists if a.get_color() == style.FRAME and a.get_ls() == "--")
     (start,) = (a for a in lines if np.ptp(a.get_xdata()) > 2)
-    low = frames_of(figure)[0].y0
+    left, low, right, _ = frames_of(figure)[0].extents
     assert low + 5 < start.get_ydata()[0] * style.DPI < low + 300
+    line, *_ = (x for x in (a.get_xdata() * style.DPI for a in figure.artists) if len(x) == 4)
+    assert line == pytest.approx(left + 0.001 * impact * (right - left), abs=1)  # a linear axis
     assert_legible(figure)
 
 

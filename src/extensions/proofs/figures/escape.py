@@ -5,25 +5,25 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.figures.axes.limits import decades
+from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import Panel, key, log10
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
-_LEFT, _RIGHT = 135, 1005  # pixels
+_LEFT, _RIGHT = 135, 985  # pixels
 _COLUMNS = 3  # of the key
 
 
 @style.pinned()
 def draw(scene: dict[str, Any], escape: xr.Dataset) -> Figure:
-    """Draw the largest distance so far, a line for each energy, both axes logarithmic."""
+    """Draw the largest distance so far on a logarithmic axis, a line for each energy."""
     room = 75 * -(-2 * (len(scene["beside"]) // _COLUMNS + 1) // 3)  # for the key
     sheet = Sheet(style.COLUMN, 825 + room)
     sheet.text(_LEFT, sheet.high - 4 * POINT, style.setting(scene), ha="left", va="top", size=8.0)
     impact, distance = escape["impact"].values, escape["distance"].values
     start = scene.get("distance", distance.min())
     low, high = (float(log10(end)[0]) for end in (min(start, distance.min()), distance.max()))
-    across = decades((0.0, float(log10(impact[-1])[0])), "Number of impacts")
+    across = linear(0.0, impact[-1], 5, "Number of impacts")
     up = decades((low - 0.1, high + 0.25), "Largest distance in section radii")
     panel = Panel(sheet, (_LEFT, 105 + room, _RIGHT, 705 + room), across, up)
     panel.line(impact[[0, -1]], [start] * 2, color=style.FRAME, lw=0.9, ls="--")
