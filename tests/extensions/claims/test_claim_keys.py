@@ -18,6 +18,7 @@ from extensions.claims.figures import spread as spread_figure
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics.lyapunov import scene_exponents
+from pseudorigid.figures.axes import section
 from pseudorigid.figures.canvas import style
 
 
@@ -32,16 +33,24 @@ def residues(values):
     )
 
 
+def test_curves_of_the_last_island_are_named_on_the_section_and_the_sea_is_grey():
+    figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, 0.3]]))
+    assert texts(figure).count("0.170000") == 1 and "0.180000" not in texts(figure)
+    size = {len(a.get_xdata()): a.get_color() for a in figure.artists if a.get_zorder() == 4}
+    assert size[9] == style.ordered(2)[0] and section.SEA in colors(figure)
+    assert max(len(a.get_xdata()) for a in figure.artists if a.get_color() == style.RIM) > 300
+
+
 def test_the_critical_residue_lies_within_its_axis():
     figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, 1e-9]]))
     (critical,) = (line for line in figure.artists if line.get_linestyle() == "--")
-    assert critical.get_ydata()[0] < 1425 / style.DPI - 0.05
+    assert critical.get_ydata()[0] < 1575 / style.DPI - 0.05
 
 
 @pytest.mark.parametrize(
     ("last", "said", "unsaid"),
     [
-        (1e-9, ["a curve exists", "0.170000, and with 0.180000"], ["none with", "pale", "A last"]),
+        (1e-9, ["a curve exists", "0.170000, and with 0.180000"], ["none with", "grey", "A last"]),
         (0.3, ["a curve exists", "none with 0.180000", "A last curve", "The orbit that is"], []),
     ],
 )

@@ -22,7 +22,7 @@ _SCALE = 640  # pixels: bottom of the colour scale
 def draw(scene: Scene, exclusion: xr.Dataset, curves: xr.Dataset, orbits: xr.Dataset) -> Figure:
     """Draw the impacts that exclude each point, with proved curves and islands, and the share."""
     sheet = Sheet(style.COLUMN, _HIGH)
-    panel = section.at_top(sheet, scene)
+    panel = section.large(sheet, scene, _HIGH - 75)
     _colours(panel, exclusion, scene["followed"])
     x, y = chart(panel.k, *states_of(orbits))
     regular = orbits["type"].values == "regular"

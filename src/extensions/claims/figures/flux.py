@@ -62,7 +62,7 @@ def _edge_name(flux: xr.Dataset, side: int) -> str:
 
 def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
     """Draw the regions, their crossings, and the areas of their lobes; return the frame."""
-    panel = section.at_top(sheet, scene)
+    panel = section.large(sheet, scene, sheet.high - 75)
     panel.rim(zorder=2)
     for side, hue, wide in _SIDES:
         if np.isnan(flux["area"].values[side]):

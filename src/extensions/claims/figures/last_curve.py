@@ -5,45 +5,46 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from pseudorigid.figures.axes.limits import around, decades
+from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Panel, corner, key, letters, log10
-from pseudorigid.figures.axes.section import NAME
+from pseudorigid.figures.axes.section import LEFT, SEA, SIDE, Section, large
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.names import name_curves
 from pseudorigid.figures.canvas.sheet import Sheet
 
 from . import Figure, Frame, Scene
 
-_LEFT, _RIGHT = 150, 1005  # pixels
+_NAMED = 7.0  # points: rotation numbers beside curves
 CRITICAL = 0.25  # residue of a periodic orbit near a curve that is about to break
 
 
 @style.pinned()
 def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
-    """Draw residues of convergents against their period, and, below, orbits in the plane (x, y)."""
+    """Draw residues of convergents against their period, and, below, orbits on the section."""
     rows = -(-last_curve.sizes["noble"] // 2)  # of a key
     extra = 75 * -(-48 * (rows - 1) // 75)
-    sheet = Sheet(style.COLUMN, 1575 + 2 * extra)
-    above, below = (_LEFT, 1030 + extra, _RIGHT, 1425 + extra), (_LEFT, 112, _RIGHT, 760)
-    letters(sheet, above, below)
-    # An orbit above the critical residue fills much of the plane.
+    sheet = Sheet(style.COLUMN, 1725 + 2 * extra)
+    above = LEFT, 1180 + extra, LEFT + SIDE, 1575 + extra
+    panel = large(sheet, scene, 112 + SIDE)
+    panel.rim()
+    letters(sheet, above, panel.frame)
+    numbers = [f"{number:.6f}" for number in last_curve["rotation"].values]
+    full = style.ordered(len(numbers))
+    # An orbit above the critical residue fills much of the section.
     wide = np.abs(last_curve["residue"].values[:, -1]) > CRITICAL
-    full = style.ordered(wide.size)
-    hues = [style.pale(hue) if fills else hue for hue, fills in zip(full, wide, strict=True)]
+    hues = [SEA if fills else hue for hue, fills in zip(full, wide, strict=True)]
     _residues(sheet, above, last_curve, full)
-    _orbits(sheet, below, last_curve, hues)
-    corner(sheet, below, style.setting(scene))
-    names = [f"convergents of {number:.6f}" for number in last_curve["rotation"].values]
-    _key(sheet, names, sheet.high - 29, full)
-    periods = last_curve["period"].values[:, -1]
-    names = [f"orbit from period {period:.0f}" for period in periods]
-    _key(sheet, names, 850 + 48 * (rows - 1), hues)
+    _orbits(panel, last_curve, hues, numbers)
+    corner(sheet, panel.frame, style.setting(scene))
+    _key(sheet, [f"convergents of {number}" for number in numbers], sheet.high - 29, full)
+    _key(sheet, [f"orbit at {number}" for number in numbers], 1025 + 48 * (rows - 1), hues)
     return sheet.figure
 
 
 def _key(sheet: Sheet, names: list[str], top: float, hues: Sequence[str]) -> None:
     """Draw a key of dots in two columns from `top` down."""
     entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=True)]
-    key(sheet, entries, top, 2, _LEFT, _RIGHT - _LEFT)
+    key(sheet, entries, top, 2, LEFT, SIDE)
 
 
 def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str]) -> None:
@@ -67,9 +68,15 @@ def _residues(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str
         corner(sheet, frame, "hollow: negative")
 
 
-def _orbits(sheet: Sheet, frame: Frame, last_curve: xr.Dataset, hues: list[str]) -> None:
-    """Draw the orbits in the plane (x, y), the first ones on top."""
-    x, y = last_curve["x"].values, last_curve["y"].values
-    panel = Panel(sheet, frame, around(x, 0.04, 6, "$x$"), around(y, 0.04, 6, NAME), grid=False)
-    for i in reversed(range(x.shape[0])):
-        panel.dots(x[i], y[i], hues[i], size=0.9)
+def _orbits(
+    panel: Section, last_curve: xr.Dataset, hues: Sequence[str], numbers: Sequence[str]
+) -> None:
+    """Draw the orbits, the sea first, and name those that do not fill it."""
+    curves = [*zip(last_curve["x"].values, last_curve["y"].values, hues, numbers, strict=True)]
+    curves.sort(key=lambda curve: curve[2] == SEA)
+    for x, y, hue, _ in reversed(curves):
+        panel.dots(x, y, hue, size=0.7 if hue == SEA else 0.9)
+    pixels = [np.array(panel.place(x, y)) for x, y, *_ in curves]
+    names = [(number, hue) for *_, hue, number in curves if hue != SEA]
+    texts, colors = zip(*names, strict=True) if names else ((), ())
+    name_curves(panel.sheet, pixels, texts, colors, panel.frame, _NAMED)

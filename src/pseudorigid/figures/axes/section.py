@@ -64,9 +64,8 @@ def circle(sides: int = 720) -> tuple[np.ndarray, np.ndarray]:
     return cosine, sine
 
 
-def at_top(sheet: Sheet, scene: dict[str, Any]) -> Section:
-    """Return a large panel of the section of a scene's ball and energy at the top of a sheet."""
-    top = sheet.high - 75
+def large(sheet: Sheet, scene: dict[str, Any], top: float) -> Section:
+    """Return a large panel of the section of a scene's ball and energy below a height."""
     frame = LEFT, top - SIDE, LEFT + SIDE, top
     ball, energy = scene["ball"], scene["energy"]
     radius = math.sqrt(twice_energy_above_rest(ball["k"], ball["g"], energy) / ball["k"])
@@ -82,7 +81,7 @@ def over_orbits(
     is not drawn.
     """
     sheet = Sheet(style.COLUMN, high)
-    panel = at_top(sheet, scene)
+    panel = large(sheet, scene, high - 75)
     panel.orbits(orbits)
     panel.rim()
     corner(sheet, panel.frame, style.setting(scene))
