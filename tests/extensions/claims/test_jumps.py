@@ -5,11 +5,12 @@ import math
 import independent_solver as judge
 import numpy as np
 import pytest
+from legible import frames_of
 from mpmath import mp, mpf
 from sections import BALL
 
 from extensions.claims.analyses.jumps import jumps
-from extensions.claims.figures.jumps import draw
+from extensions.claims.figures.jumps import MAP, draw
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas import style
@@ -124,10 +125,15 @@ def test_the_symmetry_line_is_whole(sides):
 def test_panels_of_further_energies_follow_one_another_with_falling_energy():
     orbits = scene_orbits(BALL, ENERGY, [0.1], 50)
     scene = {"ball": {"k": 0.2, "g": 0.04}, "energy": ENERGY}
-    further = [0.004, 0.001, 0.009, 0.0025, 0.003]  # at 0.001 there is no curve
+    further = [0.004, 0.001, 0.009, 0.0018, 0.003]  # at 0.001 there is no curve
     data = jumps(BALL, ENERGY, further, 40).assign_attrs(k=0.2, g=0.04)
-    found = [text for text in draw(scene, data, orbits).texts if text.get_text().startswith("$E$")]
+    figure = draw(scene, data, orbits)
+    for frame in frames_of(figure)[1:]:  # a curve along the rim is told from it
+        spans = [np.ptp(a.get_ydata()) for a in figure.artists if a.get_color() == MAP
+                 and frame.contains(*a.get_xydata()[-1] * style.DPI)]  # fmt: skip
+        assert spans and max(spans) * style.DPI > 0.7 * frame.height
+    found = [text for text in figure.texts if text.get_text().startswith("$E$")]
     found = sorted(
         (text.get_position()[0], text.get_text()) for text in found if text.get_position()[1] < 2
     )
-    assert [text for _, text in found] == [f"$E$ = {energy}" for energy in (0.004, 0.003, 0.0025)]
+    assert [text for _, text in found] == [f"$E$ = {energy}" for energy in (0.004, 0.003, 0.0018)]
