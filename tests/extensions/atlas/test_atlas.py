@@ -53,6 +53,7 @@ def test_cells_have_the_colours_of_their_values_and_a_resonance_its_curve():
     share = np.linspace(-0.2, 0.99, 12).reshape(3, 4)
     share[1, 1] = 1.7
     exponent = np.where(share > 0.9, np.nan, 0.4 * share)
+    of_root = np.sqrt(np.maximum(exponent, 0.0) / np.nanmax(exponent))
     image, scale = image_of(PLANE, regular=share, exponent=exponent), colours("viridis")
 
     def commonest(row, column, bottom):
@@ -63,6 +64,8 @@ def test_cells_have_the_colours_of_their_values_and_a_resonance_its_curve():
     for row, column in np.ndindex(3, 4):
         wanted = scale[min(max(int(share[row, column] * 64), 0), 63)]
         assert commonest(row, column, UPPER) == wanted
+        if (shade := of_root[row, column]) >= 0.0:
+            assert commonest(row, column, LOWER) == colours("magma")[min(int(shade * 64), 63)]
     assert commonest(2, 3, LOWER) == style.GRID  # no sea
     across = atlas.LEFT + (np.log10(fixed_point.resonance(0.2, 1, 6)) + 1.5) / 4 * atlas.WIDE
     up = UPPER + (0.2 - 0.05) / (1 / 3 - 0.05) * 3 * HEIGHT  # from a cell's edge to a shell

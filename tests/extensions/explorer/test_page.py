@@ -12,6 +12,7 @@ from project import shipped, wait_for
 from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
+from extensions.atlas.figures import raster
 from extensions.claims.analyses.jumps import jumps
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import regular
@@ -270,7 +271,7 @@ def test_a_bad_address_is_a_line_and_shows_figure_2(person):
 def test_the_atlas_goes_to_a_ball_and_an_energy_by_pointer_and_keys(person):
     person.unfold("atlas-panel")
     canvas, small = person.find("atlas"), "return document.getElementById('peek').toDataURL()"
-    canvas.send_keys(*[Keys.ARROW_LEFT] * 3, *[Keys.ARROW_DOWN] * 2)
+    canvas.send_keys(*[Keys.ARROW_DOWN] * 3, *[Keys.ARROW_LEFT] * 2)
     assert "k = 0.17, E/g² = 4.96: regular share" in person.text("atlas-note")
     canvas.send_keys(Keys.ENTER)
     wait_for(lambda: person.state()["k"] == "0.17")
@@ -317,6 +318,13 @@ def test_csv_of_all_orbits_says_what_they_are(person):
     expected = BALL.after(BALL.start(0.534522, ENERGY), 25000)
     found = [float(last[-1][name]) for name in ("x", "xdot", "udot", "tau")]
     assert found == np.ravel(expected).tolist()
+
+
+def test_the_atlas_has_the_colours_of_its_picture(person):
+    shares = np.arange(64) / 63
+    shown = person.run("return args[0].map(shade)", shares.tolist())
+    shown = np.array([[*bytes.fromhex(colour[1:])] for colour in shown])
+    assert np.abs(shown - raster.palette("viridis")).max() < 20
 
 
 @pytest.mark.parametrize(("width", "theme"), [(360, "dark"), (2000, "light")])

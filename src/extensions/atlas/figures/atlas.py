@@ -61,7 +61,7 @@ def plane(sweep: Sweep, data: xr.Dataset) -> Figure:
     )
     frames = []
     for bottom, text, values, most, table in panels:
-        panel = cells(sheet, bottom, sweep, values, most, table, text)
+        panel = cells(sheet, bottom, sweep, values, most, table, text, root=values is exponent)
         frames.append(panel.frame)
         names, jumps = _curves(panel, data, named=bottom == upper)
         for energy in PAPER_ENERGIES.values():
@@ -87,16 +87,21 @@ def sheet_above(bottom: int, sweep: Sweep) -> Sheet:
 
 
 def cells(
-    sheet: Sheet, bottom: int, sweep: Sweep, values: np.ndarray, most: float, table: str, text: str
-) -> Window:
-    """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel."""
+    sheet: Sheet, bottom: int, sweep: Sweep, values: np.ndarray, most: float, table: str, text: str,
+    root: bool = False,
+) -> Window:  # fmt: skip
+    """Draw a plane of values (k, energy) from 0 to `most` as coloured cells; return its panel.
+
+    Colours are even in the values or, to show small ones too, in their square `root`.
+    """
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
     up = linear(*inertias(sweep["k"]), 7, "$k$")
     panel = Window(sheet, frame, _energy_axis(sweep), up, grid=False)
     panel.minor()
-    raster.cells(panel, sweep, values / most, table)
-    raster.scale(sheet, frame, most, table)
+    shades = values / most
+    raster.cells(panel, sweep, np.sqrt(np.maximum(shades, 0.0)) if root else shades, table)
+    raster.scale(sheet, frame, most, table, root)
     corner(sheet, frame, text, rise=13)
     return panel
 

@@ -1,5 +1,6 @@
 """Coloured cells between axes, and their colour scale."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,6 +16,7 @@ from ..grid import edges
 
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
+_ROOTED = 0, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1  # ticks of a scale that is even in the root
 GREYS = "greys"
 _LIGHTEST, _DARKEST = 252, 190  # of GREYS
 
@@ -35,15 +37,18 @@ def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -
     paste(panel.sheet, left, bottom, image)
 
 
-def scale(sheet: Sheet, frame: Sequence[int], largest: float, table: str) -> None:
-    """Draw the colour scale beside a frame, from 0 to `largest`."""
+def scale(
+    sheet: Sheet, frame: Sequence[int], largest: float, table: str, root: bool = False
+) -> None:
+    """Draw the colour scale beside a frame, from 0 to `largest`, even in the square root if asked."""
     _, bottom, edge, top = map(int, frame)
     left, right = edge + 25, edge + 55
     bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), top - bottom)
     column = np.repeat(palette(table), np.diff(bounds), axis=0)
     paste(sheet, left, bottom, np.repeat(column[:, None], right - left, axis=1))
-    for tick in ticks(0.0, largest, 5):
-        y = bottom + tick / largest * (top - bottom)
+    for tick in [at for at in _ROOTED if at <= largest] if root else ticks(0.0, largest, 5):
+        share = tick / largest
+        y = bottom + (math.sqrt(share) if root else share) * (top - bottom)
         sheet.draw([right, right + 2.5 * POINT], [y, y], color=style.FRAME, lw=0.6)
         text = style.number(tick)
         sheet.text(right + 4 * POINT, y, text, size=_SIZE)

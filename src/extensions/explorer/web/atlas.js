@@ -7,13 +7,13 @@ const PEEK = { orbits: 24, impacts: 250 };
 class AtlasView {
   constructor(page, goTo) {
     this.page = page; // its state has the present place
-    this.aim = null; // [k, log10 of E/g^2]: the keyboard's pointer
+    this.aim = null; // [log10 of E/g^2, k]: the keyboard's pointer
     const { atlas } = page.data;
     element("atlas-panel").hidden = !atlas; // there is none without the sweeps
     if (!atlas) return;
     this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
     this.canvas = element("atlas");
-    this.listen(([k, logarithm]) => {
+    this.listen(([logarithm, k]) => {
       goTo(...[k, 10 ** logarithm].map((value) => Number(value.toPrecision(3))));
     });
   }
@@ -26,15 +26,15 @@ class AtlasView {
     };
     const logs = this.atlas.energy.map(Math.log10);
     const clamp = (list, value) => Math.min(list.at(-1), Math.max(list[0], value));
-    const within = ([k, logarithm]) => [clamp(this.atlas.k, k), clamp(logs, logarithm)];
+    const within = ([logarithm, k]) => [clamp(logs, logarithm), clamp(this.atlas.k, k)];
     canvas.addEventListener("click", (event) => goTo(within(at(event))));
     canvas.addEventListener("pointermove", (event) => this.tell(within(at(event))));
     canvas.addEventListener("pointerleave", () => this.tell());
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     canvas.addEventListener("keydown", (event) => {
       const [across, up] = arrows[event.key] ?? [0, 0];
-      const [k, logarithm] = this.aim ?? this.here();
-      this.aim = within([k + 0.01 * across, logarithm + 0.05 * up]);
+      const [logarithm, k] = this.aim ?? this.here();
+      this.aim = within([logarithm + 0.05 * across, k + 0.01 * up]);
       if (arrows[event.key]) {
         this.draw();
       } else if (event.key === "Enter") {
@@ -49,10 +49,10 @@ class AtlasView {
     });
   }
 
-  /** The present place, [k, log10 of E/g^2]; the logarithm is -Infinity for E <= 0. */
+  /** The present place, [log10 of E/g^2, k]; the logarithm is -Infinity for E <= 0. */
   here() {
     const { k, g, energy } = this.page.state;
-    return [k, Math.log10(Math.max(0, energy / (g * g)))];
+    return [Math.log10(Math.max(0, energy / (g * g))), k];
   }
 
   draw() {
@@ -62,31 +62,31 @@ class AtlasView {
     const { k, energy, bytes, steps } = this.atlas;
     const logs = energy.map(Math.log10);
     const frame = { left: 48, top: 24, right: 12, bottom: 38 };
-    const plot = new Plot(pen, { width, height, frame, colours, across: [k[0], k.at(-1)], up: [logs[0], logs.at(-1)] });
-    const image = new OffscreenCanvas(k.length, energy.length);
+    const plot = new Plot(pen, { width, height, frame, colours, across: [logs[0], logs.at(-1)], up: [k[0], k.at(-1)] });
+    const image = new OffscreenCanvas(energy.length, k.length);
     const paper = image.getContext("2d");
-    const cells = paper.createImageData(k.length, energy.length);
+    const cells = paper.createImageData(energy.length, k.length);
     const pixels = new Uint32Array(cells.data.buffer);
     for (let i = 0; i < k.length; i++) {
       for (let j = 0; j < energy.length; j++) {
         const byte = bytes[i * energy.length + j];
-        pixels[(energy.length - 1 - j) * k.length + i] = packed(shade(byte > steps ? NaN : byte / steps));
+        pixels[(k.length - 1 - i) * energy.length + j] = packed(shade(byte > steps ? NaN : byte / steps));
       }
     }
     paper.putImageData(cells, 0, 0);
-    const [left, top] = plot.at([k[0], logs.at(-1)]);
+    const [left, top] = plot.at([logs[0], k.at(-1)]);
     pen.drawImage(image, left, top, ...plot.size);
-    for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
-      write(pen, value, left - 6, plot.at([k[0], Math.log10(value)])[1], colours.muted, "right", "middle");
-    }
     for (const value of [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]) {
-      write(pen, value, plot.at([value, 0])[0], top + plot.size[1] + 5, colours.muted, "center");
+      write(pen, value, left - 6, plot.at([logs[0], value])[1], colours.muted, "right", "middle");
     }
-    write(pen, "E/g²", 4, 3, colours.ink);
-    write(pen, "k", width - frame.right, height - 2, colours.ink, "right", "bottom");
+    for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
+      write(pen, value, plot.at([Math.log10(value), k[0]])[0], top + plot.size[1] + 5, colours.muted, "center");
+    }
+    write(pen, "k", 4, 3, colours.ink);
+    write(pen, "E/g²", width - frame.right, height - 2, colours.ink, "right", "bottom");
     write(pen, "dark: chaotic · light: regular", width - frame.right, 4, colours.ink, "right");
     const here = this.here();
-    if (here[1] > -Infinity) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
+    if (here[0] > -Infinity) drawRing(pen, plot.at(here), 7, "#000000", "#ffffff");
     if (this.aim) drawRing(pen, plot.at(this.aim), 7, "#000000", "#ff7fc0");
     this.plot = plot;
     this.tell(this.aim ?? this.shown);
@@ -98,7 +98,7 @@ class AtlasView {
     this.peeking ??= requestAnimationFrame(() => {
       this.peeking = null;
       const { k, g, energy } = this.page.state;
-      if (this.shown) this.peek(this.shown[0], 10 ** this.shown[1]);
+      if (this.shown) this.peek(this.shown[1], 10 ** this.shown[0]);
       else this.peek(k, energy / (g * g));
     });
     if (!point) {
@@ -110,9 +110,9 @@ class AtlasView {
       const distances = list.map((entry) => Math.abs(entry - value));
       return distances.indexOf(Math.min(...distances));
     };
-    const byte = bytes[nearest(k, point[0]) * energy.length + nearest(energy.map(Math.log10), point[1])];
+    const byte = bytes[nearest(k, point[1]) * energy.length + nearest(energy.map(Math.log10), point[0])];
     const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
-    setText("atlas-note", `k = ${shortNumber(point[0], 3)}, E/g² = ${shortNumber(10 ** point[1], 3)}: regular share ${share}`);
+    setText("atlas-note", `k = ${shortNumber(point[1], 3)}, E/g² = ${shortNumber(10 ** point[0], 3)}: regular share ${share}`);
   }
 
   /** Draw a few short orbits of a ball as points of the disk; g changes the scale only. */
@@ -136,8 +136,12 @@ class AtlasView {
   }
 }
 
-/** A share of regular motion as a colour, from dark violet to light yellow; grey where unknown. */
+/** A share of regular motion as a colour of more_figures/atlas/plane.png; grey where unknown. */
 function shade(share) {
-  if (Number.isNaN(share)) return "#808080";
-  return mixed(["#211046", "#5e2878", "#b44664", "#f08c46", "#fcf0aa"], Math.sqrt(share));
+  if (Number.isNaN(share)) return "#e0e0e0";
+  const viridis = [
+    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c",
+    "#28ae80", "#5ec962", "#addc30", "#fde725",
+  ];
+  return mixed(viridis, share);
 }
