@@ -2,10 +2,11 @@
 
 import numpy as np
 import xarray as xr
-from legible import assert_legible
+from legible import assert_legible, frames_of
 
-from extensions.atlas.figures import atlas, raster
+from extensions.atlas.figures import raster
 from extensions.families.figures import chains
+from pseudorigid.figures.canvas import style
 
 SWEEP = {
     "k": list(np.linspace(0.05, 0.32, 10)),
@@ -43,18 +44,23 @@ def test_text_is_whole_and_apart():
 def test_each_curve_is_drawn_where_its_data_are():
     figure, lines = drawn()
     artists = [
-        (np.column_stack(artist.get_data()) * figure.dpi, artist.get_color())
+        (np.column_stack(artist.get_data()) * figure.dpi, artist.get_color(), artist.get_lw())
         for artist in figure.artists
         if len(artist.get_xdata()) == 2 and artist.get_zorder() == 2.0
     ]
     left, right = raster.edges(np.log10(SWEEP["energy"]))[[0, -1]]
     low, high = raster.edges(np.array(SWEEP["k"]))[0], 1 / 3  # a shell: the last edge is beyond
-    colours = {}
-    for (order, _), (k, energy) in lines.items():
-        x = atlas.LEFT + (np.log10(energy) - left) / (right - left) * atlas.WIDE
-        y = chains.BOTTOM + (np.array(k) - low) / (high - low) * atlas.HIGH
+    looks = {}
+    for (order, kind), (k, energy) in lines.items():
+        frame = frames_of(figure)[max(order - 3, 0)]  # a panel for each order, from 3
+        x = frame.x0 + (np.log10(energy) - left) / (right - left) * frame.width
+        y = frame.y0 + (np.array(k) - low) / (high - low) * frame.height
         wanted = np.column_stack([x, y])
-        distance, colour = min((np.abs(places - wanted).max(), each) for places, each in artists)
+        near = [(np.abs(places - wanted).max(), look) for places, *look in artists]
+        distance, look = min(near)
         assert distance < 0.3
-        assert colours.setdefault(order, colour) == colour
-    assert len({*colours.values()}) == len(colours)
+        assert looks.setdefault(kind, look) == look
+    assert len({*map(str, looks.values())}) == len(looks)
+    for frame in frames_of(figure):  # the four kinds of its order, and the onset of jumps
+        inside = [look for places, *look in artists if frame.contains(*places.mean(axis=0))]
+        assert len([look for look in inside if look[0] != style.FRAME]) == 5

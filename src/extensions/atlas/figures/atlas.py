@@ -97,7 +97,7 @@ def cells(
     wide, high = pixels(sweep)
     frame = (LEFT, bottom, LEFT + wide, bottom + high)
     up = linear(*inertias(sweep["k"]), 7, "$k$")
-    panel = Window(sheet, frame, _energy_axis(sweep), up, grid=False)
+    panel = Window(sheet, frame, energy_axis(sweep), up, grid=False)
     panel.minor()
     shades = values / most
     raster.cells(panel, sweep, np.sqrt(np.maximum(shades, 0.0)) if root else shades, table)
@@ -241,7 +241,7 @@ def _stroke(sheet: Sheet, points: Sequence[Any], dashed: bool = False) -> None:
     sheet.draw(*points, color="white", lw=0.7, zorder=2.1, **dashes)
 
 
-def _energy_axis(sweep: Sweep) -> Axis:
+def energy_axis(sweep: Sweep) -> Axis:
     """Return an axis from edge to edge of the cells, logarithmic if these span a factor of 20.
 
     It ends where a ball could flatten, eq. (31), if g is known, and where one would be at rest.

@@ -1,4 +1,4 @@
-"""Births of chains and their losses of stability, drawn over the regular share of a plane."""
+"""Births of chains and their losses of stability over the plane of a sweep, a panel for each."""
 
 from typing import Any
 
@@ -7,24 +7,34 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from extensions.atlas.figures import atlas, raster
-from extensions.atlas.figures.atlas import LEFT
+from extensions.atlas.grid import inertias
 from pseudorigid.dynamics.variables import rows
+from pseudorigid.figures.axes.limits import linear
+from pseudorigid.figures.axes.panel import Window, corner, letters
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.names import dense, name_curves
 from pseudorigid.figures.canvas.sheet import Sheet
 
-_SIZE = 6.0  # points: text beside lines
-_SMALL = 5.5  # points: q beside curves other than the full ones
-BOTTOM = 395  # pixels below the frame
+COLUMNS, WIDE, HIGH = (115, 550), 370, 300  # pixels: lefts and size of panels
+BOTTOM, APART = 395, 380  # pixels: below the lowest panels, and from one row to the next
+_SIZE = 6.0  # points: text of the key
 _DASHES, _DOTS = (4.0, 1.6), (1.2, 1.6)  # in widths of a line
 # The kinds of curve: their style and meaning.
 _KINDS: dict[str, tuple[dict[str, Any], str]] = {
-    "resonance": ({"lw": 1.3}, "the fixed point's rotation number is 1/q: a chain branches off"),
-    "fold": ({"lw": 0.6}, "fold: an elliptic orbit of the chain is born or ends"),
-    "doubling": ({"lw": 1.0, "ls": (0, _DASHES)}, "its first period doubling"),
-    "rim": ({"lw": 1.0, "ls": (0, _DOTS)}, "it loses an impact, at rest on the floor"),
+    "resonance": (
+        {"color": style.VERMILION, "lw": 1.3},
+        "the fixed point's rotation number is 1/q: a chain branches off",
+    ),
+    "fold": (
+        {"color": style.BLACK, "lw": 0.6},
+        "fold: an elliptic orbit of the chain is born or ends",
+    ),
+    "doubling": ({"color": style.BLUE, "lw": 1.1, "ls": (0, _DASHES)}, "its first period doubling"),
+    "rim": (
+        {"color": style.GREEN, "lw": 1.1, "ls": (0, _DOTS)},
+        "it loses an impact, at rest on the floor",
+    ),
     "jumps": (
-        {"lw": 0.9, "ls": (0, _DASHES + _DOTS)},
+        {"color": style.BLACK, "lw": 0.7, "ls": (0, _DASHES + _DOTS)},
         "$E/g^2 = 1 + k/2$: above it the map jumps",
     ),
 }
@@ -32,53 +42,47 @@ _KINDS: dict[str, tuple[dict[str, Any], str]] = {
 
 @style.pinned()
 def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
-    """Draw the curves of chains over a plane of k and E/g^2 in shades of grey."""
-    sheet = atlas.sheet_above(BOTTOM, sweep)
-    text = "Births of the chains 1/q, and their ends, over the regular share"
-    panel = atlas.cells(sheet, BOTTOM, sweep, data["regular"].values, 1.0, raster.GREYS, text)
+    """Draw the curves of each chain over a plane of k and E/g^2 in shades of grey."""
     chains = sorted(sweep["chains"])
-    hues = dict(zip(chains, style.ordered(len(chains)), strict=True))
-    lines: list[tuple[Any, ...]] = []
-    named: list[int] = []
-    for order, kind, part in zip(
-        curves["order"].values.tolist(), curves["kind"].values.tolist(), rows(curves), strict=True
-    ):
-        energy, k = (curves[name].values[part] for name in ("energy", "k"))
-        color = hues.get(order, style.BLACK)
-        panel.line(energy, k, color=color, zorder=2.0, **_KINDS[kind][0])
-        if kind == "resonance":
-            atlas.name_curve(panel, panel.within(energy, k), energy, k, f"1/{order}")
-        named += [len(lines)] if kind not in ("resonance", "jumps") else []
-        lines.append((dense(panel.place(energy, k), panel.frame), f"{order}", color))
-    others = [line for i, (line, *_) in enumerate(lines) if i not in named]
-    places = [np.array(panel.place(at, atlas.PAPER_K)) for at in atlas.PAPER_ENERGIES.values()]
-    name_curves(
-        sheet,
-        [*(lines[i][0] for i in named), *others, *places],
-        [lines[i][1] for i in named],
-        [lines[i][2] for i in named],
-        panel.frame,
-        _SMALL,
-    )
-    for drawn in atlas.PAPER_ENERGIES.values():
-        panel.dots([drawn], [atlas.PAPER_K], "white", size=5.0)
-        panel.dots([drawn], [atlas.PAPER_K], style.BLACK, size=2.5)
-    _key(sheet, hues)
+    last = -(-len(chains) // len(COLUMNS)) - 1  # row
+    top = BOTTOM + last * APART
+    sheet = Sheet(style.COLUMN, 75 * -(-(top + HIGH + 90) // 75))
+    spans = rows(curves)
+    kinds, orders = curves["kind"].values.tolist(), curves["order"].values.tolist()
+    frames = []
+    for i, order in enumerate(chains):
+        row, column = divmod(i, len(COLUMNS))
+        left, bottom = COLUMNS[column], top - row * APART
+        frames.append((left, bottom, left + WIDE, bottom + HIGH))
+        across, up = atlas.energy_axis(sweep), linear(*inertias(sweep["k"]), 4, "$k$")
+        below = i + len(COLUMNS) >= len(chains)
+        axes = across if below else across.blank(), up.blank() if column else up
+        panel = Window(sheet, frames[-1], *axes, grid=False)
+        panel.minor()
+        raster.cells(panel, sweep, data["regular"].values, raster.GREYS)
+        corner(sheet, frames[-1], f"chain 1/{order}")
+        for kind, of, part in zip(kinds, orders, spans, strict=True):
+            if of in (order, 0):
+                energy, k = (curves[name].values[part] for name in ("energy", "k"))
+                panel.line(energy, k, zorder=2.0, **_KINDS[kind][0])
+        for at in atlas.PAPER_ENERGIES.values():
+            panel.dots([at], [atlas.PAPER_K], "white", size=4.0)
+            panel.dots([at], [atlas.PAPER_K], style.BLACK, size=2.0)
+    letters(sheet, *frames)
+    raster.scale(sheet, frames[:2][-1], 1.0, raster.GREYS)
+    _key(sheet)
     return sheet.figure
 
 
-def _key(sheet: Sheet, hues: dict[int, str]) -> None:
-    """Explain colours, lines and circles below the frame."""
-    y = BOTTOM - 150
-    for i, (order, color) in enumerate(hues.items()):
-        x = LEFT + i * 135
-        sheet.draw([x, x + 40], [y, y], color=color, lw=1.3)
-        sheet.text(x + 52, y, f"q = {order}", size=_SIZE)
+def _key(sheet: Sheet) -> None:
+    """Explain lines, shades and circles below the panels."""
+    y, left = BOTTOM - 125, COLUMNS[0]
     for line_style, text in _KINDS.values():
+        sheet.draw([left, left + 90], [y, y], **line_style)
+        sheet.text(left + 108, y, text, size=_SIZE)
         y -= 38
-        sheet.draw([LEFT, LEFT + 90], [y, y], color=style.BLACK, **line_style)
-        sheet.text(LEFT + 108, y, text, size=_SIZE)
-    x = LEFT + 660
-    sheet.draw([x], [y], ls="none", marker="o", ms=5.0, mfc="white", mec=style.BLACK, mew=0.4)
-    sheet.draw([x], [y], ls="none", marker="o", ms=2.5, color=style.BLACK, mew=0)
+    sheet.text(left, y, "grey: regular share of the section", size=_SIZE)
+    x = left + 560
+    sheet.dots([x], [y], "white", 4.0, mec=style.BLACK, mew=0.4)
+    sheet.dots([x], [y], style.BLACK, 2.0)
     sheet.text(x + 25, y, "Figures 8 and 2", size=_SIZE)
