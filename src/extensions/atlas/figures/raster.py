@@ -40,7 +40,7 @@ def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -
 def scale(
     sheet: Sheet, frame: Sequence[int], largest: float, table: str, root: bool = False
 ) -> None:
-    """Draw the colour scale beside a frame, from 0 to `largest`, even in the square root if asked."""
+    """Draw the colour scale beside a frame, from 0 to `largest`, even in the `root` if asked."""
     _, bottom, edge, top = map(int, frame)
     left, right = edge + 25, edge + 55
     bounds = _pixels(np.arange(_COLOURS + 1) / _COLOURS, (0.0, 1.0), top - bottom)
