@@ -84,4 +84,4 @@ class Exponents(OfRecords):
 
     axes: dict[Literal["impact", "exponent", "largest"], Axis] = ABSENT
     """Limits and ticks of the axes `impact` (number of impacts), `exponent` (per impact) and
-    `largest` (exponents of the inset)."""
+    `largest` (exponents of the upper panel)."""

@@ -1,4 +1,4 @@
-"""Names of exponents are at the ends of their lines, and an inset lies in free room."""
+"""Names of exponents are at the ends of their lines; chaotic ones are drawn again above."""
 
 import numpy as np
 import pytest
@@ -38,8 +38,8 @@ def main_lines(figure):
     """The main axes' frame in pixels, and the lines that these cut off."""
     frame = max(frames_of(figure), key=lambda frame: frame.height)
     lines = [line for line in figure.artists if line.get_clip_box() is not None]
-    wide = [line for line in lines if line.get_clip_box().width == pytest.approx(frame.width)]
-    return frame, [line.get_xydata() * figure.dpi for line in wide]
+    main = [line for line in lines if line.get_clip_box().y0 == pytest.approx(frame.y0, abs=1)]
+    return frame, [line.get_xydata() * figure.dpi for line in main]
 
 
 def test_a_name_is_at_the_end_of_its_line_unless_it_would_cover_another():
@@ -77,41 +77,39 @@ def test_names_follow_lines_that_end_before_the_axis_or_leave_it():
 
 
 FLAT = [[0.23, 0.0, -0.23]] * 20
-CROSSING = [[0.23, 0.2 * i / 20, -0.2 * i / 20] for i in range(20)]
-LOW = [[0.01, 0.001, -0.01]] * 20  # below its first records
+LOW = [[0.01, 0.001, -0.01]] * 20
 NOTHING = [[np.nan] * 3] * 16
 
 
-@pytest.mark.parametrize(
-    ("orbits", "has"),
-    [
-        ([FLAT], True),
-        ([FLAT, FLAT, CROSSING], False),  # no room of a height is free
-        ([[[0.15, 0, -0.1], *LOW[1:]]], True),  # above all lines
-        ([FLAT, [*FLAT[:10], *([[0.12, 0.0, -0.23]] * 10)]], True),  # below the middle
-    ],
-)
-def test_no_line_of_the_main_axes_passes_an_inset_or_its_labels(orbits, has):
-    data = history(*orbits)
-    _, figure = drawn(data)
+def test_the_largest_exponents_of_chaotic_orbits_are_drawn_again_above():
+    _, figure = drawn(history(FLAT, LOW, types=["chaotic", "regular"]))
     assert_legible(figure)
-    assert (len(frames_of(figure)) == 2) == has
-    for inset in frames_of(figure)[1:]:
-        box = inset.from_extents(inset.x0 - 60, inset.y0 - 45, inset.x1 + 10, inset.y1 + 4)
-        frame, lines = main_lines(figure)
-        assert frame.y0 < box.y0 and box.y1 < frame.y1
-        for line in lines:
-            x = np.linspace(*line[[0, -1], 0], 5000)
-            assert not box.contains(*line[0]) and not np.any(
-                (box.x0 < x) & (x < box.x1)
-                & (box.y0 < np.interp(x, *line.T)) & (np.interp(x, *line.T) < box.y1)
-            )  # fmt: skip
+    upper, lower = sorted(frames_of(figure), key=lambda frame: -frame.y0)
+    assert upper.y0 > lower.y1 and upper.height > 0.45 * lower.height
+    lines = [line.get_xydata() * figure.dpi for line in figure.artists if line.get_lw() == 0.8]
+    assert sum(upper.contains(*line.mean(axis=0)) for line in lines) == 1
 
 
-def test_an_inset_without_data_is_left_out_and_its_axis_is_said_to_be_unused():
-    short = history([*FLAT[:4], *NOTHING], [[0.01, 0.0, -0.01]] * 20, types=["chaotic", "regular"])
+@pytest.mark.parametrize("energy", [0.01, 0.0098])
+def test_the_papers_exponent_is_a_line_in_its_case_alone(energy):
+    data = history(FLAT, [[0.231, 0.0, -0.231]] * 20)
+    axes = {"largest": {"limits": [0.22, 0.24], "ticks": [0.22, 0.24]}}
+    scene = SCENES["exponents"] | {"axes": axes, "starts": [0.6, 0.62], "energy": energy}
+    figure = module("exponents").draw(scene, data)
+    upper = max(frames_of(figure), key=lambda frame: frame.y0)
+    heights = [
+        upper.y0 + (value - 0.22) / 0.02 * upper.height
+        for value, name in ((0.235, "the paper: 0.235"), (0.231, "largest at the end: 0.231"))
+        if name in [text.get_text() for text in figure.texts]
+    ]
+    lines = [a.get_ydata()[0] * figure.dpi for a in figure.artists if a.get_lw() == 0.7]
+    assert len(heights) == 2 * (energy == 0.01) and lines == pytest.approx(heights, abs=0.1)
+
+
+def test_a_panel_without_data_is_left_out_and_its_axis_is_said_to_be_unused():
+    short = history([*FLAT[:4], *NOTHING], LOW, types=["chaotic", "regular"])
     largest = {"limits": [0.2, 0.25], "ticks": [0.2]}
-    for data in (short, history(FLAT, FLAT, CROSSING)):
+    for data in (short, history(FLAT, types=["regular"])):
         scene, figure = drawn(data, largest=largest)
         assert len(frames_of(figure)) == 1
         (line,) = hidden(scene, data)

@@ -62,8 +62,8 @@ def drawn(block):
 
 @pytest.mark.parametrize("scene", FIGURES)
 def test_the_papers_figures_hide_nothing(scene):
-    with_an_inset = {"impacts": 60_000} if scene == "fig7" else {}
-    assert drawn(edited(scene, with_an_inset)) == []
+    with_upper_panel = {"impacts": 60_000} if scene == "fig7" else {}
+    assert drawn(edited(scene, with_upper_panel)) == []
 
 
 # scene, edit, and how the lines begin
@@ -84,7 +84,7 @@ EDITS = [
     ("fig7", {"axes": {"impact": axis(4000, 20_000), "largest": axis(0.1, 0.4)}}, []),
     ("fig7", {"axes": {"impact": axis(0, 20_000), "largest": axis(0.23, 0.24)}},
      ["axes.largest.limits [0.23, 0.24] hide "]),
-    # orbits around the fixed point: their lines leave no room for an inset
+    # orbits around the fixed point: none is chaotic
     ("fig7", {"starts": [0.1, 0.15, 0.2], "energy": 0.001}, ["axes.largest is not used: "]),
 ]  # fmt: skip
 

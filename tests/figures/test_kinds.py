@@ -127,11 +127,11 @@ def test_ends_have_open_dots_and_jumps_squares():
     assert ("jump" in texts(figure)) == bool(seen[jumps].any())
 
 
-def test_the_saddle_is_in_the_key_and_the_inset_has_an_abscissa():
+def test_the_saddle_is_in_the_key_and_the_upper_panel_has_an_abscissa():
     assert "saddle" in texts(drawn("closeup"))
     axes = SCENES["exponents"]["axes"] | {"largest": {"limits": [0.2, 0.25], "ticks": [0.23]}}
     figure = module("exponents").draw(SCENES["exponents"] | {"axes": axes}, exponents())
-    assert {"0.5", "1.5"} <= {*texts(figure)}  # labels of the inset alone
+    assert {"0.5", "1.5"} <= {*texts(figure)}  # labels of the upper panel alone
 
 
 @pytest.mark.parametrize("shift", [0.0, 1e-7, 3e-5])

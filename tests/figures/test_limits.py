@@ -58,7 +58,7 @@ WRONG = [
     [1e300, 1.1e300], [-1e300, 1e300], [0, 1e300], [1e7, 2e7], [-5e-324, 5e-324],
 ]  # fmt: skip
 AXES = [(kind, name) for kind in KINDS for name in SCENES[kind]["axes"]]
-AXES += [("exponents", "largest")]  # of the inset
+AXES += [("exponents", "largest")]  # of the upper panel
 
 
 def draw_with(kind, name, limits):

@@ -40,7 +40,7 @@ def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
         [str(i + 1), "of", str(len(steps))] for i in range(len(steps))
     ]
     # Steps, an empty line, the header and the files; else what ends a silence of 5 s, and a note on
-    # the axis of an inset, which the short orbits of Figure 7 have not.
+    # the axis of a panel, which the short orbits of Figure 7 have not.
     others = "running: ", "snakemake looks for ", "fig7: axes.largest is not used"
     output = [line for line in output if not line.startswith(others)]
     assert len(output) == len(steps) + 3 + len(finished.document()["scenes"])

@@ -1,6 +1,6 @@
 """Lyapunov exponents against the number of impacts: Figure 7 of the paper."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -8,32 +8,32 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from pseudorigid.dynamics import paper
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.axes import panel
 from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
-from pseudorigid.figures.axes.plane import STEP, Plane, thousands
+from pseudorigid.figures.axes.plane import Plane, thousands
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, width
 
-_INSET_START = 0.25  # share of the impacts before those that the inset shows
+_UPPER_START = 0.25  # share of the impacts before those that the upper panel shows
 _MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
 _MOST_NAMED = 12  # starts of orbits of one type in a key
 _NARROW, _BROAD = 240, 380  # pixels: names of starts up to this width stand in 3, in 2 columns
-_INSET_ROOM = 150  # pixels: least distance between two lines that hold an inset between them
+_UPPER, _ROOM = (130, 390), 375  # pixels above the main frame: the upper one, and room for it
 _DASHES = "-", "--", "-.", ":"  # of orbits in turn
 _WIDTH = 0.8  # points
-Trace = tuple[np.ndarray, np.ndarray]  # across, up
 _NAMES = "Number of impacts", "Lyapunov exponents"
 empty_picture = partial(Plane, axes=("impact", "exponent"), names=_NAMES, right=84)
 
 
 def draw(scene: dict[str, Any], lyapunov: xr.Dataset) -> Figure:
-    """Draw the exponents of each orbit in its hue, and the largest ones again in an inset.
+    """Draw the exponents of each orbit in its hue, and above them the largest of chaotic orbits.
 
     A key names the starts, if there are several. If orbits are of several types, some chaotic, the
-    inset and the names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones. The key
-    says which is which, and which orbits are neither regular nor chaotic. Raises ValueError if the
-    axes show nothing.
+    names lambda_1, lambda_2, ... at the lines' ends are for the chaotic ones. The key says which is
+    which, and which orbits are neither regular nor chaotic. Raises ValueError if the axes show
+    nothing.
     """
     return drawn(scene, lyapunov)[0]
 
@@ -44,24 +44,23 @@ def hidden(scene: dict[str, Any], lyapunov: xr.Dataset) -> Iterator[str]:
     yield from hides(scene, "the lines' ends", **ends)
     shown = drawn(scene, lyapunov)[1]
     if "largest" in scene.get("axes", {}) and not shown.size:
-        why = "there is no inset, for lack of data or of room between the lines"
-        yield f"axes.largest is not used: {why}: leave axes.largest out"
-    yield from hides(scene, "the inset's lines", largest=shown)
+        yield "axes.largest is not used: no chaotic orbit has data: leave axes.largest out"
+    yield from hides(scene, "the upper panel's lines", largest=shown)
 
 
 @style.pinned()
 def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarray]:
-    """Return the figure, and the values of the inset, none without one."""
+    """Return the figure, and the values of the upper panel, none without one."""
     impact, exponent = lyapunov["impact"].values, lyapunov["exponent"].values
     types = lyapunov["type"].values
     chaotic = types == "chaotic"
     mixed = chaotic.any() and not chaotic.all()
     told = len({*types}) > 1 or types[0] not in ("chaotic", "regular")
-    in_inset = chaotic if mixed else np.full(chaotic.shape, True)
+    named = chaotic if mixed else np.full(chaotic.shape, True)
     axes: dict[str, Any] = {"impact": lambda: of_data([0, int(impact[-1])], room=0.0)}
     first, last = complete(scene, **axes)["axes"]["impact"]["limits"]
-    window = first + _INSET_START * (last - first), last
-    largest = exponent[inside([window], [impact])][:, in_inset].max(axis=2)
+    window = first + _UPPER_START * (last - first), last
+    largest = exponent[inside([window], [impact])][:, chaotic].max(axis=2)
     has_data = np.isfinite(largest).any()
     axes["exponent"] = lambda: of_data(exponent)
     axes["largest"] = lambda: of_data(largest if has_data else exponent, most=4)
@@ -80,31 +79,26 @@ def drawn(scene: dict[str, Any], lyapunov: xr.Dataset) -> tuple[Figure, np.ndarr
     longest = max((width(name, 8.0) for name in names), default=0.0)
     columns = 3 if longest < _NARROW else 2 if longest < _BROAD else 1
     # A key takes 48 pixels a row, rounded up to quarter inches (75 pixels).
-    picture = empty_picture(scene, room=75 * -(-48 * -(-len(names) // columns) // 75))
+    room = 75 * -(-48 * -(-len(names) // columns) // 75)
+    picture = empty_picture(scene, room=room + _ROOM * bool(has_data))
     entries = [(name, hue, "", dash) for name, (hue, dash) in zip(names, lines, strict=False)]
     panel.key(picture.sheet, entries, picture.sheet.high - 85, columns, left=190, width=850)
     lengths = np.minimum(_lengths(lyapunov), last)
-    reach = float(lengths[in_inset].max())
-    ends = _ends(impact, exponent[:, in_inset & (lengths == reach)], reach)
-    inset, up = None, panel.Axis(**scene["axes"]["largest"])
-    traces = [picture.place(impact, line) for line in exponent.reshape(len(impact), -1).T]
-    if has_data and (frame := _free_room(picture, traces, *picture.place(reach, ends), up)):
-        refuse_empty(scene["axes"], {"largest": largest})
-        marks, power = ticks(*window, 5), thousands(picture.across.ticks)
-        labels = [style.number(mark, power) for mark in marks]
-        inset = _Inset(picture.sheet, frame, panel.Axis(window, marks, labels=labels), up)
+    reach = float(lengths[named].max())
+    ends = _ends(impact, exponent[:, named & (lengths == reach)], reach)
+    upper = _upper_panel(picture, scene, window, largest) if has_data else None
     for orbit, (hue, dashes) in enumerate(lines):
         line_style = {"color": hue, "lw": _WIDTH, "ls": dashes}
         # An orbit is NaN at the records of orbits with other numbers of impacts, and after grazing.
         known = ~np.isnan(exponent[:, orbit, 0])
         for index in range(indices):
             picture.line(impact[known], exponent[known, orbit, index], **line_style)
-        if inset and in_inset[orbit]:
-            inset.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
+        if upper and chaotic[orbit]:
+            upper.line(impact[known], exponent[known, orbit].max(axis=1), **line_style)
     picture.beside(reach, ends, [rf"$\lambda_{index + 1}$" for index in range(indices)])
     if orbits > 1 and (lengths == reach).all() and not mixed:
-        _coincide(picture, reach, ends, exponent, inset)
-    return picture.figure, largest if inset else largest[:0]
+        _coincide(picture, reach, ends, exponent)
+    return picture.figure, largest if upper else largest[:0]
 
 
 def _lengths(lyapunov: xr.Dataset) -> np.ndarray:
@@ -130,9 +124,7 @@ def _ends(impact: np.ndarray, exponent: np.ndarray, reach: float) -> np.ndarray:
     return np.asarray(ordered[(len(ends) - 1) // 2, ::-1])
 
 
-def _coincide(
-    picture: Plane, reach: float, ends: np.ndarray, exponent: np.ndarray, inset: "_Inset | None"
-) -> None:
+def _coincide(picture: Plane, reach: float, ends: np.ndarray, exponent: np.ndarray) -> None:
     """Write below lines up to `reach` that lie on one another that they do, if it fits."""
     known = exponent[~np.isnan(exponent).any(axis=(1, 2))]
     if not (len(known) and inside([picture.up.limits] * len(ends), ends).all()):
@@ -142,53 +134,34 @@ def _coincide(
     room = -np.diff([*heights, picture.frame[1]])
     for height, top, below in np.transpose([heights, tops, room]).tolist():
         needed = 2.0 * style.PLAIN * POINT
-        free = below > needed and not (inset and _meets(inset.frame, height - needed, height))
         text, right = f"{exponent.shape[1]} lines lie on one another", float(at[0]) - 3 * POINT
-        free = free and right - width(text, 7.0) > picture.frame[0]
+        free = below > needed and right - width(text, 7.0) > picture.frame[0]
         if top - height < _WIDTH * POINT and free:
             picture.sheet.text(right, height - 3 * POINT, text, 7.0, "right", "top")
 
 
-class _Inset(panel.Window):
-    size = 7.0
+def _upper_panel(
+    picture: Plane, scene: dict[str, Any], window: tuple[float, float], largest: np.ndarray
+) -> panel.Window:
+    """Draw an empty frame for the largest exponents, with two numbers as lines in the paper's case.
 
-
-_LABELS = (_Inset.tick + _Inset.gap) * POINT  # pixels from the inset to its labels
-
-
-def _free_room(
-    picture: Plane, traces: Iterable[Trace], reach: np.ndarray, ends: np.ndarray, up: panel.Axis
-) -> panel.Frame | None:
-    """Return a frame for an inset with the vertical axis `up` that no line passes, or None.
-
-    It lies between the first two of `ends`, at which the lines end at `reach`, if no line comes
-    between them, or else where there is most room. Lines and ends are pixels.
+    They are the paper's exponent, and the largest one of an orbit after all impacts.
     """
-    left, bottom, right, top = picture.frame
-    start, end = left + 0.2 * (right - left), right - 0.05 * (right - left)
-    label = max(width(text, _Inset.size) for text in up.texts())
-    sides = start - _LABELS - label, end + 0.5 * label
-    lines = []  # the heights from which to which each passes
-    for across, heights in traces:
-        x, y = across[~np.isnan(heights)], heights[~np.isnan(heights)]
-        if x.size and x[0] < sides[1] and x[-1] > sides[0]:
-            passed = [*y[inside([sides], [x])].tolist(), *np.interp(sides, x, y).tolist()]
-            lines.append((min(passed), max(passed)))
-    if reach[0] < end:  # names of the exponents stand there
-        lines += [(y - 0.5 * STEP, y + 0.5 * STEP) for y in picture.spread(ends, 0.5 * STEP)]
-    bands, below, (first, second, *_) = [], bottom, ends.tolist()
-    for low, high in sorted([*lines, (top, top)]):
-        bands.append((below, min(low, top)))
-        below = max(below, high)
-    widest = max(bands, key=lambda band: band[1] - band[0])
-    for low, high in ((max(second, bottom), min(first, top)), widest):
-        frame = start, low + _LABELS + 1.6 * _Inset.size * POINT, end, high - 0.18 * (high - low)
-        if high - low > _INSET_ROOM and not any(_meets(frame, *line) for line in lines):
-            return frame
-    return None
-
-
-def _meets(frame: panel.Frame, low: float, high: float) -> bool:
-    """Return whether an inset or its labels reach between two heights."""
-    size = _Inset.size * POINT
-    return low < frame[3] + 0.5 * size and frame[1] - _LABELS - size < high
+    refuse_empty(scene["axes"], {"largest": largest})
+    marks, power = ticks(*window, 5), thousands(picture.across.ticks)
+    across = panel.Axis(window, marks, labels=[style.number(mark, power) for mark in marks])
+    up = panel.Axis(**scene["axes"]["largest"], name="Largest exponents")
+    left, _, right, top = picture.frame
+    upper = panel.Window(picture.sheet, (left, top + _UPPER[0], right, top + _UPPER[1]), across, up)
+    if (scene["energy"], scene["ball"]) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
+        shown = (
+            ("the paper", paper.EXPONENT, window[0] + 0.4 * (window[1] - window[0]), "center"),
+            ("largest at the end", float(np.nanmax(largest[-1])), window[1], "right"),
+        )
+        for name, value, at, side in shown:  # names are apart however near the lines
+            if up.limits[0] < value < up.limits[1]:
+                upper.line(window, [value, value], color=style.FRAME, lw=0.7)
+                text = f"{name}: {style.number(round(value, 4))}"
+                upper.note(at, value, text, (-4, 1), side, "bottom")
+    panel.letters(picture.sheet, upper.frame, picture.frame)
+    return upper

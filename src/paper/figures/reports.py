@@ -150,7 +150,7 @@ def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, An
     return {
         **counts(lyapunov["type"].values.tolist()),
         "largest": [f"{value:.4f}" for value in largest[:: max(len(largest) - 1, 1)]],
-        "inset": bool(drawn(block, lyapunov)[1].size),
+        "upper": bool(drawn(block, lyapunov)[1].size),
     }
 
 
