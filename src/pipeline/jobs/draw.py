@@ -15,5 +15,7 @@ def make(spec: BuildSpec) -> dict[str, Any]:
     """Draw with the function that the specification names; return what the axes hide."""
     datasets = [*map(load, spec.inputs)]
     figure = imported(spec.function)(spec.config, *datasets)
+    name, kind = Path(spec.result).stem, spec.config["picture"]
+    figure.set_label(f"{name}: {kind.replace('_', ' ')}")
     write_whole(spec.result, render(figure, Path(spec.result).suffix[1:]))
     return {"hidden": hidden_by(spec.function, spec.config, *datasets)}

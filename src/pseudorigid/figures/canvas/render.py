@@ -27,12 +27,16 @@ _DOT = re.compile(rb'<path id="(m\w+)" d="M 0 ([\d.]+) \nC')
 
 
 def render(figure: Figure, extension: str) -> bytes:
-    """Return the bytes of a figure's file; `extension` is png, svg or pdf."""
+    """Return the bytes of a figure's file; `extension` is png, svg or pdf.
+
+    The figure's label is the title of an SVG, which screen readers read.
+    """
     if extension == "png":
         return png(pixels(figure), figure.dpi)
     stream = BytesIO()
+    title = {"Title": str(figure.get_label())} if figure.get_label() else {}
     with style.pinned():
-        figure.savefig(stream, format=extension, metadata=_NO_METADATA[extension])
+        figure.savefig(stream, format=extension, metadata=_NO_METADATA[extension] | title)
     return _with_merged_dots(stream.getvalue()) if extension == "svg" else stream.getvalue()
 
 
