@@ -34,7 +34,12 @@ CASES = [
         [REGULAR],
         [CHAOS, "(a)", "At the end"],
     ),
-    ("exponents", {"starts": [0.6, 0.62]}, [CHAOS, "(a) the largest ones", "the 2 chaotic"], ["regular"]),
+    (
+        "exponents",
+        {"starts": [0.6, 0.62]},
+        [CHAOS, "(a) the largest ones", "the 2 chaotic"],
+        ["regular"],
+    ),
     (
         "exponents",
         {"starts": [0.6]},

@@ -19,6 +19,7 @@ COLORS = (None, "blurple", 3, [1, 2], "$x$", np.nan)
 STYLE = {"color": "blurple", "lw": np.nan, "ls": "~", "marker": "@", "zorder": "a", "mec": [2.0]}
 MARKS = {"x": ENDS, "y": ENDS, "color": "red"}
 INTERVALS = {"x": ENDS, "low": ENDS, "high": ENDS}
+SCALE = {"colors": ["red", "blue"], "low": 0.0, "high": 1.0}
 CASES = [  # method, right arguments, values to be refused of one of them
     *((Picture, {"x": ENDS, "y": ENDS, name: None}, name, [*ARRAYS[:-1], *DATA]) for name in "xy"),
     (Picture, {"x": ENDS, "y": ENDS}, "names", [None, "ab", ("a",), [1, 2], ("a", r"$\foo$")]),
@@ -35,6 +36,10 @@ CASES = [  # method, right arguments, values to be refused of one of them
     ("note", {"x": 0.5, "y": 0.5}, "text", TEXTS),
     ("note", {"x": 0.5, "y": 0.5, "text": "a"}, "shift", [3, "ab", (1,), (1, None), (np.nan, 1)]),
     *(("note", {"x": 0.5, "y": 0.5, "text": "a"}, name, (None, 3, "no")) for name in ("ha", "va")),
+    ("colorbar", SCALE, "colors", [None, "red", 3, [], ["red"], ["red", "blurple"], [1, 2]]),
+    *(("colorbar", SCALE, name, NUMBERS) for name in ("low", "high")),
+    ("colorbar", SCALE, "high", (0.0, -1.0)),
+    ("colorbar", SCALE, "name", TEXTS),
     ("render", {}, "extension", (None, "gif", ".png", "PNG", 3, b"png")),
     ("save", {}, "file", (None, "foo", "foo.gif", "png", ".png", 3, b"foo.png")),
     *(("line", MARKS, name, (value,)) for name, value in [*STYLE.items(), ("colr", "red")]),
@@ -74,6 +79,7 @@ def test_every_kind_of_numbers_and_text_is_drawn(picture, tmp_path):
     picture.line(0.5, range(2))
     picture.dots([], [], "none")
     picture.bars(ENDS, 0, [np.nan, 1.0], label="bars", color="0.5")
+    picture.colorbar(np.eye(3), 0, Fraction(1, 3), "a third")
     picture.estimates(ENDS, [0.5, np.nan], 0, 1, "tab:red")
     (
         picture.note(1e9, 0.5, "beyond the axes"),
@@ -83,3 +89,15 @@ def test_every_kind_of_numbers_and_text_is_drawn(picture, tmp_path):
         assert picture.render(extension)
     for x in ([1e300, -1e300], 5e-324, [1e15, 1e15 + 1], Fraction(1, 3), [np.nan, 2.0], many):
         assert Picture(x, [0, 1]).render("svg")
+
+
+def test_a_colorbar_has_its_colours_from_low_to_high_and_an_svg_its_title():
+    picture = Picture(ENDS, ENDS, title="A & B")
+    picture.colorbar(["red", "lime", "blue"], 2, 5, "scale")
+    assert b"<title>A &amp; B</title>" in picture.render("svg")
+    bars = [a for a in picture.figure.artists if a.get_color() in ("#ff0000", "#00ff00", "#0000ff")]
+    heights = [a.get_ydata()[0] for a in bars]
+    assert [a.get_color() for a in bars] == ["#ff0000", "#00ff00", "#0000ff"]
+    step = heights[1] - heights[0]
+    at = {text.get_text(): text.get_position()[1] for text in picture.figure.texts}
+    assert at["3"] == pytest.approx(heights[0] + 0.5 * step, abs=0.01) and at["scale"] > heights[-1]

@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
 from ..dynamics.inputs import Reals, coordinates, doubles, not_allowed, number, one_of
-from .axes.limits import of_data
+from .axes.limits import of_data, ticks
 from .axes.plane import Plane
 from .canvas import style
 from .canvas.render import render
@@ -55,6 +55,7 @@ class Picture:
         names = _pair("names", names, _text)
         self._plane = Plane(scene, ("x", "y"), names, energy=False)
         self.figure, sheet = self._plane.figure, self._plane.sheet
+        self.figure.set_label(title)
         at = self._plane.frame[0], sheet.high - 4 * POINT
         sheet.text(*at, _text("title", title), va="top", size=9.0)
 
@@ -113,6 +114,40 @@ class Picture:
         _text("text", text)
         if self._plane.shows(x, y):
             self._plane.note(x, y, text, away, ha, va)
+
+    @style.pinned()
+    def colorbar(
+        self, colors: Any, low: SupportsFloat, high: SupportsFloat, name: str = ""
+    ) -> None:
+        """Draw a scale of two colours or more, for values from low to high, at the right inside.
+
+        The limits of x should leave room for it.
+        """
+        low = number("low", low)
+        high = number("high", high, "a number above low", lambda value: value > low)
+        _text("name", name)
+        try:
+            first, *rest = [to_hex(color) for color in colors]
+        except (TypeError, ValueError):
+            rest = []
+        if not rest:
+            raise not_allowed("colors", colors, "two of matplotlib's colours or more")
+        left, bottom, right, top = self._plane.frame
+        marks = [mark for mark in ticks(low, high, 4) if low <= mark <= high]
+        texts = [style.number(mark) for mark in marks]
+        right -= 8 * POINT + max(width(text, style.PLAIN) for text in texts)
+        left = right - 8 * POINT
+        bottom, top = bottom + 0.15 * (top - bottom), top - 0.15 * (top - bottom)
+        step, sheet = (top - bottom) / (1 + len(rest)), self._plane.sheet
+        for i, hue in enumerate([first, *rest]):  # a pixel of overlap hides the seams
+            up = bottom + (i + 0.5) * step
+            sheet.draw([left, right], [up, up], color=hue, lw=(step + 1.0) / POINT)
+        for mark, text in zip(marks, texts, strict=True):
+            up = bottom + (mark - low) / (high - low) * (top - bottom)
+            sheet.draw([right, right + 2 * POINT], [up, up], color=style.FRAME, lw=0.6)
+            sheet.text(right + 4 * POINT, up, text, style.PLAIN)
+        edge = self._plane.frame[2] - 4 * POINT
+        sheet.text(edge, top + 5 * POINT, name, style.PLAIN, "right", "bottom")
 
     @style.pinned()
     def render(self, extension: str) -> bytes:
