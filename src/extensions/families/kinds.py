@@ -57,6 +57,17 @@ class Families(Scene):
             yield ("drawn",), self.drawn, f"at most period = {self.period}"
 
 
+class Residues(Picture):
+    """residues of families of periodic orbits"""
+
+    stages = ("families",)
+    drawn_over = "families"
+    on_section = False
+
+    over: Name = allowed("the name of a scene of families")
+    """Name of the scene whose families are drawn."""
+
+
 _Orders = Annotated[
     list[Annotated[int, whole(3, 12)]],
     allowed("a list of whole numbers from 3 to 12, at least one, none of them twice", min_length=1),

@@ -28,7 +28,8 @@ FAMILIES = SCENE | {
 }  # fmt: skip
 AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
 SCENES = {
-    "families": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]}, "curves": SCENE | {"sea": [1]},
+    "families": FAMILIES, "residues": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]},
+    "curves": SCENE | {"sea": [1]},
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
     "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
     "exclusion": SCENE | {"followed": 30},
@@ -51,7 +52,7 @@ CHANGES = [
     ("graph", 0, "corner_x", lambda v: v + 0.005),
     ("escape", 0, "distance", lambda v: v * np.linspace(1, 2, v.shape[1])),
     ("families", 0, "x", lambda v: v + 0.02),
-    ("families", 0, "trace", lambda v: v + 0.2),
+    ("residues", 0, "trace", lambda v: v + 0.2),
     ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
     ("families", 1, "regular", lambda v: 0.5 * v),
 ]
@@ -89,6 +90,7 @@ OTHERS = {
     "graph": lambda: [
         scenes.scene_graph(BALL, 0.005), scene_orbits(BALL, 0.005, [0.6], [500])
     ],
+    "residues": lambda: OTHERS["families"]()[:1],
     "families": lambda: families_along("energy", FAMILIES["span"], 8, 0.002, 40, 1000),
 }  # fmt: skip
 
@@ -134,19 +136,19 @@ def test_a_change_of_the_scene_shows(data, unchanged, name, change):
 def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
     along_k = families_along("k", [0.18, 0.22], 4, 0.01, 20, 500)
     other = draw("families", along_k, parameter="k", span=[0.18, 0.22], step=0.01)
-    for figure in (draw("families", data("families")), other):
+    for figure in (draw("families", data("families")), draw("residues", data("residues")), other):
         assert_legible(figure, slack=5)
 
 
 def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
-    held, regular = data("families")
+    (held,) = data("residues")
     span, energy = rows(held)[0], held["energy"].values
     residue = np.full(energy.size, 0.5)
     residue[span] = np.linspace(0.5, 4.0, residue[span].size)
-    figure = draw("families", [held.assign(trace=("point", 2.0 - 4.0 * residue)), regular])
+    figure = draw("residues", [held.assign(trace=("point", 2.0 - 4.0 * residue))])
     marks = [line for line in figure.artists if line.get_marker() in ("^", "v")]
     places = np.hstack([line.get_data() for line in marks]) * style.DPI
-    (x,) = places[0][(places[1] > 340) & (places[1] < 695)]  # in the lowest panel
+    (x,) = places[0]
     low, high = FAMILIES["span"]
     leaves = np.interp(1.6, residue[span], energy[span])
     assert x == pytest.approx(125 + 875 * (leaves - low) / (high - low), abs=0.1)
@@ -157,9 +159,12 @@ def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
     near = held["event_energy"].where(held["event_family"] > 0, 0.01 + 1e-6 * held["event_order"])
     held = held.assign(event_x=held["event_x"] + 0.1, event_energy=near)
     figure = draw("families", [held, regular])
-    _, middle, _ = frames_of(figure)
-    marks = [a.get_xydata() * style.DPI for a in figure.artists if a.get_color() == style.BLACK]
-    marks = np.concatenate([m for m in marks if len(m) and middle.contains(*m[0])])
+    _, middle = frames_of(figure)
+    hollow = [a for a in figure.artists if a.get_markersize() == 2.6]
+    assert {a.get_color() for a in hollow} <= {*style.ordered(len(np.unique(held["period"])))}
+    marks = np.concatenate([a.get_xydata() * style.DPI for a in hollow])
+    apart = np.abs(marks[:, None] - marks).max(axis=2) + 99 * np.eye(len(marks))
+    assert apart.min() > 13  # none covers another
     labels = [(*text.get_position(), text.get_text().replace("−", "-")) for text in figure.texts]
     labels = [(y * style.DPI, label) for x, y, label in labels if x * style.DPI < middle.x0]
     inside = [(y, label) for y, label in labels if middle.y0 <= y <= middle.y1 and "(" not in label]
@@ -173,7 +178,7 @@ def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
                 energy, x = (float(held[name].values[end]) for name in ("energy", "x"))
                 across = middle.x0 + (energy - low) / (high - low) * middle.width
                 place = across, y0 + slope * (x - float(first))
-                assert np.abs(marks - place).max(axis=1).min() < 1.5
+                assert np.abs(marks - place).max(axis=1).min() < 15
                 marked += 1
     assert marked > 3
     order = held["event_order"].values[held["event_family"].values == 0]

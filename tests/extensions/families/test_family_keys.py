@@ -28,5 +28,5 @@ def test_families_without_an_event_are_drawn_with_their_rim_and_a_key_of_what_th
     pale = [line for line in figure.artists if line.get_color() == style.BACKDROP]
     rims = [line for line in pale if len(line.get_xdata()) > 2]
     assert len(rims) == 2
-    low, high = 775 / style.DPI, 1865 / style.DPI
+    low, high = 340 / style.DPI, 1345 / style.DPI
     assert all(low < y < high for line in rims for y in line.get_ydata())
