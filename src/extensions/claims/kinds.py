@@ -7,8 +7,8 @@ from annotated_types import Predicate
 
 from extensions.proofs.kinds import Curves
 from paper.groups import OfChaoticOrbits, OfRecords, bounded, is_sound, not_elliptic
-from pipeline.config.schema.fields import ABSENT, LARGEST, Fraction, allowed, rising, whole
-from pipeline.config.schema.scene import CrossFieldError, Scene
+from pipeline.config.schema.fields import ABSENT, LARGEST, Fraction, Name, allowed, rising, whole
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 from .fields import Between, Energies, OfSea
@@ -244,3 +244,14 @@ class Control(Scene):
         if points > LARGEST:
             words = f"at most {LARGEST} impacts, counted over all starts"
             yield ("impacts",), self.impacts, words
+
+
+class ControlShares(Picture):
+    """how much stays regular if area or the reversor is not kept"""
+
+    stages = ("control",)
+    drawn_over = "control"
+    on_section = False
+
+    over: Name = allowed("the name of a scene of control")
+    """Name of the scene whose shares are drawn."""

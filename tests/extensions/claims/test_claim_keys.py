@@ -5,12 +5,14 @@ import pytest
 import xarray as xr
 from examples import checked
 from keys import SCENE, colors, texts
-from legible import frames_of
+from legible import assert_legible, frames_of
 from sections import BALL
 
 from extensions.claims.analyses.flux import SIDES
 from extensions.claims.analyses.spread import spread
 from extensions.claims.figures import clusters as clusters_figure
+from extensions.claims.figures import control as control_figure
+from extensions.claims.figures import control_shares as control_shares_figure
 from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
 from extensions.claims.figures import rotation as rotation_figure
@@ -127,3 +129,22 @@ def test_marks_of_clusters_stand_at_their_ticks(datasets):
     artists = [(a.get_marker(), a.get_xdata() * style.DPI, a.get_color()) for a in figure.artists]
     (marks,) = {tuple(x) for mark, x, _ in artists if mark == "s" and len(x) > 1 and x[0] < 540}
     assert {*marks} <= {x[0] for _, x, hue in artists if hue == style.GRID and np.ptp(x) == 0}
+
+
+def test_maps_of_a_control_are_on_the_section_and_their_shares_in_the_row_of_what_they_keep(
+    datasets,
+):
+    data = datasets["control/control"]
+    figure = control_figure.draw(SCENE, data)
+    assert_legible(figure)
+    rims = [a for a in figure.artists if a.get_color() == style.RIM and len(a.get_xdata()) > 200]
+    assert len(rims) == len(frames_of(figure)) == 9
+    figure = control_shares_figure.draw(SCENE, data)
+    assert_legible(figure)
+    regular, neither = data.sel({"class": "regular"}), frames_of(figure)[7]
+    top = min(1.03, 1.1 * float(regular["class_high"].max()) + 0.02)
+    share = regular["class_share"].sel(map=data["map"] == "stir neither").values[0, 1]
+    wanted = neither.y0 + (share + 0.01) / (top + 0.01) * neither.height
+    squares = [a.get_xydata() * style.DPI for a in figure.artists if a.get_marker() == "s"]
+    (marks,) = (at[:, 1] for at in squares if len(at) > 1 and neither.contains(*at[0]))
+    assert marks == pytest.approx(wanted, abs=0.1)

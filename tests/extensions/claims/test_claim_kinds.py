@@ -42,7 +42,8 @@ CHANGES = [
     ("jumps", 0, "y", lambda v: 0.9 * v),
     ("flux", 0, "branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
     ("last_curve", 0, "residue", lambda v: 3.0 * v),
-    ("control", 0, "class_share", lambda v: 0.5 * v),
+    ("control", 0, "a", lambda v: 0.5 * v),
+    ("control_shares", 0, "class_share", lambda v: 0.5 * v),
     ("exclusion", 0, "excluded", lambda v: np.minimum(v, 5)),
     ("exclusion", 0, "share", lambda v: 0.9 * v),
     ("exclusion", 1, "x", lambda v: v + 0.005),
@@ -105,7 +106,8 @@ def data(request):
         if kind in OTHERS:
             return OTHERS[kind]()
         datasets = request.getfixturevalue("datasets")
-        return [datasets[name] for name in (f"{kind}/{kind}", *others.get(kind, []))]
+        stage = kind.removesuffix("_shares")
+        return [datasets[name] for name in (f"{stage}/{stage}", *others.get(kind, []))]
 
     return data
 

@@ -92,7 +92,7 @@ def _marks(panel: Panel, clusters: xr.Dataset, estimates: list[np.ndarray]) -> N
     value, low, high = estimates
     lags, cuts = clusters["lag"].values, clusters["cut"].values
     for i, hue in enumerate(style.ordered(cuts.size)):
-        panel.line(lags, value[i], color=style.pale(hue), lw=0.6)
+        panel.line(lags, value[i], color=hue, lw=0.4)
         panel.bars(lags, low[i], high[i], color=hue, lw=0.7)
         panel.dots(lags, value[i], hue, size=3.2, marker=_MARKS[i % 4])
     widest = 0.5 * float((high - low).max())

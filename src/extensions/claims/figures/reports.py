@@ -105,3 +105,15 @@ def control(block: dict[str, Any], control: xr.Dataset) -> dict[str, str]:
     ]
     unchanged = float(share.isel(map=0, strength=0))  # at strength 0 each map is the impact map
     return {"regular share": f"{', '.join(texts)}; impact map {unchanged:.3f}"}
+
+
+def control_facts(block: dict[str, Any], control: xr.Dataset) -> dict[str, Any]:
+    """Give the share of spirals at the largest strength by what a map keeps."""
+    share = control["class_share"].sel({"class": "spiral"}).isel(length=-1, strength=-1).values
+    kept = [name.partition(" ")[2] for name in control["map"].values.tolist()]
+    spirals = {}
+    for name in ("area", "reversor", "neither"):
+        values = share[[own == name for own in kept]]
+        ends = dict.fromkeys(f"{value:.2f}" for value in (values.min(), values.max()))
+        spirals[name] = " to ".join(ends)
+    return {"spirals": spirals}

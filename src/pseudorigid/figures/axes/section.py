@@ -21,7 +21,10 @@ _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
 
 class Section(Panel):
-    """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis."""
+    """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis.
+
+    An axis whose name is None has no labels.
+    """
 
     def __init__(
         self,
@@ -31,14 +34,15 @@ class Section(Panel):
         radius: float,
         room: float = 1.06,
         ticks: int = 5,
-        names: tuple[str, str] = ("$x$", NAME),
+        names: tuple[str | None, str | None] = ("$x$", NAME),
     ) -> None:
         self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius
         self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
         half = room * radius
         high = _STEP * math.ceil(self.high / _STEP) * half
         spans = (self.centre - half, self.centre + half), (-high, high)
-        across, up = (linear(*span, ticks, name) for span, name in zip(spans, names, strict=True))
+        axes = [linear(*span, ticks, name or "") for span, name in zip(spans, names, strict=True)]
+        across, up = (a if n is not None else a.blank() for a, n in zip(axes, names, strict=True))
         super().__init__(sheet, frame, across, up, grid=False)
         self.minor()
 
