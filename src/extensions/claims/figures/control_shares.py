@@ -14,7 +14,6 @@ from .control import FORMS, KEPT, UNCHANGED
 _SPANS = (120, 535), (605, 1020)  # pixels: left and right of the columns
 _HIGH, _APART = 210, 275  # pixels: the height of a panel, and from one to the next below
 _HUES = dict(zip(FORMS, (style.BLACK, style.GREEN, style.ORANGE), strict=True))
-_LONG = 5  # digits of numbers of impacts that fit beside one another
 
 
 @style.pinned()
@@ -46,7 +45,13 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
             height = up if left == _SPANS[0][0] else up.blank()
             panel = Window(sheet, frames[-1], across, height)
             panel.line([1e-9, 1e9], [unchanged] * 2, color=style.BACKDROP, lw=1.2, ls="--")
-            _maps(panel, control, kept, values, estimates)
+            for i, name in enumerate(control["map"].values.tolist()):
+                form, _, own = name.partition(" ")
+                if own == kept:
+                    value, low, high = estimates[:, i]
+                    panel.line(values, value, color=_HUES[form], lw=0.5)
+                    panel.bars(values, low, high, color=_HUES[form], lw=0.7)
+                    panel.dots(values, value, _HUES[form], 3.0, marker=FORMS[form])
             title(sheet, frames[-1], text)
     letters(sheet, *frames)
     entries = [(form, _HUES[form], mark, False, 3.4) for form, mark in FORMS.items()]
@@ -58,21 +63,5 @@ def _logarithmic(values: np.ndarray, name: str) -> Axis:
     """Return a logarithmic axis with a tick at each value."""
     logs = log10(values)
     room = max(0.08 * float(logs[-1] - logs[0]), 0.1)
-    limits = float(logs[0]) - room, float(logs[-1]) + room
     texts = [style.number(value) for value in values]
-    if len(texts[-1]) > _LONG:
-        texts[1:-1] = [""] * (len(texts) - 2)
-    return Axis(limits, logs.tolist(), name, True, texts)
-
-
-def _maps(
-    panel: Window, control: xr.Dataset, kept: str, at: np.ndarray, estimates: np.ndarray
-) -> None:
-    """Draw shares with intervals, (3, map, abscissa), of the maps that keep the same."""
-    for i, name in enumerate(control["map"].values.tolist()):
-        form, _, own = name.partition(" ")
-        if own == kept:
-            value, low, high = estimates[:, i]
-            panel.line(at, value, color=_HUES[form], lw=0.5)
-            panel.bars(at, low, high, color=_HUES[form], lw=0.7)
-            panel.dots(at, value, _HUES[form], 3.0, marker=FORMS[form])
+    return Axis((logs[0] - room, logs[-1] + room), logs.tolist(), name, True, texts)

@@ -1,7 +1,6 @@
 """The section in the chart (x, y): jumps of the map, orbits, symmetry lines, grazing rim."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -15,7 +14,6 @@ from pseudorigid.figures.canvas.sheet import Sheet
 from . import Figure, Frame, Scene
 
 _LEFTS, _BOTTOM, _SIDE = (125, 465, 805), 112, 215  # pixels: of the small panels
-_LEAST = 1e-3  # depth: below it, a power of ten is taken out of labels
 MAP, INVERSE = style.VERMILION, style.BLUE
 
 
@@ -77,10 +75,6 @@ def _births(sheet: Sheet, jumps: xr.Dataset) -> list[Frame]:
         depth = 1.0 - np.sqrt(across * across + up * up)
         end = 1.1 * float(np.nanmax(y))
         up = around(np.append(depth, 0.0), 0.1, 4, "Depth")
-        if (most := float(np.nanmax(depth))) < _LEAST:
-            power = int(f"{most:e}".partition("e")[2])
-            labels = [style.number(tick, power) for tick in up.ticks]
-            up = replace(up, name=rf"Depth / $10^{{{power}}}$", labels=labels)
         panel = Window(sheet, frame, linear(-end, end, 4, "$y$"), up, grid=False)
         panel.minor()
         panel.line([-end, end], [0.0, 0.0], color=style.BLACK, lw=0.8)

@@ -62,7 +62,8 @@ def linear(low: float, high: float, count: float, name: str = "") -> Axis:
     """Return an axis with round ticks. If labels are long, their common part moves to the name."""
     low, high = float(low), float(high)
     values = ticks(low, high, count) if count else []
-    if all(len(style.number(value)) <= _LONGEST_LABEL for value in values):
+    labels = [style.number(value) for value in values]
+    if all(len(label) <= _LONGEST_LABEL and "e" not in label for label in labels):
         return Axis((low, high), values, name)
     power = int(f"{(high - low) / count:e}".partition("e")[2])
     unit = Fraction(10) ** power
