@@ -133,21 +133,19 @@ class Picture:
         if not rest:
             raise not_allowed("colors", colors, "two of matplotlib's colours or more")
         left, bottom, right, top = self._plane.frame
-        marks = [mark for mark in ticks(low, high, 4) if low <= mark <= high]
-        texts = [style.number(mark) for mark in marks]
-        right -= 8 * POINT + max(width(text, style.PLAIN) for text in texts)
+        texts = {mark: style.number(mark) for mark in ticks(low, high, 4)}
+        edge, right = right, right - max(width(t, style.PLAIN) for t in texts.values()) - 8 * POINT
         left = right - 8 * POINT
         bottom, top = bottom + 0.15 * (top - bottom), top - 0.15 * (top - bottom)
         step, sheet = (top - bottom) / (1 + len(rest)), self._plane.sheet
         for i, hue in enumerate([first, *rest]):  # a pixel of overlap hides the seams
             up = bottom + (i + 0.5) * step
             sheet.draw([left, right], [up, up], color=hue, lw=(step + 1.0) / POINT)
-        for mark, text in zip(marks, texts, strict=True):
+        for mark, text in texts.items():
             up = bottom + (mark - low) / (high - low) * (top - bottom)
             sheet.draw([right, right + 2 * POINT], [up, up], color=style.FRAME, lw=0.6)
             sheet.text(right + 4 * POINT, up, text, style.PLAIN)
-        edge = self._plane.frame[2] - 4 * POINT
-        sheet.text(edge, top + 5 * POINT, name, style.PLAIN, "right", "bottom")
+        sheet.text(edge - 4 * POINT, top + 5 * POINT, name, style.PLAIN, "right", "bottom")
 
     @style.pinned()
     def render(self, extension: str) -> bytes:

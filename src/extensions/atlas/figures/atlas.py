@@ -214,24 +214,16 @@ def _curves(panel: Panel, data: xr.Dataset, named: bool) -> tuple[list[str], boo
         for piece in pieces(*panel.place(np.where(visible, energy, np.nan), k)):
             _stroke(panel.sheet, piece)
         seen += [f"1/{order}"] if visible.any() else []
-        if named:
-            name_curve(panel, visible, energy, k, f"1/{order}")
+        if named and visible.any():  # where the curve leaves the frame at the top or at the left
+            last = int(np.flatnonzero(visible)[-1])
+            x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
+            x = max(x, panel.frame[0] + 12 * POINT)
+            panel.sheet.text(x, y + 3 * POINT, seen[-1], ha="center", va="bottom", size=_SIZE)
     ends = k[[0, -1]]
     jumps = bool(_is_between(panel.across, 1.0 + 0.5 * ends).all())
     if jumps:
         _stroke(panel.sheet, panel.place(1.0 + 0.5 * ends, ends), dashed=True)
     return seen, jumps
-
-
-def name_curve(
-    panel: Panel, visible: np.ndarray, energy: np.ndarray, k: np.ndarray, text: str
-) -> None:
-    """Name a curve where its visible part leaves the frame at the top or at the left."""
-    if visible.any():
-        last = int(np.flatnonzero(visible)[-1])
-        x, y = (float(pixel[0]) for pixel in panel.place(energy[last], k[last]))
-        x = max(x, panel.frame[0] + 12 * POINT)
-        panel.sheet.text(x, y + 3 * POINT, text, ha="center", va="bottom", size=_SIZE)
 
 
 def _stroke(sheet: Sheet, points: Sequence[Any], dashed: bool = False) -> None:

@@ -3,15 +3,12 @@
 docs/method.md defines the three forms of change (twist, stir and shift) and the strength.
 """
 
-import math
-
 import xarray as xr
 
 from pseudorigid.figures.axes.panel import key, letters, title
 from pseudorigid.figures.axes.section import NAME, Section
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
-from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 from . import Figure, Frame, Scene
 
@@ -35,8 +32,6 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
     entries = [(*_CLASSES[kind], "o", False, 3.0) for kind in range(3) if kind in drawn]
     key(sheet, entries, sheet.high - 32, 3, _LEFT, 450, 7.0)
     sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
-    ball = scene["ball"]
-    radius = math.sqrt(twice_energy_above_rest(ball["k"], ball["g"], scene["energy"]) / ball["k"])
     columns, last, frames = [*KEPT][1:], len(FORMS) - 1, dict[tuple[int, int], Frame]()
     for i, name in enumerate(control["panel"].values.tolist()):
         form, _, kept = name.partition(" ")
@@ -48,11 +43,11 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
         left, top = _LEFT + column * (_SIDE + 22), sheet.high - 105 - row * _APART
         frame = frames[row, column] = left, top - _SIDE, left + _SIDE, top
         names = "$x$" if row == last else None, None if column else ""
-        panel = Section(sheet, frame, ball, radius, 1.04, 4, names)
+        panel = Section(sheet, frame, scene, 1.04, 4, names)
         panel.rim(zorder=2)
         for kind in (2, 1, 0):
             a, b = (control[axis].values[i][control["kind"].values[i] == kind] for axis in "ab")
-            x, y = panel.centre + radius * a.ravel(), panel.high * radius * b.ravel()
+            x, y = panel.centre + panel.radius * a.ravel(), panel.high * panel.radius * b.ravel()
             panel.dots(x, y, _CLASSES[kind][1], 0.5 if kind == 2 else 0.7)
         title(sheet, frame, UNCHANGED if name == "none" else f"{form}: {KEPT[kept]}")
     letters(sheet, *(frames[place] for place in sorted(frames)))

@@ -27,18 +27,15 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
     at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
     strengths, lengths = control["strength"].values[1:], control["length"].values.astype(float)
     up = linear(-0.01, min(1.03, 1.1 * float(shares.max()) + 0.02), 4)
-    axes = (
-        _logarithmic(strengths, r"Strength $\epsilon$"),
-        _logarithmic(lengths, rf"Impacts, $\epsilon$ = {style.number(control.attrs['shown'])}"),
-    )
+    text = rf"Impacts, $\epsilon$ = {style.number(control.attrs['shown'])}"
     columns = (
-        (strengths, shares[:, :, 1:, -1]),
-        (lengths, shares[:, :, at]),
+        (strengths, shares[:, :, 1:, -1], _logarithmic(strengths, r"Strength $\epsilon$")),
+        (lengths, shares[:, :, at], _logarithmic(lengths, text)),
     )
     unchanged = float(shares[0, 0, 0, -1])
     frames: list[Frame] = []
     for row, (kept, text) in enumerate(KEPT.items()):
-        for (left, right), axis, (values, estimates) in zip(_SPANS, axes, columns, strict=True):
+        for (left, right), (values, estimates, axis) in zip(_SPANS, columns, strict=True):
             top = sheet.high - 105 - row * _APART
             frames.append((left, top - _HIGH, right, top))
             across = axis if row == len(KEPT) - 1 else axis.blank()

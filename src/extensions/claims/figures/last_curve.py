@@ -77,6 +77,6 @@ def _orbits(
     for x, y, hue, _ in reversed(curves):
         panel.dots(x, y, hue, size=0.7 if hue == SEA else 0.9)
     pixels = [np.array(panel.place(x, y)) for x, y, *_ in curves]
-    names = [(number, hue) for *_, hue, number in curves if hue != SEA]
-    texts, colors = zip(*names, strict=True) if names else ((), ())
+    named = [curve for curve in curves if curve[2] != SEA]
+    colors, texts = ([curve[i] for curve in named] for i in (2, 3))
     name_curves(panel.sheet, pixels, texts, colors, panel.frame, _NAMED)

@@ -111,9 +111,6 @@ def control_facts(block: dict[str, Any], control: xr.Dataset) -> dict[str, Any]:
     """Give the share of spirals at the largest strength by what a map keeps."""
     share = control["class_share"].sel({"class": "spiral"}).isel(length=-1, strength=-1).values
     kept = [name.partition(" ")[2] for name in control["map"].values.tolist()]
-    spirals = {}
-    for name in ("area", "reversor", "neither"):
-        values = share[[own == name for own in kept]]
-        ends = dict.fromkeys(f"{value:.2f}" for value in (values.min(), values.max()))
-        spirals[name] = " to ".join(ends)
-    return {"spirals": spirals}
+    of = {name: share[[own == name for own in kept]] for name in ("area", "reversor", "neither")}
+    ends = {name: dict.fromkeys(f"{v:.2f}" for v in np.sort(of[name])[[0, -1]]) for name in of}
+    return {"spirals": {name: " to ".join(texts) for name, texts in ends.items()}}

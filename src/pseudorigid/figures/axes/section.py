@@ -21,24 +21,20 @@ _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
 
 class Section(Panel):
-    """A panel around the whole section, 2 `room` radii wide, with about `ticks` ticks an axis.
+    """A panel around the section of a scene, 2 `room` radii wide, with about `ticks` ticks an axis.
 
     An axis whose name is None has no labels.
     """
 
     def __init__(
-        self,
-        sheet: Sheet,
-        frame: Frame,
-        ball: dict[str, float],
-        radius: float,
-        room: float = 1.06,
-        ticks: int = 5,
+        self, sheet: Sheet, frame: Frame, scene: dict[str, Any], room: float = 1.06, ticks: int = 5,
         names: tuple[str | None, str | None] = ("$x$", NAME),
-    ) -> None:
-        self.k, self.centre, self.radius = ball["k"], ball["g"] / ball["k"], radius
+    ) -> None:  # fmt: skip
+        self.k, g = scene["ball"]["k"], scene["ball"]["g"]
+        self.centre = g / self.k
+        self.radius = math.sqrt(twice_energy_above_rest(self.k, g, scene["energy"]) / self.k)
         self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
-        half = room * radius
+        half = room * self.radius
         high = _STEP * math.ceil(self.high / _STEP) * half
         spans = (self.centre - half, self.centre + half), (-high, high)
         axes = [linear(*span, ticks, name or "") for span, name in zip(spans, names, strict=True)]
@@ -70,10 +66,7 @@ def circle(sides: int = 720) -> tuple[np.ndarray, np.ndarray]:
 
 def large(sheet: Sheet, scene: dict[str, Any], top: float) -> Section:
     """Return a large panel of the section of a scene's ball and energy below a height."""
-    frame = LEFT, top - SIDE, LEFT + SIDE, top
-    ball, energy = scene["ball"], scene["energy"]
-    radius = math.sqrt(twice_energy_above_rest(ball["k"], ball["g"], energy) / ball["k"])
-    return Section(sheet, frame, ball, radius)
+    return Section(sheet, (LEFT, top - SIDE, LEFT + SIDE, top), scene)
 
 
 def over_orbits(
