@@ -170,7 +170,8 @@ def test_no_caption_has_a_condition_or_points_to_another_picture():
         for block in scenes.values():
             assert_decided(caption_of("one", block.as_mapping()), names)
     for kind in CAPTIONS:
-        block = yaml.safe_load(example(kind)) if kind == "chains" else checked(kind)
+        over = KINDS[kind].drawn_over
+        block = checked(over) | yaml.safe_load(example(kind)) if over else checked(kind)
         assert_decided(caption_of("one", block), names)
 
 
@@ -200,7 +201,7 @@ def test_no_caption_or_name_is_on_the_page_twice():
     texts = [part.partition(")\n\n")[2].partition("\n## ")[0] for part in parts]
     assert len(set(names)) == len(set(texts)) == len(parts)
     for families in [part for part in parts if part.startswith("families/energy: ")]:
-        assert "residues" in families and "missed impacts" not in families
+        assert "positions" in families and "missed impacts" not in families
 
 
 def test_the_page_has_whole_captions():

@@ -167,15 +167,15 @@ def test_a_sheet_is_at_most_four_times_as_long_as_wide():
 
 def test_more_starts_than_a_key_can_hold_are_refused_by_name():
     data = exponents().isel(impact=slice(None, None, 20))
-    history = np.repeat(data["exponent"].values[:, :1], 142, axis=1)
+    history = np.repeat(data["exponent"].values[:, :1], 126, axis=1)
     history[:, 0] = 0.0  # one is regular
     data = data.drop_vars(["exponent", "type"]).assign(
         exponent=(("impact", "orbit", "index"), history),
-        type=("orbit", ["regular"] + ["chaotic"] * 141),
+        type=("orbit", ["regular"] + ["chaotic"] * 125),
     )
-    starts = [i / 1000 for i in range(142)]
+    starts = [i / 1000 for i in range(126)]
     draw = module("exponents").draw
-    with pytest.raises(ValueError, match=r"^starts: 142 of them: expected at most 140"):
+    with pytest.raises(ValueError, match=r"^starts: 126 of them: expected at most 124"):
         draw(SCENES["exponents"] | {"starts": starts}, data)
-    figure = draw(SCENES["exponents"] | {"starts": starts[:140]}, data.isel(orbit=range(140)))
+    figure = draw(SCENES["exponents"] | {"starts": starts[:124]}, data.isel(orbit=range(124)))
     assert figure.bbox.height == 4 * figure.bbox.width

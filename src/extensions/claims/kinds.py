@@ -247,7 +247,7 @@ class Control(Scene):
 
 
 class ControlShares(Picture):
-    """how much stays regular if area or the reversor is not kept"""
+    """the regular share of maps that keep area, the reversor, both or neither"""
 
     stages = ("control",)
     drawn_over = "control"

@@ -17,7 +17,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, width
 
 _UPPER_START = 0.25  # share of the impacts before those that the upper panel shows
-_MOST_STARTS = 140  # of a key; with more the picture is over four times as high as wide
+_MOST_STARTS = 124  # of a key; with more the picture is over four times as high as wide
 _MOST_NAMED = 12  # starts of orbits of one type in a key
 _NARROW, _BROAD = 240, 380  # pixels: names of starts up to this width stand in 3, in 2 columns
 _UPPER, _ROOM = (130, 390), 375  # pixels above the main frame: the upper one, and room for it
