@@ -13,7 +13,7 @@ include: "workflow/rules/common.smk"
 wildcard_constraints:
     variant=any_of(VARIANTS),
     scene=any_of(ALL),
-    extension="png|svg|pdf",
+    extension="png|svg|pdf|gif",
     number=r"\d{4}",
 
 

@@ -1,10 +1,11 @@
 """What publishing adds: archive, article, site, the comparison of variants, and Figure 1."""
 
-from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, names, switch
+from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, Stage, names, switch
 
 _COMMANDS, _TEXT = "extensions.publication.commands", ("claims", "explorer", "proofs")
 PART = Part(
     needs=("paper",),
+    stages={"frames": Stage("extensions.publication.frames.scene_frames", "frames", ("orbits",))},
     sets={
         "publication": SceneSet(
             "more_figures/publication", "./reproduce fig1", "The model", key="publication"

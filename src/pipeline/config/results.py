@@ -18,7 +18,7 @@ from .schema.scene import Picture
 from .schema.sets import MAIN, PUBLISHED, SETS
 from .schema.stages import STAGES, function_of, takes_method, upstream
 
-SHOWN = ("png", "svg")  # formats that are published; pdf stays in results
+SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results
 
 Variants = dict[str, dict[str, Picture]]  # variant -> scene's name -> scene
 Datasets = dict[tuple[str, str, str], str]  # variant, scene, stage -> path of the dataset

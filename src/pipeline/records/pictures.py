@@ -1,4 +1,4 @@
-"""Compare what finished figures show: pixels of a PNG, or elements of an SVG."""
+"""Compare what finished figures show: pixels of a PNG or GIF, or elements of an SVG."""
 
 import hashlib
 import os
@@ -18,12 +18,16 @@ class PictureError(ValueError):
 
 
 def pixels(path: _Path) -> npt.NDArray[np.uint8]:
-    """Return the pixels of a PNG, shape (height, width, 3); raises PictureError for other files."""
-    from PIL import Image
+    """Return the pixels of a PNG, shape (height, width, 3), or of a GIF, whose frames are stacked.
+
+    Raises PictureError for other files.
+    """
+    from PIL import Image, ImageSequence
 
     try:
         with open_regular(path) as file, Image.open(file) as image:
-            return np.asarray(image.convert("RGB"))
+            frames = [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(image)]
+            return np.concatenate(frames)
     except Exception as error:  # Pillow raises many types, among them SyntaxError
         raise PictureError(f"{path}: damaged, or not a picture") from error
 
@@ -42,8 +46,8 @@ def _elements(path: _Path) -> list[str]:
 
 
 def drawing_hash(path: _Path) -> str:
-    """Return a hash of a PNG's pixels or an SVG's elements; raises PictureError."""
-    if Path(path).suffix != ".png":
+    """Return a hash of a PNG's or GIF's pixels or an SVG's elements; raises PictureError."""
+    if Path(path).suffix == ".svg":
         return hashlib.sha256("\n".join(_elements(path)).encode()).hexdigest()
     image = pixels(path)
     return hashlib.sha256(str(image.shape).encode() + image.tobytes()).hexdigest()
@@ -52,10 +56,10 @@ def drawing_hash(path: _Path) -> str:
 def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, bool]:
     """Describe how a drawing differs from its reference, and whether an image was saved.
 
-    For two PNGs of one size, `image_path` gets the reference in pale grey, with the differing
-    pixels in red. Raises PictureError if a file is no picture.
+    For two PNGs or GIFs of one size, `image_path` gets the reference in pale grey, with the
+    differing pixels in red. Raises PictureError if a file is no picture.
     """
-    if Path(path).suffix != ".png":
+    if Path(path).suffix == ".svg":
         return _differing_elements(_elements(path), _elements(reference)), False
     ours, theirs = pixels(path), pixels(reference)
     if ours.shape != theirs.shape:

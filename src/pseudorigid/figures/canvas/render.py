@@ -1,8 +1,9 @@
-"""Write a figure as PNG, SVG or PDF with the same bytes on every machine."""
+"""Write a figure as PNG, SVG or PDF, or figures as GIF, with the same bytes on every machine."""
 
 import re
 import struct
 import zlib
+from collections.abc import Iterable
 from io import BytesIO
 
 import deflate
@@ -24,6 +25,9 @@ _MANY_MARKS = re.compile(
 )
 _PLACE = re.compile(rb'x="([\d.]+)" y="([\d.]+)"')
 _DOT = re.compile(rb'<path id="(m\w+)" d="M 0 ([\d.]+) \nC')
+
+_FRAME_TIME, _HOLD, _FADE = 80, 10, 6  # milliseconds, frames, frames
+_COLORS, _PALE = 64, 240  # of a GIF: white, and others whose least part is below this
 
 
 def render(figure: Figure, extension: str) -> bytes:
@@ -85,6 +89,34 @@ def png(image: np.ndarray, dpi: float) -> bytes:
             _chunk(b"IEND", b""),
         ]
     )
+
+
+def gif(figures: Iterable[Figure]) -> bytes:
+    """Return the bytes of a GIF that shows figures of one size again and again.
+
+    The last one is held and then fades into the first. Colours are mixed and reduced in whole
+    numbers, by Pillow, whose version decides the bytes.
+    """
+    from PIL import Image
+
+    images = [pixels(figure) for figure in figures]
+    first, last = images[0].astype(int), images[-1].astype(int)
+    mixed = ((last * (_FADE - i) + first * (i + 1)) // (_FADE + 1) for i in range(_FADE))
+    images = [*images, *[images[-1]] * _HOLD, *(image.astype(np.uint8) for image in mixed)]
+    sample = np.concatenate(images[:: len(images) // 12 or 1])
+    inked = Image.fromarray(sample[sample.min(axis=2) < _PALE][np.newaxis])
+    colors = inked.quantize(_COLORS - 1, method=Image.Quantize.MEDIANCUT).getpalette() or []
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*colors[: 3 * (_COLORS - 1)], 255, 255, 255])
+    frames = [
+        Image.fromarray(image).quantize(palette=palette, dither=Image.Dither.NONE)
+        for image in images
+    ]
+    stream = BytesIO()
+    frames[0].save(
+        stream, "GIF", save_all=True, append_images=frames[1:], duration=_FRAME_TIME, loop=0
+    )
+    return stream.getvalue()
 
 
 def _chunk(name: bytes, data: bytes) -> bytes:
