@@ -1,6 +1,5 @@
 """A bouncing ball beside the section, on which each of its impacts becomes a point."""
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,7 +12,6 @@ from pseudorigid.figures.axes.panel import corner
 from pseudorigid.figures.axes.section import Section, circle
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
-from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 _HIGH, _FLOOR = 450, 108  # pixels
 _LEFT, _RIGHT, _LARGEST = 30, 330, 125.0  # pixels: ends of the floor, largest radius of the ball
@@ -39,14 +37,13 @@ def moving(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset) -> Ite
 @style.pinned()
 def _frame(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset, index: int) -> Figure:
     """Draw one frame."""
-    ball, sheet = scene["ball"], Sheet(style.COLUMN, _HIGH)
-    radius = math.sqrt(twice_energy_above_rest(ball["k"], ball["g"], scene["energy"]) / ball["k"])
-    panel = Section(sheet, _FRAME, ball, radius, names=("$x$", "$y$"))
+    sheet = Sheet(style.COLUMN, _HIGH)
+    panel = Section(sheet, _FRAME, scene, names=("$x$", "$y$"))
     regular = orbits["type"].values == "regular"
     hues = np.where(regular, "", style.SEA).astype(object)
     hues[regular] = style.ordered(int(regular.sum()))
     followed, impacts = (int(frames[name][index]) for name in ("followed", "impacts"))
-    x, y = chart(ball["k"], *states_of(orbits))
+    x, y = chart(panel.k, *states_of(orbits))
     spans = rows(orbits)[: followed + 1]
     newest = spans[followed].start + impacts - 1
     spans[followed] = slice(spans[followed].start, newest + 1)
