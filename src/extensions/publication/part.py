@@ -33,16 +33,13 @@ PART = Part(
             "show what differs between two variants, figure by figure",
             ("a", {"nargs": "?", "help": "a variant of config.yaml, or paper", "metavar": "A"}),
             ("b", {"nargs": "?", "help": "another one", "metavar": "B"}),
-            names(
-                "figure", "figures to compare, by their names in config.yaml; without a name, all"
-            ),
+            names("figure", "figures to compare, by their names in config.yaml; by default all"),
             module="extensions.publication.compare.command",
         ),
         "site": SnakemakeCommand(
             "write results/site/: all pages, with explorer and article",
             module=f"{_COMMANDS}.site",
-            details="All published files must be the committed ones. Installs Sphinx and the "
-            "typesetter first (once).",
+            details="Publishes committed files alone. Installs packages first (once).",
             needs=_TEXT,
         ),
     },

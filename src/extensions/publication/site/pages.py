@@ -33,10 +33,7 @@ _OF_PARTS = {
 
 
 def pages(root: Path, config: Config) -> dict[str, str]:
-    """Map each page, by its name in the folder `pages`, to its text in MyST.
-
-    Raises ValueError, which names the file, if a result cannot be read.
-    """
+    """Map each page, by its name, to its text in MyST; ValueError names a broken result."""
     written = {
         "run": _run(root, config),
         "gallery": _gallery(root, config),
@@ -139,8 +136,7 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     if Freshness(root, config.build_specs()).state(path) == CURRENT:
         found = load(root / path).attrs["line"].split("; ")
         yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
-    text = read_text(root / _PROOFS / "theorems" / "premises.toml")
-    known = tomllib.loads(text)["group"]
+    known = tomllib.loads(read_text(root / _PROOFS / "theorems" / "premises.toml"))["group"]
     groups = [g for g in known if name in g["theorems"] or g["title"] == "All"]
     proofs = {group["proof"] for group in groups[1:]}
     links = [f"[Proof: {p.removesuffix('.md')}](../{_PROOFS}/theory/{p})" for p in sorted(proofs)]
