@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from matplotlib.path import Path
-from project import ROOT
 from sections import BALL
 from slowly import slowly
 from small_curve import SMALL
