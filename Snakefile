@@ -20,35 +20,35 @@ wildcard_constraints:
 include: "workflow/rules/paper.smk"
 
 
-# The rules of all other parts: of each stage, and of each kind of picture.
-for declared in other_rules():
+# The rules of all other parts: one for each stage, and one for each kind of picture.
+for name, function, result, inputs in other_rules():
+    drawing = name.startswith("draw_")
 
     rule:
         name:
-            declared.name
+            name
         input:
-            **declared.inputs,
-            why=reason(declared.result),
+            **inputs,
+            specification=spec_path(result),
         output:
-            **declared.made,
+            result=shown(result) if drawing else result,
+            record=record_path(result),
         log:
-            log_path(declared.result),
+            log_path(result),
         wildcard_constraints:
-            **declared.constraints,
+            **(of_kind(name.removeprefix("draw_")) if drawing else {}),
         priority: priority
-        localrule: declared.local
+        localrule: name in JOINED
         conda:
-            ROOT / "workflow" / "envs" / "python.yaml"
-        threads: declared.threads
-        params:
-            python=sys.executable,
+            "workflow/envs/python.yaml"
+        threads: (lambda wildcards: workflow.cores) if name in ALONE else 1
         shell:
-            MAKE
+            "python -P -m pipeline.jobs.job {input.specification}"
 
-    workflow.get_rule(declared.name).docstring = declared.function
+    workflow.get_rule(name).docstring = function
 
 
 rule all:
     default_target: True
     input:
-        [drawing for _, drawing in PLAN.config.figures().values()],
+        [drawing for _, drawing in CONFIG.figures().values()],

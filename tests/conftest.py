@@ -14,7 +14,7 @@ from runs import VARIANTS
 
 from pipeline.declaration import parts
 from pipeline.records import sources
-from pipeline.records.record import versions
+from pipeline.records.provenance import versions
 
 # As under ./reproduce: tests that pytest has rewritten are kept, which halves collection.
 sys.dont_write_bytecode = False

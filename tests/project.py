@@ -16,7 +16,7 @@ from pipeline.config import MAIN
 from pipeline.config.schema.sets import SETS
 from pipeline.records import sources
 from pipeline.records.files import write_whole
-from pipeline.records.record import git
+from pipeline.records.provenance import git
 from pseudorigid.dynamics.paper import FIGURES
 from pseudorigid.kernel import compiled
 
@@ -163,9 +163,8 @@ class Tree:
 
         It is found in this process: files of the tree may differ from those here, imports may not.
         """
-        from pipeline.checks.freshness import Freshness
         from pipeline.config import load
-        from pipeline.config.results import with_dependencies
+        from pipeline.records.provenance import Freshness, with_dependencies
 
         config = load(self.config)
         specs, published = config.build_specs([MAIN]), config.figures()
@@ -195,9 +194,10 @@ class Tree:
     def make_here(self, *targets):
         """Make results with records in this process, whose code is that of this tree."""
         from pipeline.config import load
-        from pipeline.records.record import recorded
+        from pipeline.records.provenance import Freshness, recorded
 
-        make_here(self.path, load(self.config).build_specs(), targets, recorded)
+        specs = Freshness(self.path, load(self.config).build_specs()).build_specs
+        make_here(self.path, specs, targets, recorded)
 
     def copy(self, path):
         """Copy it with its results."""
@@ -237,7 +237,7 @@ def make_here(folder, specs, targets, around=nullcontext):
 
     `specs` are build specifications. Results that exist stay. `around(spec)` is a context manager.
     """
-    from pipeline.config.results import with_dependencies
+    from pipeline.records.provenance import with_dependencies
 
     with chdir(folder):
         for path in with_dependencies(specs, targets):

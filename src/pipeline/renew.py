@@ -6,11 +6,15 @@ The fields of all parts' scenes, and README's figures, are sections between two 
 """
 
 import sys
+from pathlib import Path
+
+import jinja2
 
 from .checks import figures_page
 from .checks.published_sets import ChecksumError
-from .config import ConfigError, reference
-from .declaration import RENEW, SourceError, imported, parts
+from .config import MAIN, ConfigError, reference
+from .config.schema.kinds import KINDS
+from .declaration import RENEW, SourceError, files, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
@@ -21,6 +25,7 @@ BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. --
 def generated() -> dict[str, str]:
     """Map each generated file, by its path from the root, to its text."""
     texts = {"config.schema.json": reference.json_schema(), "docs/figures.md": figures_page.page()}
+    texts[f"workflow/rules/{MAIN}.smk"] = rules()
     for declared in parts().values():
         texts |= imported(declared.committed)() if declared.committed else {}
     fields = "".join(map(reference.fields, parts()))
@@ -35,6 +40,22 @@ def generated() -> dict[str, str]:
         manifest = figures_page.codecheck_manifest()
         texts["codecheck.yml"] = with_section(text, "\nmanifest:\n", manifest, "summary:")
     return texts
+
+
+def rules() -> str:
+    """Return the rules of the part that has the main set of scenes."""
+    name, part = next((name, part) for name, part in parts().items() if MAIN in part.sets)
+    found = [
+        {"name": n, "function": stage.function, "stages": stage.inputs, "file": f"{n}_{{scene}}.nc"}
+        for n, stage in part.stages.items()
+    ]
+    for kind, of in KINDS.items():
+        if of.__module__ == f"{name}.kinds":
+            of_kind = {"name": f"draw_{kind}", "function": of.drawn_by, "stages": of.stages}
+            found.append(of_kind | {"file": "{scene}.{extension}", "kind": kind})
+    text = Path(__file__).with_name("rules.smk.jinja").read_text(encoding="utf-8")
+    environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
+    return environment.from_string(text).render(rules=found)
 
 
 def with_section(text: str, begin: str, section: str, end: str) -> str:

@@ -8,7 +8,7 @@ from snakemake.executors.local import common_settings
 from snakemake_interface_executor_plugins.jobs import SingleJobExecutorInterface
 
 from pipeline.jobs.forks import forking, run
-from pipeline.jobs.plan import plan
+from pipeline.records.provenance import read_spec
 
 __all__ = ["Executor", "common_settings"]
 
@@ -18,19 +18,17 @@ class Executor(LocalExecutor):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.plan = plan()  # as the Snakefile made it
-        self.context = forking(any(path.endswith(".nc") for path in self.plan.outdated))
+        self.context = forking(data=True)
 
     def run_single_job(self, job: SingleJobExecutorInterface) -> Future[None]:
         """Start a job."""
-        result = dict(job.output.items()).get("result")
-        if result is None:  # all
+        specification = dict(job.input.items()).get("specification")
+        if specification is None:  # all
             return super().run_single_job(job)
         self.workflow.async_run(job.prepare())
-        return self.pool.submit(self._make, str(result))
+        return self.pool.submit(self._make, str(specification))
 
-    def _make(self, path: str) -> None:
-        """Make a result, unless another job has; raise SpawnedJobError if that fails."""
-        freshness = self.plan.freshness
-        if not (freshness.is_current_now(path) or run(self.context, freshness.build_specs[path])):
+    def _make(self, specification: str) -> None:
+        """Make a result; raise SpawnedJobError if that fails."""
+        if not run(self.context, read_spec(specification)):
             raise SpawnedJobError

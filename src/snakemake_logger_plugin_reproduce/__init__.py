@@ -15,10 +15,8 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from pipeline.cli.session import RUN
 from pipeline.jobs.heartbeat import Heartbeat
-from pipeline.jobs.plan import plan
-from pipeline.records.build_spec import BuildSpec
-from pipeline.records.files import disk_is_full, inode, memory_is_short
-from pipeline.records.record import failure
+from pipeline.records.files import disk_is_full, memory_is_short
+from pipeline.records.provenance import failure, read_spec, spec_path
 from pipeline.records.sources import ROOT
 
 WIDTH = 6  # characters of a scene's name
@@ -33,13 +31,15 @@ class LogHandler(LogHandlerBase):
 
     def __post_init__(self) -> None:
         self.results: dict[int, str] = {}  # job -> result
+        self.names: dict[int, tuple[str, str]] = {}  # job -> its scene and its step
         self.started: dict[int, float] = {}  # job -> time
         self.running: dict[int, float] = {}  # job that has not ended -> time of the monotonic clock
-        self.before: dict[str, int | None] = {}  # result -> its inode before the job
         self.finished: tuple[int, float] | None = None  # the last job and its time
         self.failed = False
         self.errors: list[str] = []
-        self.blocks: Blocks | None = None
+        self.blocks = 0  # of datasets: how many this run makes, how many are done, and
+        self.blocks_done = 0
+        self.first_block = self.printed = 0.0  # times of the first one and of the last line
         self.steps = "0 steps"  # how many are done
         logging.raiseExceptions = False  # snakemake's own log may be on a full disk
         threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -50,10 +50,13 @@ class LogHandler(LogHandlerBase):
     def emit(self, record: LogRecord) -> None:
         """Handle one of snakemake's events."""
         match getattr(record, "event", None):
+            case LogEvent.RUN_INFO:
+                jobs = record.stats.items()
+                self.blocks = sum(n for rule, n in jobs if rule.endswith("_block"))
             case LogEvent.JOB_INFO:
                 # Snakemake appends a file's flags to its name, in parentheses.
                 result = str((record.output or [""])[0]).partition(" (")[0]
-                self.results[record.jobid], self.before[result] = result, inode(result)
+                self.results[record.jobid], self.names[record.jobid] = result, _names(result)
             case LogEvent.JOB_STARTED:
                 self.started |= dict.fromkeys(record.jobs, record.created)
                 self.running |= dict.fromkeys(record.jobs, time.monotonic())
@@ -62,12 +65,11 @@ class LogHandler(LogHandlerBase):
                 self.running.pop(record.job_id, None)
             case LogEvent.PROGRESS if self.finished:
                 job, now = self.finished
-                result = self.results[job]
-                words = f"{now - self.started[job]:.1f} s"
-                if inode(result) and inode(result) == self.before[result]:
-                    words = "as it was"
                 self.steps = f"{record.done} of {record.total}"
-                self._print(job, words, self.steps)
+                if self.names[job][1].startswith("block "):
+                    self._print_block(job)
+                else:
+                    self._print(job, f"{now - self.started[job]:.1f} s", self.steps)
             case LogEvent.JOB_ERROR:
                 self.failed = True
                 self.running.pop(record.jobid, None)
@@ -87,24 +89,34 @@ class LogHandler(LogHandlerBase):
         """Describe the jobs that run, as the heartbeat prints them."""
         now, jobs = time.monotonic(), []
         for job, started in [*self.running.items()]:
-            spec = plan().freshness.build_specs.get(self.results[job])
-            if spec:
-                jobs.append(f"{spec.scene} {spec.step} ({now - started:.0f} s)")
+            jobs.append(f"{' '.join(self.names[job])} ({now - started:.0f} s)")
         if not jobs:
             return "" if self.finished else "snakemake looks for what there is to do"
         compiling = "" if self.finished else self.compiling
         return f"{compiling}running: {', '.join(jobs)}; {self.steps} done"
 
     def _print(self, job: int, *words: str) -> None:
-        """Print a line about a job; blocks of a dataset are many, and are counted instead."""
-        spec = plan().freshness.build_specs.get(self.results[job])
-        scene, step = (spec.scene, spec.step) if spec else ("", "all of it")
-        line: str | None = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{w:>7}" for w in words)
-        if spec and _is_block(spec) and len(words) > 1:
-            self.blocks = self.blocks or Blocks(plan().freshness.build_specs, plan().outdated)
-            line = self.blocks.done(self.results[job])
-        if line:
-            self.heartbeat.print(line.rstrip())
+        """Print a line about a job."""
+        scene, step = self.names[job]
+        line = f"{scene:{WIDTH}}  {step:12}  " + "  ".join(f"{each:>7}" for each in words)
+        self.heartbeat.print(line.rstrip())
+
+    def _print_block(self, job: int) -> None:
+        """Count a block of a dataset, and print a line if it is time for one, with the time left.
+
+        Speed is measured from the first block on: before it, jobs may compile the map.
+        """
+        self.blocks_done += 1
+        now, left = time.monotonic(), self.blocks - self.blocks_done
+        if left and now < self.printed + PAUSE:
+            return
+        words, self.printed = f"{self.blocks_done:,} of {self.blocks:,} blocks", now
+        if self.blocks_done == 1:
+            self.first_block = now
+        elif left:
+            seconds = left * (now - self.first_block) / (self.blocks_done - 1)
+            words += f", {_duration(round(seconds))} to go"
+        self.heartbeat.print(f"{self.names[job][0]}: {words}")
 
     def _reason(self, result: str) -> str:
         """Return the last line of a failed job's log, or of snakemake's message."""
@@ -112,6 +124,15 @@ class LogHandler(LogHandlerBase):
         words = [line for line in words if line and not line.startswith("  File ")]
         full = disk_is_full(result)
         return full or failure(result) or (words[-1] if words else "no reason is known")
+
+
+def _names(result: str) -> tuple[str, str]:
+    """Return the scene and the step of a result, as its specification has them."""
+    try:
+        spec = read_spec(spec_path(result))
+    except ValueError:  # all
+        return "", "all of it"
+    return spec.scene, spec.step
 
 
 def _compiling() -> str:
@@ -125,44 +146,6 @@ def _end_with_parent() -> None:
     if RUN in os.environ:
         os.read(sys.stdin.fileno(), 1)  # nothing is ever written
         os.kill(os.getpid(), signal.SIGKILL)
-
-
-class Blocks:
-    """Counts the finished blocks of datasets, and estimates the time left.
-
-    Each block is computed by a job of its own. `specs` maps results to build specifications, and
-    `outdated` has the results of the run.
-    """
-
-    def __init__(self, specs: dict[str, BuildSpec], outdated: set[str]) -> None:
-        scenes = {path: spec.scene for path, spec in specs.items() if _is_block(spec)}
-        self.left = scenes.keys() & outdated
-        self.names = sorted({scenes[path] for path in self.left})
-        self.total = sum(scene in self.names for scene in scenes.values())
-        self.first: tuple[float, int] | None = None  # time, and blocks that were left then
-        self.printed = -PAUSE
-
-    def done(self, path: str) -> str | None:
-        """Count a finished block, and return a line if it is time for one.
-
-        Speed is measured from the first block on: before it, jobs may compile the map.
-        """
-        self.left.discard(path)
-        now, left = time.monotonic(), len(self.left)
-        since, self.first = self.first, self.first or (now, left)
-        if left and now < self.printed + PAUSE:
-            return None
-        self.printed = now
-        text = f"{', '.join(self.names)}: {self.total - left:,} of {self.total:,} blocks"
-        if since is None or not left:
-            return text
-        seconds = left * (now - since[0]) / max(since[1] - left, 1)
-        return f"{text}, {_duration(round(seconds))} to go"
-
-
-def _is_block(spec: BuildSpec) -> bool:
-    """Return whether a result is a block of a dataset."""
-    return spec.step.startswith("block ")
 
 
 def _duration(seconds: int) -> str:

@@ -23,7 +23,7 @@ from pipeline.cli import arguments
 from pipeline.cli.table import WHAT_TO_DO
 from pipeline.config.schema.sets import SETS
 from pipeline.records import pictures
-from pipeline.records.record import public_record
+from pipeline.records.provenance import public_record
 from pipeline.records.sources import syntax_hash
 from pseudorigid.figures.canvas.render import png
 

@@ -12,7 +12,7 @@ from project import ROOT
 from verdicts import commit
 
 from pipeline.cli import session
-from pipeline.records.record import git
+from pipeline.records.provenance import git
 
 RUN = """
 import sys

@@ -19,7 +19,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 from pipeline.jobs.forks import forking, run
-from pipeline.records.build_spec import BuildSpec
+from pipeline.records.provenance import BuildSpec
 
 def spec(i, program):
     return BuildSpec(f"results/paper/{i}.nc", "fig", "step", {}, program, None, [], [])

@@ -18,11 +18,11 @@ import pytest
 from project import SHIPPED, wait_for
 from runs import contents, rows
 
-from pipeline.checks.freshness import Freshness
 from pipeline.cli import figures, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
 from pipeline.config import load
+from pipeline.records.provenance import Freshness
 
 DRAWING = "results/paper/figures/fig3.png"
 # Settings in a user's shell do not reach a run; numba would refuse its ones.

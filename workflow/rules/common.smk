@@ -1,20 +1,20 @@
-# The plan of a run, and the functions that the rules use.
-import re
+# What can be made, and the functions that the rules use.
+#
+# When the workflow is read, `set_times` writes the specification of each result (the input
+# `specification` of its rule) and sets the times of files: what is current, as its record says, is
+# newer than all that it is made from, and what is not is older than its specification. So Snakemake
+# decides by times, and contents decide these.
 import sys
-from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
+from shlex import quote
 
-from pipeline.config import MAIN, ConfigError
-from pipeline.config.results import with_dependencies
+from pipeline.config import ConfigError, load
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.stages import STAGES
 from pipeline.declaration import SourceError, parts
-from pipeline.jobs.plan import plan
 from pipeline.records.files import FileError
-from pipeline.records.record import log_path, record_path
+from pipeline.records.provenance import Freshness, log_path, record_path, spec_path
 from pipeline.records.sources import ROOT
-from snakemake.exceptions import WorkflowError
 
 if not ROOT.samefile(workflow.basedir):
     here = f"this is {workflow.basedir}, but the code of {ROOT} runs"
@@ -24,55 +24,31 @@ if not ROOT.samefile("."):
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
-    PLAN = plan()
+    CONFIG = load(ROOT / "config.yaml")
+    SPECS = CONFIG.build_specs()
     if workflow.is_main_process:  # and not a job on a cluster
-        PLAN.write_reasons()
+        Freshness(ROOT, SPECS).set_times()
 except (ConfigError, FileError, SourceError) as error:
     sys.exit(str(error))
 
-SPECS, VARIANTS = PLAN.freshness.build_specs, PLAN.config.variants
+VARIANTS, DATASETS = CONFIG.variants, CONFIG.datasets
+SECONDS = {path: s for part in parts().values() for path, s in part.seconds.items()}
 ALL = {name for scenes in VARIANTS.values() for name in scenes}
-DATASETS = PLAN.config.datasets
-# The command of a job, if no executor makes the result without it.
-MAKE = "{params.python:q} -P -m pipeline.jobs.forks {output.result:q}"
+ALONE = {name for name, stage in STAGES.items() if stage.alone}  # nothing runs beside these
+# What is made from blocks of cells, which alone are jobs of a cluster.
+JOINED = {name for name, stage in STAGES.items() if stage.blocks}
+JOINED |= {f"draw_{kind}" for kind, picture in KINDS.items() if JOINED & {*picture.stages}}
+shell.prefix(f"PATH={quote(str(Path(sys.executable).parent))}:$PATH; ")  # this Python, for jobs
 
 
 def dataset(stage):
     """Return an input function for the dataset of a scene's stage, which variants may share."""
-
-    def file(wildcards):
-        key = wildcards.variant, wildcards.scene, stage
-        if key not in DATASETS:
-            raise WorkflowError("the scene {1} of {0} has no stage {2}".format(*key))
-        return DATASETS[key]
-
-    return file
+    return lambda wildcards: DATASETS.get((wildcards.variant, wildcards.scene, stage), [])
 
 
 def inputs_of(result):
     """Return an input function for all datasets that a result is made from."""
-
-    def files(wildcards):
-        return SPECS[result.format(**wildcards)].inputs
-
-    return files
-
-
-def reason(result):
-    """Return an input function for the file that says why a result is outdated, if it is."""
-
-    def files(wildcards):
-        path = result.format(**wildcards)
-        if path not in SPECS:
-            raise WorkflowError(f"{path}: nothing in config.yaml asks for it")
-        return PLAN.why(path)
-
-    return files
-
-
-def made(result):
-    """Return a job's outputs. `update` keeps the old ones: the job may find them current."""
-    return {"result": update(result), "record": update(record_path(result))}
+    return lambda wildcards: getattr(SPECS.get(result.format(**wildcards)), "inputs", [])
 
 
 def shown(drawing):
@@ -82,36 +58,19 @@ def shown(drawing):
 
 
 def caption(wildcards):
-    """Return the caption of a drawing as reStructuredText."""
-    from pipeline.checks.quantities import facts, measured
-    from pipeline.checks.captions import caption_of
+    """Return the caption of a drawing, for workflow/caption.rst."""
+    from pipeline.checks.quantities import caption_of_result
 
-    variant, scene = wildcards.variant, wildcards.scene
-    known = measured(ROOT, PLAN.config, variant, scene, facts)
-    name = scene if variant == MAIN else f"{variant}/{scene}"
-    name, title, *texts = caption_of(name, VARIANTS[variant][scene].as_mapping(), known)
-    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
+    return caption_of_result(CONFIG, wildcards.variant, wildcards.scene)
 
 
-config["caption"] = caption  # for workflow/caption.rst
-
-
-@cache
-def priorities():
-    """Map each result to its seconds, or to those of the longest job that needs it."""
-    known = {path: s for part in parts().values() for path, s in part.seconds.items()}
-    return {
-        dependency: seconds
-        for path, seconds in sorted(known.items(), key=lambda item: item[1])
-        if path in SPECS
-        for dependency in with_dependencies(SPECS, [path])
-    }
+config["caption"] = caption
 
 
 def priority(wildcards, rulename):
-    """Return the priority of a job."""
+    """Return the priority of a job: the longest begin first."""
     result = workflow.get_rule(rulename).output.result.apply_wildcards(wildcards)
-    return priorities().get(str(result), 0)
+    return SECONDS.get(str(result), 0)
 
 
 def any_of(names):
@@ -120,10 +79,9 @@ def any_of(names):
 
 
 def of_kind(kind):
-    """Return wildcard constraints for the scenes of a kind of picture.
+    """Return wildcard constraints for the scenes of a kind of picture, which variants may change.
 
-    Which scenes these are depends on the variant: sets of scenes may have scenes of one name and of
-    different kinds. In the path of a result, the scene follows the variant and a folder.
+    In the path of a result, the scene follows the variant and a folder.
     """
     pairs = []
     for variant, scenes in VARIANTS.items():
@@ -132,33 +90,23 @@ def of_kind(kind):
     return {"variant": any_of(pairs)}
 
 
-def rule_of(name, function, result, **more):
-    """Return what a rule is made from. A `local` one is no job of its own on a cluster."""
-    usual = {"inputs": {}, "constraints": {}, "local": False, "threads": 1, "made": made(result)}
-    return SimpleNamespace(name=name, function=function, result=result, **usual | more)
-
-
 def other_rules():
-    """Yield the rules of all stages and kinds of picture that have none yet."""
+    """Yield name, function, result and inputs for the rules of all other stages and kinds."""
     written = {rule.name for rule in workflow.rules}
     files = {Path(path).name for path in DATASETS.values()}
     for name in [each for each in STAGES if each not in written]:
         stage = STAGES[name]
         # Data that depend on no field of a scene have no scene in their path.
         scene = "" if f"{name}.nc" in files else "_{scene}"
-        result, more = f"results/{{variant}}/{name}{scene}.nc", {"local": bool(stage.blocks)}
+        result = f"results/{{variant}}/{name}{scene}.nc"
+        inputs = {used: dataset(used) for used in stage.inputs}
+        if stage.blocks or stage.main:
+            inputs = {"datasets": inputs_of(result)}
         if stage.blocks:
-            block = result.replace(".nc", ".{number}.nc")
-            yield rule_of(f"{name}_block", stage.of_block, block)
-        joined = {"datasets": inputs_of(result)} if stage.blocks or stage.main else {}
-        more["inputs"] = joined or {used: dataset(used) for used in stage.inputs}
-        if stage.alone:
-            more["threads"] = lambda wildcards: workflow.cores
-        yield rule_of(name, stage.function, result, **more)
-    result = "results/{variant}/figures/{scene}.{extension}"
+            yield f"{name}_block", stage.of_block, result.replace(".nc", ".{number}.nc"), {}
+        yield name, stage.function, result, inputs
     for kind, picture in KINDS.items():
         if f"draw_{kind}" not in written and picture.model_fields["formats"].default:
-            more = {"local": any(STAGES[used].blocks for used in picture.stages)}
-            more["inputs"] = {used: dataset(used) for used in picture.stages}
-            more |= {"made": made(shown(result)), "constraints": of_kind(kind)}
-            yield rule_of(f"draw_{kind}", picture.drawn_by, result, **more)
+            result = "results/{variant}/figures/{scene}.{extension}"
+            inputs = {used: dataset(used) for used in picture.stages}
+            yield f"draw_{kind}", picture.drawn_by, result, inputs

@@ -1,121 +1,174 @@
-# The chain of the paper's figures: one rule for each stage, then one for each kind of picture. The
-# docstring of a rule names its function; a scene with a `method` may have another one.
+# The chain of Figures 2-8. Written by .venv/bin/python -m pipeline.renew from src/paper/.
 #
-# The input dataset("STAGE") is the dataset of another stage of the same scene. The input `why` is a
-# file with the reason why the result is outdated; it is no input of a result that is current.
-# Records decide that, not times of files (src/pipeline/jobs/plan.py). common.smk has the functions.
-# The rule orbits is written in full. The other rules inherit what they do not give.
+# The docstring of a rule names the function that its job calls; a scene with a `method` may have
+# another one. dataset("STAGE") is the dataset of a stage of the same scene, which variants share. A
+# result is made if its specification is newer (common.smk); `python` is that of .venv.
 
 
 rule orbits:
     """pseudorigid.dynamics.orbits.scene_orbits"""
     input:
-        why=reason("results/{variant}/orbits_{scene}.nc"),
+        specification="results/{variant}/specs/orbits_{scene}.nc.json",
     output:
-        **made("results/{variant}/orbits_{scene}.nc"),
+        result="results/{variant}/orbits_{scene}.nc",
+        record="results/{variant}/provenance/orbits_{scene}.nc.json",
     log:
-        log_path("results/{variant}/orbits_{scene}.nc"),
-    priority: priority
+        "results/{variant}/logs/orbits_{scene}.nc.log",
     conda:
-        ROOT / "workflow" / "envs" / "python.yaml"
-    params:
-        python=sys.executable,
+        "../envs/python.yaml"
     shell:
-        MAKE
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule orbits as periodic with:
+rule periodic:
     """pseudorigid.dynamics.periodic.symmetric_orbits"""
     input:
-        why=reason("results/{variant}/periodic_{scene}.nc"),
+        specification="results/{variant}/specs/periodic_{scene}.nc.json",
     output:
-        **made("results/{variant}/periodic_{scene}.nc"),
+        result="results/{variant}/periodic_{scene}.nc",
+        record="results/{variant}/provenance/periodic_{scene}.nc.json",
     log:
-        log_path("results/{variant}/periodic_{scene}.nc"),
+        "results/{variant}/logs/periodic_{scene}.nc.log",
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule orbits as motion with:
+rule motion:
     """pseudorigid.dynamics.motion.scene_motion"""
     input:
+        specification="results/{variant}/specs/motion_{scene}.nc.json",
         periodic=dataset("periodic"),
-        why=reason("results/{variant}/motion_{scene}.nc"),
     output:
-        **made("results/{variant}/motion_{scene}.nc"),
+        result="results/{variant}/motion_{scene}.nc",
+        record="results/{variant}/provenance/motion_{scene}.nc.json",
     log:
-        log_path("results/{variant}/motion_{scene}.nc"),
+        "results/{variant}/logs/motion_{scene}.nc.log",
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule orbits as manifolds with:
+rule manifolds:
     """pseudorigid.dynamics.manifolds.scene_manifolds"""
     input:
+        specification="results/{variant}/specs/manifolds_{scene}.nc.json",
         periodic=dataset("periodic"),
-        why=reason("results/{variant}/manifolds_{scene}.nc"),
     output:
-        **made("results/{variant}/manifolds_{scene}.nc"),
+        result="results/{variant}/manifolds_{scene}.nc",
+        record="results/{variant}/provenance/manifolds_{scene}.nc.json",
     log:
-        log_path("results/{variant}/manifolds_{scene}.nc"),
+        "results/{variant}/logs/manifolds_{scene}.nc.log",
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule orbits as lyapunov with:
+rule lyapunov:
     """pseudorigid.dynamics.lyapunov.scene_exponents"""
     input:
-        why=reason("results/{variant}/lyapunov_{scene}.nc"),
+        specification="results/{variant}/specs/lyapunov_{scene}.nc.json",
     output:
-        **made("results/{variant}/lyapunov_{scene}.nc"),
+        result="results/{variant}/lyapunov_{scene}.nc",
+        record="results/{variant}/provenance/lyapunov_{scene}.nc.json",
     log:
-        log_path("results/{variant}/lyapunov_{scene}.nc"),
+        "results/{variant}/logs/lyapunov_{scene}.nc.log",
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-# The figures. All rules have the same output; of_kind names the scenes of a rule: portrait makes
-# Figures 2 and 8, motion 3 and 4, tangle 5, closeup 6, exponents 7.
-
-
-use rule orbits as draw_portrait with:
+rule draw_portrait:
     """paper.figures.portrait.draw"""
     input:
+        specification="results/{variant}/specs/{scene}.{extension}.json",
         orbits=dataset("orbits"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
     output:
-        **made(shown("results/{variant}/figures/{scene}.{extension}")),
+        result=shown("results/{variant}/figures/{scene}.{extension}"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
     log:
-        log_path("results/{variant}/figures/{scene}.{extension}"),
+        "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("portrait"),
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule draw_portrait as draw_motion with:
+rule draw_motion:
     """paper.figures.motion.draw"""
     input:
+        specification="results/{variant}/specs/{scene}.{extension}.json",
         motion=dataset("motion"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    output:
+        result=shown("results/{variant}/figures/{scene}.{extension}"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
+    log:
+        "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("motion"),
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule draw_portrait as draw_tangle with:
+rule draw_tangle:
     """paper.figures.tangle.draw"""
     input:
+        specification="results/{variant}/specs/{scene}.{extension}.json",
         orbits=dataset("orbits"),
         manifolds=dataset("manifolds"),
         periodic=dataset("periodic"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    output:
+        result=shown("results/{variant}/figures/{scene}.{extension}"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
+    log:
+        "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("tangle"),
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule draw_portrait as draw_closeup with:
+rule draw_closeup:
     """paper.figures.closeup.draw"""
     input:
+        specification="results/{variant}/specs/{scene}.{extension}.json",
         manifolds=dataset("manifolds"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    output:
+        result=shown("results/{variant}/figures/{scene}.{extension}"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
+    log:
+        "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("closeup"),
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"
 
 
-use rule draw_portrait as draw_exponents with:
+rule draw_exponents:
     """paper.figures.exponents.draw"""
     input:
+        specification="results/{variant}/specs/{scene}.{extension}.json",
         lyapunov=dataset("lyapunov"),
-        why=reason("results/{variant}/figures/{scene}.{extension}"),
+    output:
+        result=shown("results/{variant}/figures/{scene}.{extension}"),
+        record="results/{variant}/provenance/{scene}.{extension}.json",
+    log:
+        "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("exponents"),
+    conda:
+        "../envs/python.yaml"
+    shell:
+        "python -P -m pipeline.jobs.job {input.specification}"

@@ -11,11 +11,11 @@ import numpy as np
 import xarray as xr
 from flint import arb
 
-from pipeline.checks.freshness import Freshness
 from pipeline.config import MAIN, Config
 from pipeline.config.results import drawn, stages
 from pipeline.config.schema.scene import Picture
 from pipeline.records.artifacts import load
+from pipeline.records.provenance import Freshness
 from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit, start_state

@@ -19,7 +19,6 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.checks import manifest, verify
-from pipeline.checks.freshness import Freshness
 from pipeline.checks.layers import Comparison
 from pipeline.checks.published_sets import (
     MANIFEST,
@@ -37,7 +36,7 @@ from pipeline.records.artifacts import ArtifactError, load
 from pipeline.records.differences import differing_data
 from pipeline.records.files import FileError, file_hash, read_bytes
 from pipeline.records.pictures import PictureError, picture_difference
-from pipeline.records.record import RecordError, git, public_record, record_path
+from pipeline.records.provenance import Freshness, RecordError, git, public_record, record_path
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"

@@ -12,9 +12,8 @@ from typing import Any
 from ..records.differences import differing_layers
 from ..records.files import FileError, file_hash, why_not_a_file
 from ..records.pictures import picture_difference
-from ..records.record import git
+from ..records.provenance import Freshness, git
 from . import manifest
-from .freshness import Freshness
 from .published_sets import PublishedSet
 
 # A difference in these layers alone does not change the committed bytes.

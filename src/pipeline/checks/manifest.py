@@ -23,7 +23,7 @@ from ..records.artifacts import (
 from ..records.differences import BLOCK
 from ..records.files import file_hash
 from ..records.pictures import PictureError, drawing_hash
-from ..records.record import public_record, versions
+from ..records.provenance import public_record, versions
 from .published_sets import (
     MANIFEST,
     SUMS,

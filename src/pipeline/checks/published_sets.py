@@ -11,11 +11,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..config import MAIN, Config
-from ..config.results import SHOWN, drawn, is_measured, with_dependencies
+from ..config.results import SHOWN, drawn, is_measured
 from ..config.schema.sets import PUBLISHED, SETS
-from ..records.build_spec import BuildSpec
 from ..records.files import ABSENT, file_hash, read_text
-from ..records.record import git, git_refuses
+from ..records.provenance import BuildSpec, git, git_refuses, with_dependencies
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"

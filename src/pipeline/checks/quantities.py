@@ -1,16 +1,18 @@
 """The quantities that pictures report, and the facts of their captions, measured in datasets."""
 
+import re
 from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ..config import Config
+from ..config import MAIN, Config
 from ..config.schema.kinds import KINDS
 from ..declaration import hidden_by, imported
 from ..records.artifacts import load
-from .captions import CAPTIONS
+from ..records.sources import ROOT
+from .captions import CAPTIONS, caption_of
 
 
 def measured(
@@ -64,3 +66,11 @@ def _drawn(block: dict[str, Any], data: dict[str, Any]) -> list[str]:
     found = {text.get_text() for text in figure.texts}
     found |= {str(line.get_marker()) for line in figure.findobj(Line2D) if len(line.get_xdata())}
     return sorted(each for each in found if f'"{each}"' in caption)
+
+
+def caption_of_result(config: Config, variant: str, scene: str) -> str:
+    """Return the caption of a picture in results as reStructuredText."""
+    known = measured(ROOT, config, variant, scene, facts)
+    name = scene if variant == MAIN else f"{variant}/{scene}"
+    name, title, *texts = caption_of(name, config.variants[variant][scene].as_mapping(), known)
+    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))

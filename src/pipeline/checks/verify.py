@@ -14,9 +14,8 @@ from pathlib import Path
 from ..config import Config
 from ..records.differences import columns
 from ..records.files import file_hash, why_not_a_file
-from ..records.record import failure
+from ..records.provenance import MISSING, Freshness, failure
 from . import manifest, published_sets
-from .freshness import MISSING, Freshness
 from .layers import UPSTREAM, Comparison
 from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists
 

@@ -4,15 +4,22 @@ import filecmp
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
-from ..checks.freshness import MISSING, REFUSED, Freshness
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, unknown
-from ..config.results import drawn, stages, with_dependencies
+from ..config.results import drawn, stages
 from ..config.schema.sets import PUBLISHED
 from ..config.schema.stages import METHODS
-from ..records.build_spec import BuildSpec
 from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
-from ..records.record import failure, read_record, record_path
+from ..records.provenance import (
+    MISSING,
+    REFUSED,
+    BuildSpec,
+    Freshness,
+    failure,
+    read_record,
+    record_path,
+    with_dependencies,
+)
 from ..records.sources import ROOT
 from . import running
 from .arguments import Arguments

@@ -38,7 +38,7 @@ def _run(words: list[str]) -> int:
     # These imports take long: mistakes in the words are reported first.
     from ..config import ConfigError
     from ..records.files import FileError
-    from ..records.record import ChangedError
+    from ..records.provenance import ChangedError
     from ..records.sources import ROOT
     from .session import UsageError, print_error, set_environment
 

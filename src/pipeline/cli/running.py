@@ -7,11 +7,9 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from ..checks.freshness import Freshness
-from ..config.results import with_dependencies
 from ..records.differences import DAMAGED
 from ..records.files import disk_is_full, memory_is_short, why_not_a_file
-from ..records.record import log_path, record_path
+from ..records.provenance import Freshness, log_path, record_path, with_dependencies
 from ..records.sources import ROOT
 from .arguments import Arguments
 from .session import RUN, UsageError, interruptible, print_error
@@ -22,8 +20,9 @@ _REPORTED = ("its record", "no record", DAMAGED)
 # The options of profiles/default; snakemake prints a line if it reads them there. --nolock: the
 # lock of a killed snakemake would stop the next run, and ./reproduce has a lock of its own.
 OPTIONS = (
-    *("--workflow-profile", "none", "--nolock", "--rerun-incomplete", "--keep-going"),
-    *("--keep-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy"),
+    *("--workflow-profile", "none", "--nolock", "--ignore-incomplete", "--keep-incomplete"),
+    *("--rerun-triggers", "mtime", "--max-checksum-file-size", "0", "--keep-going"),
+    *("--scheduler", "greedy"),
 )
 
 _LOGGER = ("--logger", "reproduce")
@@ -44,7 +43,7 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         if reason.startswith(_REPORTED):
             print_error(f"{path}: {reason}: made again")
     if args.dry_run and not args.options:
-        print(*freshness.plan(paths), sep="\n")
+        print(*freshness.to_make(paths), sep="\n")
         return 0
     if not outdated and not args.options:
         return 0

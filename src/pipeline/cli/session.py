@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
-from ..records.record import require_loaded_unchanged
+from ..records.provenance import require_loaded_unchanged
 from ..records.sources import ROOT
 
 LOCK_SECONDS = 5.0  # that a run waits for the lock of another one

@@ -5,14 +5,14 @@ drawing results/VARIANT/figures/SCENE.png, where VARIANT may be a set of scenes.
 """
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import PurePath
 
 from ..declaration import Stage, imported, parts
 from ..records import sources
-from ..records.build_spec import BuildSpec
+from ..records.provenance import BuildSpec
 from .schema.fields import Block, YamlMapping
 from .schema.scene import Picture
 from .schema.sets import MAIN, PUBLISHED, SETS
@@ -179,8 +179,8 @@ def _label(path: str, scene: str) -> str:
     return scene if folder in SETS else f"{folder}/{scene}"
 
 
-def _files(program: str, function: str, data_file: str = "") -> list[str]:
-    """Return the files that decide what a program makes with a function module.function.
+def _files(program: str, function: str, data_file: str = "") -> dict[str, str | None]:
+    """Return the files, without their hashes, that decide what a program makes with a function.
 
     They include the data files that the function's modules can read, or of these `data_file` alone.
     """
@@ -189,13 +189,5 @@ def _files(program: str, function: str, data_file: str = "") -> list[str]:
     patterns = [pattern for items in read for module, pattern in items if module in files]
     patterns = [data_file] if data_file else patterns
     data = [file for pattern in patterns for file in sources.ROOT.glob(pattern)]
-    return files + sorted(str(file.relative_to(sources.ROOT)) for file in data)
-
-
-def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
-    """Return the results `wanted` and all that they are made from, each after its inputs."""
-    results: dict[str, None] = {}
-    for path in wanted:
-        inputs = [used for used in build_specs[path].inputs if used in build_specs]
-        results |= dict.fromkeys([*with_dependencies(build_specs, inputs), path])
-    return list(results)
+    names = sorted(str(file.relative_to(sources.ROOT)) for file in data)
+    return dict.fromkeys(files + names)

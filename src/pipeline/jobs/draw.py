@@ -7,8 +7,8 @@ from pseudorigid.figures.canvas.render import gif, render
 
 from ..declaration import hidden_by, imported
 from ..records.artifacts import load
-from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
+from ..records.provenance import BuildSpec
 
 
 def make(spec: BuildSpec) -> dict[str, Any]:

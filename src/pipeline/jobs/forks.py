@@ -1,14 +1,12 @@
 """Jobs in processes of their own, which are forked from one that has loaded their packages.
 
 A new Python takes longer to load packages than most jobs take to compute. The executor of
-`snakemake_executor_plugin_reproduce` forks jobs; a plain snakemake runs this module as a program,
-`python -m pipeline.jobs.forks RESULT`, which starts a new Python for each job.
+`snakemake_executor_plugin_reproduce` forks jobs; a plain snakemake starts a new Python for each.
 """
 
 import multiprocessing
 import os
 import signal
-import sys
 import threading
 from collections.abc import Mapping
 from contextlib import suppress
@@ -18,9 +16,8 @@ from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
 from typing import Any
 
-from ..records.build_spec import BuildSpec
 from ..records.files import write_whole
-from ..records.record import log_path
+from ..records.provenance import BuildSpec, log_path
 from . import job
 
 # Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
@@ -38,12 +35,12 @@ def run(
     known: Mapping[str, Any] | None = None,
     about: Mapping[str, Any] | None = None,
 ) -> bool:
-    """Make a result in a process of its own, and return whether it is current afterwards.
+    """Make a result in a process of its own, and return whether it is made.
 
     `known` and `about` are those of `job.make`.
     """
     receiver, answer = context.Pipe(duplex=False)
-    process = context.Process(target=job.make, args=(spec, answer, known, about))
+    process = context.Process(target=job.make_and_answer, args=(answer, spec, known, about))
     made, reason = False, "it could not start"
     with receiver, suppress(OSError, EOFError):
         with _lock:
@@ -86,13 +83,3 @@ def forking(data: bool) -> ForkServerContext | SpawnContext:
         os.environ.clear()
         os.environ.update(before)
     return jobs
-
-
-if __name__ == "__main__":
-    (_result,) = sys.argv[1:]
-    from .plan import plan
-
-    _freshness = plan().freshness
-    _current = _freshness.is_current_now(_result)
-    _context = multiprocessing.get_context("spawn")
-    sys.exit(not (_current or run(_context, _freshness.build_specs[_result])))

@@ -1,4 +1,8 @@
-"""Make one result and its record, or say in one line why it cannot be made."""
+"""Make one result and its record, or say in one line why it cannot be made.
+
+`python -m pipeline.jobs.job results/paper/specs/orbits_fig2.nc.json` makes what a specification
+says.
+"""
 
 import sys
 import traceback
@@ -10,9 +14,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from ..records.build_spec import BuildSpec
 from ..records.files import memory_is_short, write_whole
-from ..records.record import log_path, recorded, refusal_path
+from ..records.provenance import BuildSpec, log_path, read_spec, recorded
 
 
 def _excepthook(
@@ -24,21 +27,15 @@ def _excepthook(
 
 
 def make(
-    spec: BuildSpec,
-    answer: "Connection[bool, bool]",
-    known: Mapping[str, Any] | None = None,
-    about: Mapping[str, Any] | None = None,
+    spec: BuildSpec, known: Mapping[str, Any] | None = None, about: Mapping[str, Any] | None = None
 ) -> None:
-    """Make a result in this process, which ends afterwards; the current folder is the root.
+    """Make a result and its record in this process; the current folder is the root.
 
-    `answer` gets True once the result and its record are written. An error becomes the last line
-    of the job's log, below its traceback. The program is given what is `known`, and the record says
-    what `about` says.
+    An error becomes the last line of the job's log, below its traceback, and the exit status 1. The
+    program is given what is `known`, and the record says what `about` says.
     """
-    sys.excepthook = _excepthook
     log = log_path(spec.result)
-    for file in (log, refusal_path(spec.result)):
-        Path(file).unlink(missing_ok=True)
+    Path(log).unlink(missing_ok=True)
     try:
         with recorded(spec) as output:
             program = import_module(f"pipeline.jobs.{spec.program}")
@@ -52,6 +49,19 @@ def make(
         last_line = f"pseudorigid: {spec.scene}: {message}"
         with suppress(OSError, ValueError):  # the disk may be full
             write_whole(log, f"{traceback.format_exc()}\n{last_line}\n")
+        sys.exit(last_line)
+
+
+def make_and_answer(answer: "Connection[bool, bool]", *given: Any) -> None:
+    """Make a result in this process, which ends afterwards, and send True once it is made."""
+    sys.excepthook = _excepthook
+    try:
+        make(*given)
+    except SystemExit:
         sys.exit(1)
     with suppress(OSError):  # the run may have been killed
         answer.send(True)
+
+
+if __name__ == "__main__":
+    make(read_spec(sys.argv[1]))

@@ -11,7 +11,7 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 
 from ..declaration import imported
 from ..records import artifacts
-from ..records.build_spec import BuildSpec
+from ..records.provenance import BuildSpec
 
 
 def _progress(spec: BuildSpec) -> Callable[[float, str], None]:

@@ -35,9 +35,9 @@ BOOKKEEPING = (
     "pipeline.jobs.forks",
     "pipeline.loading",
     "pipeline.records",
-    "pipeline.records.build_spec",
+    "pipeline.records.differences",
     "pipeline.records.files",
-    "pipeline.records.record",
+    "pipeline.records.provenance",
     "pipeline.records.sources",
     "pseudorigid",
 )

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from project import ROOT
 
-from pipeline.checks.freshness import Freshness
 from pipeline.config import load
 from pipeline.records import artifacts
+from pipeline.records.provenance import Freshness
 from pseudorigid.dynamics.variables import rows
 
 PAGE = (ROOT / "src/extensions/families/README.md").read_text(encoding="utf-8")

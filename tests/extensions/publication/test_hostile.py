@@ -20,10 +20,9 @@ from verdicts import accepting, verified
 from extensions.publication import archive
 from pipeline import config
 from pipeline.checks import manifest
-from pipeline.checks.freshness import Freshness
 from pipeline.checks.verify import verify
 from pipeline.records.files import FileError
-from pipeline.records.record import log_path, record_path
+from pipeline.records.provenance import Freshness, log_path, record_path
 
 DRAWING = "results/paper/figures/fig3.png"
 FIG3 = "paper_figures/fig3.png"

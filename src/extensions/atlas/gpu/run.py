@@ -7,12 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from extensions.processors.build import CompiledFile
-from pipeline.checks.freshness import Freshness
 from pipeline.config import Config
 from pipeline.jobs import forks
 from pipeline.jobs.heartbeat import Heartbeat
-from pipeline.records.build_spec import BuildSpec
-from pipeline.records.record import failure
+from pipeline.records.provenance import BuildSpec, Freshness, failure
 from pipeline.records.sources import ROOT, source_files, syntax_hash
 from pseudorigid.dynamics.ensemble import threads
 
@@ -27,10 +25,10 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
 
     Raises CardError before anything is made if no card can be used, and if a block was not made.
     """
-    specs = config.build_specs()
-    freshness = Freshness(ROOT, specs)
+    freshness = Freshness(ROOT, config.build_specs())
+    specs = freshness.build_specs
     blocks = [specs[block] for path in dict.fromkeys(datasets) for block in specs[path].inputs]
-    blocks = [spec for spec in blocks if freshness.direct_reason(spec.result)]
+    blocks = [spec for spec in blocks if freshness.reason(spec.result)]
     if not blocks:
         return
     context = forks.forking(data=True)  # before CUDA starts

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import xarray as xr
 
-from pipeline.checks.freshness import CURRENT, Freshness
 from pipeline.config import Config
 from pipeline.config.results import drawing, drawn, stages
 from pipeline.records.artifacts import load
 from pipeline.records.differences import brief, differing_keys
 from pipeline.records.pictures import pixels
+from pipeline.records.provenance import CURRENT, Freshness
 
 from . import datasets, picture
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
-from ...checks.freshness import CURRENT, MISSING, Freshness
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
 from ...config.schema.sets import SETS
 from ...records.differences import differing_layers
+from ...records.provenance import CURRENT, MISSING, Freshness
 from ...records.sources import ROOT
 from ..arguments import Arguments
 from ..table import FileRow, print_files, print_lines, wrapped

@@ -1,14 +1,21 @@
-"""A result whose record does not fit this tree is reported with the reason."""
+"""Which results are current, and how times tell Snakemake so."""
 
 import json
+import os
+import shutil
 from contextlib import suppress
 from importlib import metadata
 
 import pytest
 
-from pipeline.checks.freshness import Freshness
-from pipeline.records.build_spec import BuildSpec
-from pipeline.records.record import record_path, recorded
+from pipeline.records.provenance import (
+    BuildSpec,
+    ChangedError,
+    Freshness,
+    record_path,
+    recorded,
+    spec_path,
+)
 from pipeline.records.sources import syntax_hash
 
 ORBITS, DRAWING = "results/paper/orbits_fig2.nc", "results/paper/figures/fig2.png"
@@ -19,24 +26,26 @@ def made(tmp_path, monkeypatch):
     """Return a folder with recorded orbits and a drawing of them, and their specifications."""
     monkeypatch.chdir(tmp_path)
     config, view = {"ball": {"g": 0.04}, "energy": 0.01}, {"view": {"elevation": 40}}
-    specs = {
-        ORBITS: BuildSpec(ORBITS, "fig2", "orbits", config, "stage", None, ["a.py", "b.py"], []),
-        DRAWING: BuildSpec(
-            DRAWING, "fig2", "drawing png", config | view, "draw", None, ["b.py"], [ORBITS]
-        ),
-    }
     for source in ("a.py", "b.py"):
         (tmp_path / source).write_text(source)
-    for path, spec in specs.items():
-        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        with recorded(spec):
-            (tmp_path / path).write_text(path)
+    orbits = BuildSpec(ORBITS, "fig2", "orbits", config, "stage", "a.f", ["a.py", "b.py"], [])
+    drawing = "fig2", "drawing png", config | view, "draw", "b.draw", ["b.py"], [ORBITS]
+    specs = {ORBITS: orbits, DRAWING: BuildSpec(DRAWING, *drawing)}
+    make(tmp_path, specs, *specs)
     return tmp_path, specs
 
 
+def make(root, specs, *paths):
+    """Write results, in which their paths stand, and their records."""
+    for path in paths:
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        with recorded(Freshness(root, specs).build_specs[path]):
+            (root / path).write_text(path)
+
+
 def planned(made):
-    """Return the line of a plan after `fig2: `."""
-    (line,) = Freshness(*made).plan([ORBITS, DRAWING])
+    """Return the line about fig2, after its name."""
+    (line,) = Freshness(*made).to_make([ORBITS, DRAWING])
     return line.removeprefix("fig2: ")
 
 
@@ -53,7 +62,7 @@ def test_a_plan_names_what_changed_by_scene(made):
     assert planned(changed) == "view.elevation 40 -> 30: drawing"
     assert planned(with_config(*specs, energy=0.008)) == "energy 0.01 -> 0.008: orbits, drawing"
     orbits = with_config(ORBITS, energy=0.008)
-    assert planned(orbits) == "energy 0.01 -> 0.008: orbits; perhaps drawing"
+    assert planned(orbits) == "energy 0.01 -> 0.008: orbits, drawing"
     assert Freshness(*orbits).state(DRAWING) == "stale: energy 0.01 -> 0.008"
     (root / "b.py").write_text("other")
     other = "made by other code than this tree's"
@@ -91,7 +100,7 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
     root, specs = made
     for path in specs:
         (root / record_path(path)).unlink()
-    with suppress(KeyboardInterrupt), recorded(specs[ORBITS]):
+    with suppress(KeyboardInterrupt), recorded(Freshness(*made).build_specs[ORBITS]):
         (root / ORBITS).write_text("made anew")
         raise KeyboardInterrupt
     assert planned(made) == "no record of what made it: orbits, drawing"
@@ -115,7 +124,7 @@ def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):
     """A result that was made another way, as on a card, names what this way needs beside."""
     root, specs = made
     (root / "card.py").write_text("card")
-    with recorded(specs[ORBITS]) as output:
+    with recorded(Freshness(*made).build_specs[ORBITS]) as output:
         (root / ORBITS).write_text(ORBITS)
         output["way"] = {"card.py": syntax_hash("card.py")}
     assert planned(made) == "nothing to make"
@@ -127,9 +136,91 @@ def test_what_is_made_from_something_outdated_is_outdated_over_any_number_of_ste
     root, specs = made
     last = "results/paper/figures/fig2.svg"
     specs[last] = specs[DRAWING]._replace(result=last, inputs=[DRAWING])
-    with recorded(specs[last]):
-        (root / last).write_text(last)
+    make(root, specs, last)
     assert Freshness(*made).outdated([last]) == {}
     (root / "a.py").write_text("edited")
     found = Freshness(*made).outdated([last])
     assert found[last] == f"made from {DRAWING}, which is not current"
+
+
+def test_another_function_outdates_a_result(made):
+    root, specs = made
+    other = specs | {ORBITS: specs[ORBITS]._replace(function="a.g")}
+    words = "made by other code than this tree's: function a.f -> a.g: orbits, drawing"
+    assert planned((root, other)) == words
+
+
+def test_a_job_refuses_sources_and_packages_that_its_specification_does_not_have(made):
+    root, specs = made
+    spec = Freshness(root, specs).build_specs[ORBITS]
+    (root / "b.py").write_text("edited")
+    with pytest.raises(ChangedError, match=r"^b\.py changed during the run"), recorded(spec):
+        raise AssertionError
+    other = spec._replace(sources={}, environment={"numpy": "1.0"})
+    with pytest.raises(ChangedError, match="^numpy is .* here, not 1.0"), recorded(other):
+        raise AssertionError
+    assert planned(made).startswith("made by other code than this tree's: b.py")
+
+
+def test_a_refusal_lasts_until_what_led_to_it_changes(made):
+    root, specs = made
+    with suppress(ValueError), recorded(Freshness(root, specs).build_specs[ORBITS]):
+        raise ValueError("no such orbit")
+    found = Freshness(root, specs)
+    assert {*found.outdated().values()} == {"cannot exist: no such orbit"}
+    assert found.state(DRAWING) == "cannot exist: no such orbit"
+    (root / "a.py").write_text("edited")
+    assert Freshness(root, specs).refusal(DRAWING) is None
+
+
+def run_again(made):
+    """Return the results that Snakemake makes, which looks at times alone."""
+    root, specs = made
+    Freshness(root, specs).set_times()
+    again = []
+    for path, spec in specs.items():
+        outputs = [root / path, root / record_path(path)]
+        inputs = [root / file for file in (spec_path(path), *spec.inputs)]
+        there = [file.stat().st_mtime_ns for file in outputs if file.exists()]
+        newest = max(file.stat().st_mtime_ns for file in inputs if file.exists())
+        missing = not outputs[0].exists() or {*spec.inputs} & {*again}
+        if missing or newest > min(there):
+            again.append(path)
+    return again
+
+
+def test_times_say_what_is_outdated_whatever_they_were(made):
+    root, specs = made
+    files = [root / place(p) for p in specs for place in (spec_path, record_path, str)]
+    assert run_again(made) == []
+    for times in ((4e9, 4e9, 0), (0, 4e9, 4e9), (4e9, 0, 4e9), (0, 0, 0), (5e9, 4e9, 3e9)):
+        for i, file in enumerate(files):
+            os.utime(file, (times[i % 3], times[i % 3] - i))
+        assert run_again(made) == []
+    edited = dict(specs)
+    edited[DRAWING] = specs[DRAWING]._replace(config={"energy": 0.02})
+    for when in (0, 4e9):
+        for file in files:
+            os.utime(file, (when, when))
+        assert run_again((root, edited)) == [DRAWING]
+    os.utime(root / DRAWING)  # as `snakemake --touch` does
+    assert run_again((root, edited)) == [DRAWING]
+    assert run_again(made) == []  # the edit is undone
+    make(root, edited, DRAWING)
+    assert run_again((root, edited)) == []
+    assert run_again(made) == [DRAWING]
+
+
+def test_damage_of_a_result_or_a_record_is_outdated_and_a_copy_is_not(made):
+    root, specs = made
+    kept = {file: file.read_bytes() for p in specs for file in (root / p, root / record_path(p))}
+    for i, file in enumerate(kept):
+        for damage in (kept[file][:-3], b"x" + kept[file][1:], None):
+            file.unlink()
+            if damage is not None:
+                file.write_bytes(damage)
+            again = run_again(made)
+            assert again == [*specs][i // 2 :], file
+            file.write_bytes(kept[file])
+            shutil.rmtree(root / "results/paper/specs")  # as in results from a cache
+            assert run_again(made) == []

@@ -1,0 +1,390 @@
+"""Provenance: how each result is to be made, what made it, and which results are current.
+
+- The **specification** of results/paper/orbits_fig2.nc, results/paper/specs/orbits_fig2.nc.json,
+  says how it is to be made. It is written when the workflow is read (`Freshness.set_times`).
+- Its **record**, results/paper/provenance/orbits_fig2.nc.json, says what made it. A job writes it
+  last (`recorded`).
+- A result is **current** if its record has its specification and its hash, and the hashes of its
+  inputs, which are current (`Freshness.reason`). Nothing else decides that, and times never do.
+
+All paths are relative to the project's root, so that the folder can be moved.
+"""
+
+import json
+import os
+import platform
+import subprocess
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from functools import cache, partial
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..declaration import parts
+from ..loading import LOADED
+from .differences import differing_layers
+from .files import ABSENT, FileError, file_hash, read_text, why_not_a_file, write_whole
+from .sources import ROOT, syntax_hash
+
+SHAPE = ("config", "sources", "inputs", "environment", "output")  # the mappings of a record
+# The packages that decide bits. Python's own version does not, nor do the tools around the work.
+PACKAGES = (
+    *("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4"),
+    *("numba", "numpy", "pyparsing", "python-flint", "scipy", "xarray"),
+)
+CURRENT = "current"
+MISSING = "missing"
+REFUSED = "cannot exist: "  # how the reason begins then
+_FROM_CONFIG = "made from another config:"
+# Differing layer -> the beginning of the reason to recompute a result, the first reason first.
+_MADE = {
+    "file": "",
+    "config": f"{_FROM_CONFIG} ",
+    "source": "made by other code than this tree's: ",
+    "environment": "made with ",
+    "data": "made from another ",
+}
+_MOST_CAUSES = 4  # in one line
+
+
+class RecordError(ValueError):
+    """A record that cannot be read; the message says why."""
+
+
+class ChangedError(ValueError):
+    """A file that changed while something was made from it: one line."""
+
+
+class BuildSpec(NamedTuple):
+    """The specification of a result."""
+
+    result: str  # its file
+    scene: str  # its names in messages, such as those of a figure and a stage
+    step: str
+    config: dict[str, Any]  # the block of the config that it depends on
+    program: str  # the module of `pipeline.jobs` that makes it
+    function: str  # module.function that computes the dataset or draws the picture
+    sources: Mapping[str, str | None]  # the project's files that decide its bytes -> their hashes
+    inputs: list[str]  # the results that it is made from
+    environment: Mapping[str, str | None] = {}  # package -> version
+
+
+def beside(folder: str, suffix: str, result: str | os.PathLike[str]) -> str:
+    """Return the path of a file about a result, in a folder of the result's variant."""
+    _, variant, *_, name = Path(result).parts
+    return f"results/{variant}/{folder}/{name}.{suffix}"
+
+
+# Each takes a result and returns a path.
+spec_path = partial(beside, "specs", "json")
+record_path = partial(beside, "provenance", "json")
+log_path = partial(beside, "logs", "log")  # written by a job that failed to make the result
+
+
+def read_spec(path: str | os.PathLike[str]) -> BuildSpec:
+    """Read a specification; raises FileError if the file is none."""
+    try:
+        return BuildSpec(**json.loads(read_text(path)))
+    except (OSError, ValueError, TypeError) as error:
+        raise FileError(f"{path}: no specification of a result: {error}") from None
+
+
+# -- records ---------------------------------------------------------------------------------------
+
+
+def failure(result: str | os.PathLike[str]) -> str | None:
+    """Return why the last job for a result failed, or None if that is not known."""
+    try:
+        return read_text(log_path(result)).splitlines()[-1].split(": ", 2)[2]
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def read_record(root: Path, path: str) -> dict[str, Any]:
+    """Read a record, with the mappings of SHAPE; raises RecordError."""
+    try:
+        record: dict[str, Any] = json.loads(read_text(root / path))
+        if not all(isinstance(record[name], dict) for name in SHAPE):
+            raise TypeError
+        str(record["output"]["sha256"])
+    except FileNotFoundError:
+        raise RecordError("no record of what made it") from None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        raise RecordError(f"its record {path} cannot be read") from None
+    return record
+
+
+def public_record(root: Path, result: str) -> dict[str, Any]:
+    """Return the record of a result without what belongs to one machine; raises RecordError."""
+    record = read_record(root, record_path(result))
+    return {name: record[name] for name in ("function", *SHAPE) if name in record}
+
+
+@contextmanager
+def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
+    """Write the record of a result once the body has made it; the current folder is the root.
+
+    The body may describe the result further in the mapping that it is given.
+
+    A ValueError in the body says that the result cannot exist (one of a subclass, such as
+    FileError, only if it has the attribute `lasting`). The record has this refusal then. Raises
+    ChangedError, and writes no record, if a source is not as the specification has it, or if a
+    source or an input changes.
+    """
+    hashes = {path: file_hash(path) for path in sorted([*spec.sources, *spec.inputs])}
+    for path, meaning in spec.sources.items():
+        if syntax_hash(path) != meaning:
+            raise ChangedError(_changed(path))
+    installed = versions()
+    for package, version in spec.environment.items():
+        if installed[package] != version:
+            words = f"{package} is {installed[package]} here, not {version}"
+            raise ChangedError(f"{words}: run ./reproduce again")
+    commit, dirty = _commit()
+    record: dict[str, Any] = {
+        "commit": commit,
+        "dirty": dirty,
+        "function": spec.function,
+        "config": spec.config,
+        "inputs": {path: hashes[path] for path in sorted(spec.inputs)},
+        "sources": dict(spec.sources),
+        "environment": installed,
+        "python": platform.python_version(),
+    }
+    require_unchanged(hashes)
+    start = time.monotonic()
+    output: dict[str, Any] = {"file": spec.result}
+    try:
+        yield output
+    except ValueError as error:
+        if not getattr(error, "lasting", type(error) is ValueError):
+            raise
+        require_unchanged(hashes)
+        _write(spec, record, {"sha256": None, "refused": str(error)})
+        raise
+    record["seconds"] = time.monotonic() - start
+    require_unchanged(hashes)
+    output["sha256"] = file_hash(spec.result)
+    _write(spec, record, output)
+
+
+def _write(spec: BuildSpec, record: dict[str, Any], output: dict[str, Any]) -> None:
+    """Write the record of a result with a description of its output."""
+    text = json.dumps(record | {"output": output}, sort_keys=True, indent=1)
+    write_whole(record_path(spec.result), f"{text}\n")
+
+
+def _changed(path: str) -> str:
+    return f"{path} changed during the run; run ./reproduce again"
+
+
+def require_unchanged(hashes: Mapping[str, str | None]) -> None:
+    """Raise ChangedError if a file does not have its hash, or did not when it was loaded.
+
+    `hashes` maps a path, relative to the current folder, to its SHA-256, or None for no file.
+    """
+    for path, digest in hashes.items():
+        loaded = LOADED.get(os.path.realpath(path), set())
+        if file_hash(path) != digest or loaded - {digest}:
+            raise ChangedError(_changed(path))
+
+
+def require_loaded_unchanged() -> None:
+    """Raise ChangedError if a file of this tree has changed since this process loaded it."""
+    for path, digests in LOADED.items():
+        for digest in digests if Path(path).is_relative_to(ROOT) else ():
+            require_unchanged({os.path.relpath(path, ROOT): digest})
+
+
+def versions() -> dict[str, str | None]:
+    """Return the installed version of each package that decides bits, None for a missing one."""
+    installed: dict[str, str | None] = dict.fromkeys(PACKAGES)
+    for package in PACKAGES:
+        with suppress(metadata.PackageNotFoundError):
+            installed[package] = metadata.version(package)
+    return installed
+
+
+def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
+    """Return the output of a git command, or None if it fails or git is not installed."""
+    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
+    with suppress(OSError, subprocess.CalledProcessError):
+        return subprocess.check_output(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return None
+
+
+def git_refuses(root: str | os.PathLike[str] = ".") -> bool:
+    """Return whether git cannot read the repository around a folder, as one of another owner."""
+    folder = Path(root).resolve()
+    there = any((each / ".git").exists() for each in (folder, *folder.parents))
+    return there and git("rev-parse", "--git-dir", root=root) is None
+
+
+def _commit() -> tuple[str | None, bool | None]:
+    """Return the commit, and whether tracked files other than figures differ from it."""
+    commit = git("rev-parse", "HEAD")
+    # Another repository may contain this folder.
+    if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
+        return None, None
+    published = [each.folder for part in parts().values() for each in part.sets.values()]
+    others = [f":!{folder}" for folder in published if folder]
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
+    return commit.decode().strip(), None if changed is None else bool(changed.strip())
+
+
+# -- which results are current ---------------------------------------------------------------------
+
+
+def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
+    """Return the results `wanted` and all that they are made from, each after its inputs."""
+    results: dict[str, None] = {}
+    for path in wanted:
+        inputs = [used for used in build_specs[path].inputs if used in build_specs]
+        results |= dict.fromkeys([*with_dependencies(build_specs, inputs), path])
+    return list(results)
+
+
+class Freshness:
+    """Tells which results of a tree have to be recomputed, and why.
+
+    Two cached methods take a result, and return None if there is no such reason:
+
+    - `reason(path)`: why it has to be recomputed (MISSING if it is not there)
+    - `refusal(path)`: why it cannot exist
+    """
+
+    def __init__(self, root: Path, build_specs: Mapping[str, BuildSpec]) -> None:
+        self.root = root
+        self.digest = cache(lambda path: file_hash(root / path))
+        self.syntax_hash = cache(lambda path: syntax_hash(root / path))
+        self.reason = cache(self._reason)
+        self.refusal = cache(self._refusal)
+        packages = versions()
+        self.build_specs = {
+            path: spec._replace(
+                sources={file: self.syntax_hash(file) for file in spec.sources},
+                environment=packages,
+            )
+            for path, spec in build_specs.items()
+        }
+
+    def set_times(self) -> None:
+        """Write all specifications, and set times of files so that they say what is current.
+
+        The files of a current result are touched, each after those of its inputs. The specification
+        of another result becomes newer than the result, which is touched too, as its time may be in
+        the future. Raises FileError if that cannot be done.
+        """
+        for path, spec in self.build_specs.items():  # inputs come first
+            file, text = self.root / spec_path(path), f"{json.dumps(spec._asdict(), indent=1)}\n"
+            if not file.is_file() or read_text(file) != text:
+                write_whole(file, text)
+            for each in (file, self.root / path, self.root / record_path(path)):
+                _touch(each)
+        for path in self.outdated():
+            file, result = self.root / spec_path(path), self.root / path
+            while result.exists() and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
+                time.sleep(0.001)
+                _touch(file)
+
+    def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
+        """Map each result in `paths` (default: all) that has to be recomputed to the reason."""
+        results = self.build_specs if paths is None else paths
+        return {path: why for path in results if (why := self.reason(path))}
+
+    def state(self, path: str) -> str:
+        """Say whether a result is current, missing, stale and why, or cannot exist and why."""
+        reason = self.reason(path) or CURRENT
+        if reason in (CURRENT, MISSING) or self.refusal(path):
+            return reason
+        return f"stale: {self._why(self.outdated(with_dependencies(self.build_specs, [path])))}"
+
+    def to_make(self, paths: Iterable[str]) -> list[str]:
+        """Return a line for each scene with outdated results: the reasons and the steps."""
+        scenes: dict[str, list[str]] = {}
+        for path in self.outdated(paths):
+            scenes.setdefault(self.build_specs[path].scene, []).append(path)
+        lines = []
+        for scene, results in scenes.items():
+            steps = dict.fromkeys(self.build_specs[path].step.split()[0] for path in results)
+            lines.append(f"{scene}: {self._why(results)}: {', '.join(steps)}")
+        return lines or ["nothing to make"]
+
+    def _why(self, paths: Iterable[str]) -> str:
+        """Join the reasons of outdated results, without those that follow from others."""
+        paths = list(paths)
+        causes = dict.fromkeys(filter(None, map(self._own_reason, paths)))
+        if len(causes) > 1:
+            causes.pop(MISSING, None)
+        shown = ["not made yet" if cause == MISSING else cause for cause in causes][:_MOST_CAUSES]
+        shown = [cause.removeprefix(f"{_FROM_CONFIG} ") for cause in shown]
+        more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
+        return "; ".join(shown + more) or str(self.reason(paths[0]))
+
+    def _refusal(self, path: str) -> str | None:
+        for used in self.build_specs[path].inputs:
+            if used in self.build_specs and (why := self.refusal(used)):
+                return why
+        with suppress(RecordError):
+            record = read_record(self.root, record_path(path))
+            refused = record["output"].get("refused")
+            if refused and not self._difference(
+                path, record | {"output": self.here(path)["output"]}
+            ):
+                return str(refused)
+        return None
+
+    def _reason(self, path: str) -> str | None:
+        if why := self.refusal(path):
+            return REFUSED + why
+        if why := self._own_reason(path):
+            return why
+        for used in self.build_specs[path].inputs:
+            if used in self.build_specs and (why := self.reason(used)):
+                return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
+        return None
+
+    def _own_reason(self, path: str) -> str | None:
+        """Return why a result has to be recomputed even if its inputs are current."""
+        if self.digest(path) is None:
+            return why_not_a_file(self.root / path) or MISSING
+        try:
+            return self._difference(path, read_record(self.root, record_path(path)))
+        except RecordError as error:
+            return str(error)
+
+    def _difference(self, path: str, record: dict[str, Any]) -> str | None:
+        """Return the first reason why a record is not the one that this tree would write."""
+        here, before = self.here(path), record.get("function")
+        # What was made another way, to the same bytes, says which further sources that has.
+        way = record["output"].get("way", {})
+        sources = here["sources"] | {file: self.syntax_hash(file) for file in way}
+        record = record | {"sources": record["sources"] | way}
+        layers = differing_layers(record, here | {"sources": sources})
+        if before != here["function"]:
+            layers.setdefault("source", f"function {before} -> {here['function']}")
+        return next((begin + layers[name] for name, begin in _MADE.items() if name in layers), None)
+
+    def here(self, path: str) -> dict[str, Any]:
+        """Return the record that this tree would write of a result, for the file that is there."""
+        spec = self.build_specs[path]
+        return {
+            "function": spec.function,
+            "config": spec.config,
+            "sources": dict(spec.sources),
+            "environment": spec.environment,
+            "inputs": {used: self.digest(used) for used in spec.inputs},
+            "output": {"sha256": self.digest(path)},
+        }
+
+
+def _touch(path: Path) -> None:
+    """Give a file, if it is there, the present time; its owner may be another user."""
+    try:
+        os.utime(path)
+    except ABSENT:
+        pass
+    except OSError as error:
+        raise FileError(f"{path}: its time cannot be set: {error.strerror}") from None
