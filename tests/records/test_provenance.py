@@ -122,7 +122,7 @@ def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatc
 
 def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):
     """A result that was made another way, as on a card, names what this way needs beside."""
-    root, specs = made
+    root, _ = made
     (root / "card.py").write_text("card")
     with recorded(Freshness(*made).build_specs[ORBITS]) as output:
         (root / ORBITS).write_text(ORBITS)
@@ -157,7 +157,7 @@ def test_a_job_refuses_sources_and_packages_that_its_specification_does_not_have
     with pytest.raises(ChangedError, match=r"^b\.py changed during the run"), recorded(spec):
         raise AssertionError
     other = spec._replace(sources={}, environment={"numpy": "1.0"})
-    with pytest.raises(ChangedError, match="^numpy is .* here, not 1.0"), recorded(other):
+    with pytest.raises(ChangedError, match=r"^numpy is .* here, not 1\.0"), recorded(other):
         raise AssertionError
     assert planned(made).startswith("made by other code than this tree's: b.py")
 
