@@ -185,14 +185,6 @@ def start(tmp_path, monkeypatch):
     return lambda: running.make(freshness, [DRAWING], Arguments(options=[]))
 
 
-@pytest.mark.parametrize("place", [".snakemake", "results/paper", "results/paper/logs"])
-def test_a_file_in_the_place_of_a_folder_is_named(start, tmp_path, place):
-    (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
-    (tmp_path / place).touch()
-    with pytest.raises(UsageError, match=f"^{place}: a file stands in a folder's place"):
-        start()
-
-
 def test_a_run_on_a_full_disk_says_so_before_it_starts(start, monkeypatch):
     free = types.SimpleNamespace(total=10**9, free=300_000)
     monkeypatch.setattr("shutil.disk_usage", lambda path: free)

@@ -10,7 +10,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-import pydantic
 import xarray as xr
 
 from ..records.artifacts import (
@@ -36,34 +35,9 @@ from .quantities import facts
 
 _SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
 
-Manifest = dict[str, Any]  # with the fields of _Manifest
-
-
-class _Output(pydantic.BaseModel):
-    """The file of a result, as `describe` describes it; a picture has its `facts` too."""
-
-    sha256: str
-    drawing: str = ""
-    attributes: dict[str, str] = {}
-    variables: dict[str, dict[str, Any]] = {}
-
-
-class _Entry(pydantic.BaseModel):
-    """The record of a result; `sources` are files, or the result that has the same ones."""
-
-    config: dict[str, Any]
-    inputs: dict[str, str]
-    sources: list[str] | str
-    output: _Output
-
-
-class _Manifest(pydantic.BaseModel):
-    """Package -> version, path -> hash of texts and of sources, and path -> entry of results."""
-
-    environment: dict[str, str | None]
-    texts: dict[str, str | None]
-    sources: dict[str, str]
-    results: dict[str, _Entry]
+# `environment` (package -> version), `texts` and `sources` (path -> hash), and `results` (path ->
+# entry). The `sources` of an entry are files, or the result that has the same ones.
+Manifest = dict[str, Any]
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
@@ -123,7 +97,8 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
         files = [*record["sources"]]
         same = next((p for p, entry in results.items() if entry["sources"] == files), files)
         results[path] = record | {"sources": same, "output": record["output"] | content}
-        del results[path]["environment"]
+        for key in ("environment", "function"):  # which sources decide
+            del results[path][key]
     texts = {path: file_hash(root / path) for path in published_set.text_files}
     return {"environment": versions(), "texts": texts, "sources": sources, "results": results}
 
@@ -159,14 +134,9 @@ def read(root: Path, folder: str) -> Manifest:
         # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
             raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
-        _Manifest.model_validate(manifest, strict=True)
         for path in manifest["results"]:
             record_of(manifest, path)
-    except pydantic.ValidationError as error:
-        first = error.errors()[0]
-        key = ".".join(map(str, first["loc"]))
-        raise ChecksumError(f"{name}: broken: {key}: {first['msg']}") from None
-    except (ValueError, LookupError, RecursionError) as error:
+    except (ValueError, TypeError, LookupError, RecursionError) as error:
         raise ChecksumError(f"{name}: broken: {error}") from None
     return manifest
 

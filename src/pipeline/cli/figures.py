@@ -1,18 +1,16 @@
 """Make the figures of a variant or set of scenes, publish them, and print the state of each."""
 
 import filecmp
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, unknown
-from ..config.results import drawn, stages
+from ..config.results import drawn
 from ..config.schema.sets import PUBLISHED
-from ..config.schema.stages import METHODS
-from ..records.files import FileError, inode, read_bytes, why_not_a_file, write_whole
+from ..records.files import FileError, read_bytes, why_not_a_file, write_whole
 from ..records.provenance import (
     MISSING,
-    REFUSED,
     BuildSpec,
     Freshness,
     failure,
@@ -68,16 +66,16 @@ def make(
     left_out = {path: reasons[s] for path in drawings if (s := PurePath(path).stem) in reasons}
     drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
     results = [*drawings.values(), *data]
-    specs = _specs_of(config, group, results)
-    inodes = {drawing: inode(drawing) for drawing in drawings.values()}  # before the run
-    status = running.make(Freshness(ROOT, specs), results, args) if results else 0
+    before = Freshness(ROOT, _specs_of(config, group, results))
+    status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
         notes = [f"{PurePath(path).stem}: {reason}" for path, reason in left_out.items()]
         print(*notes, sep="\n", end="\n" * bool(notes))
         return status
-    freshness = Freshness(ROOT, specs)
-    outdated = freshness.outdated(results)
-    refused = {path for path in outdated if freshness.refusal(path)}
+    old = before.outdated(results)
+    now = Freshness(ROOT, before.build_specs) if old or args.options else before
+    outdated = now.outdated(results)
+    refused = {path for path in outdated if now.refusal(path)}
     if refused and refused == outdated.keys():
         status = int(group in PUBLISHED)
     elif outdated:
@@ -88,8 +86,10 @@ def make(
     _delete([*(refused & {*drawings.values()}), *left_out])  # the present config has none
     rows = []
     for path, drawing in drawings.items():
-        state = _state(specs, drawing, outdated.get(drawing), inode(drawing) != inodes[drawing])
-        if path in unpublished:
+        state = "recomputed" if drawing in old else "current"
+        if drawing in outdated:
+            state = _why_not_made(now, drawing)
+        elif path in unpublished:
             state = f"not published: {unpublished[path]}"
         elif state == "current" and path in replaced:
             state = f"published again: {replaced[path]}"
@@ -97,9 +97,8 @@ def make(
             rows.append(_row(PUBLISHED.get(group), path, state))
     rows += [_row(None, path, reason) for path, reason in left_out.items()]
     if rows:
-        notes = [*_hidden(made.values())]
+        notes = [*_notes(now, made.values())]
         notes += [f"{path}: {outdated[path]}" for path in sorted(refused - {*drawings.values()})]
-        notes += _missed_impacts(config, group, {PurePath(path).stem for path in made.values()})
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
             notes += unlisted_files(ROOT, PUBLISHED[group], figures)
@@ -132,20 +131,23 @@ def _delete(drawings: Iterable[str]) -> None:
                 file.unlink(missing_ok=True)
 
 
-def _hidden(drawings: Iterable[str]) -> dict[str, None]:
-    """Return a line for each axis that hides something, as the records of the drawings say."""
-    outputs = {path: read_record(ROOT, record_path(path))["output"] for path in drawings}
-    lines = [(path, line) for path, output in outputs.items() for line in output.get("hidden", ())]
-    return dict.fromkeys(f"{PurePath(path).stem}: {line}" for path, line in lines)
+def _notes(freshness: Freshness, drawings: Iterable[str]) -> dict[str, None]:
+    """Return what the records behind drawings note: what axes hide, and missed impacts."""
+    notes = dict[str, None]()
+    for path in with_dependencies(freshness.build_specs, drawings):
+        output = read_record(ROOT, record_path(path))["output"]
+        lines = [*output.get("hidden", ()), *output.get("notes", ())]
+        notes |= dict.fromkeys(f"{freshness.build_specs[path].scene}: {line}" for line in lines)
+    return notes
 
 
-def _state(specs: Mapping[str, BuildSpec], drawing: str, reason: str | None, replaced: bool) -> str:
-    """Return the state of a drawing after a run; `reason` says why it is outdated, if it is."""
-    if reason is None:
-        return "recomputed" if replaced else "current"
-    if reason.startswith(REFUSED):
+def _why_not_made(freshness: Freshness, drawing: str) -> str:
+    """Return the state of a drawing that is outdated after a run."""
+    reason = str(freshness.reason(drawing))
+    if freshness.refusal(drawing):
         return reason
-    if failures := [*filter(None, map(failure, with_dependencies(specs, [drawing])))]:
+    behind = with_dependencies(freshness.build_specs, [drawing])
+    if failures := [*filter(None, map(failure, behind))]:
         return f"not made: {failures[0]}"
     return "not made" if reason == MISSING else f"not current: {reason}"
 
@@ -177,21 +179,3 @@ def _row(folder: str | None, path: str, state: str) -> FileRow:
         size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
         compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
     return path, size, (state, compared)
-
-
-def _missed_impacts(config: Config, variant: str, scenes: set[str]) -> Iterator[str]:
-    """Yield a line for each scene with a `method`: impacts that were missed, or what is exact."""
-    for scene, block in config.variants.get(variant, {}).items():
-        method = block.as_mapping().get("method", {}) if scene in scenes else {}
-        of_method = [stage for stage, fields in stages(block).items() if "method" in fields]
-        if of_part := method.keys() & METHODS.keys():
-            computed = ", ".join(of_method) or "no stage"
-            yield f"{scene}: {computed} by the method {', '.join(of_part)}; all else in doubles"
-        elif method:
-            from ..records.artifacts import load  # takes long to import
-
-            data = config.data_of(variant, scene)
-            counts = [load(ROOT / data[stage]).attrs for stage in of_method]
-            missed, impacts = (sum(c[n] for c in counts) for n in ("impacts_missed", "impacts"))
-            values = ", ".join(f"{key} {value:g}" for key, value in method.items())
-            yield f"{scene}: {missed:,} of {impacts:,} impacts fell through the floor ({values})"

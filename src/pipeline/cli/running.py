@@ -49,7 +49,6 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         return 0
     if words := disk_is_full(ROOT) or memory_is_short():
         raise UsageError(words)
-    _require_folders(outdated)
     python, options = [sys.executable, "-P", "-m"], [*OPTIONS, "--cores", args.cores]
     command = [*python, "snakemake", *options]
     command += ["--dry-run"] if args.dry_run else []
@@ -61,15 +60,6 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         return _run([*command, *_LOGGER, *args.options, "--", *paths], remote=True)
     options += [*_LOGGER, "--executor", "reproduce", "--", *outdated]
     return _run([*python, "pipeline.jobs.forked", *options], remote=False)
-
-
-def _require_folders(results: Iterable[str]) -> None:
-    """Raise UsageError if a file stands in the place of a folder in which snakemake writes."""
-    files = [ROOT / place(path) for path in results for place in (str, record_path, log_path)]
-    for folder in {ROOT / ".snakemake", *(folder for file in files for folder in file.parents)}:
-        if folder.exists() and not folder.is_dir():
-            name = folder.relative_to(ROOT)
-            raise UsageError(f"{name}: a file stands in a folder's place, move it away")
 
 
 def _run(command: list[str], remote: bool) -> int:

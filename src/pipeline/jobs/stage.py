@@ -27,13 +27,13 @@ def _progress(spec: BuildSpec) -> Callable[[float, str], None]:
     return progress
 
 
-def make(spec: BuildSpec, **known: Any) -> None:
+def make(spec: BuildSpec, **known: Any) -> dict[str, Any] | None:
     """Compute a dataset with the function that the specification names, and save it.
 
     The function also gets what is `known` already, which decides no value.
 
     `declaration.Stage` says how the function is called. With a `method` that scans, the ball's map
-    finds impacts by it, and the dataset says how many it missed.
+    finds impacts by it, and the dataset says how many it missed. Returns notes for the user.
     """
     block, function = spec.config, imported(spec.function)
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}} | known
@@ -48,12 +48,17 @@ def make(spec: BuildSpec, **known: Any) -> None:
         energies = {"energy": block["energy"]} if "energy" in block else {}
         dataset = function(*inputs, **fields, **energies)
         artifacts.save(dataset, spec.result, block, **(attributes | dataset.attrs))
-        return
+        return None
     method, ball = block.get("method", {}), Ball(**block["ball"])
     if "scan" in method:
         ball = Ball(ball.k, ball.g, map=ImpactMap((method["scan"], method["tolerance"])))
     dataset = function(ball, block["energy"], *inputs, **fields)
+    notes = [f"{spec.step} by the method {name}; all else in doubles" for name in method]
     if "scan" in method:
+        missed, total = f"{ball.map.missed:,}", f"{ball.map.impacts:,}"
+        values = ", ".join(f"{key} {value:g}" for key, value in method.items())
+        notes = [f"{missed} of {total} impacts fell through the floor ({values})"]
         dataset.attrs |= {"impacts": ball.map.impacts, "impacts_missed": ball.map.missed}
     attributes |= {"k": ball.k, "g": ball.g, "energy": float(block["energy"])}
     artifacts.save(dataset, spec.result, block, **attributes)
+    return {"notes": notes} if notes else None

@@ -163,10 +163,3 @@ def file_hash(path: _Path) -> str | None:
         return None
     except OSError as error:
         raise FileError(f"{path}: cannot be read: {error.strerror}") from None
-
-
-def inode(path: _Path) -> int | None:
-    """Return the inode of a file, or None without one. It changes if the file is replaced."""
-    with suppress(OSError):
-        return Path(path).stat().st_ino
-    return None

@@ -357,15 +357,17 @@ class Freshness:
 
     def _difference(self, path: str, record: dict[str, Any]) -> str | None:
         """Return the first reason why a record is not the one that this tree would write."""
-        here, before = self.here(path), record.get("function")
+        here, output = self.here(path), {"sha256": record["output"]["sha256"]}
         # What was made another way, to the same bytes, says which further sources that has.
         way = record["output"].get("way", {})
-        sources = here["sources"] | {file: self.syntax_hash(file) for file in way}
-        record = record | {"sources": record["sources"] | way}
-        layers = differing_layers(record, here | {"sources": sources})
-        if before != here["function"]:
-            layers.setdefault("source", f"function {before} -> {here['function']}")
-        return next((begin + layers[name] for name, begin in _MADE.items() if name in layers), None)
+        before = record | {"sources": record["sources"] | way, "output": output}
+        here["sources"] |= {file: self.syntax_hash(file) for file in way}
+        before = {key: before.get(key) for key in here}
+        if json.dumps(before, sort_keys=True) == json.dumps(here, sort_keys=True):  # 1 is not 1.0
+            return None
+        other = f"function {before['function']} -> {here['function']}"
+        layers = differing_layers(before, here) or {"source": other}
+        return next(begin + layers[name] for name, begin in _MADE.items() if name in layers)
 
     def here(self, path: str) -> dict[str, Any]:
         """Return the record that this tree would write of a result, for the file that is there."""
