@@ -4,6 +4,7 @@
 says.
 """
 
+import signal
 import sys
 import traceback
 from collections.abc import Mapping
@@ -11,19 +12,10 @@ from contextlib import suppress
 from importlib import import_module
 from multiprocessing.connection import Connection
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from ..records.files import memory_is_short, write_whole
 from ..records.provenance import BuildSpec, log_path, read_spec, recorded
-
-
-def _excepthook(
-    kind: type[BaseException], error: BaseException, trace: TracebackType | None
-) -> None:
-    """Print no traceback for Ctrl-C."""
-    if not issubclass(kind, KeyboardInterrupt):
-        sys.__excepthook__(kind, error, trace)
 
 
 def make(
@@ -54,7 +46,6 @@ def make(
 
 def make_and_answer(answer: "Connection[bool, bool]", *given: Any) -> None:
     """Make a result in this process, which ends afterwards, and send True once it is made."""
-    sys.excepthook = _excepthook
     try:
         make(*given)
     except SystemExit:
@@ -64,4 +55,5 @@ def make_and_answer(answer: "Connection[bool, bool]", *given: Any) -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C
     make(read_spec(sys.argv[1]))
