@@ -11,6 +11,7 @@ from contextlib import suppress
 
 import psutil
 import pytest
+from project import fresh_tree, of_scenes
 from runs import FIG3, contents, rows
 from slowly import slowly
 from verdicts import verified
@@ -74,6 +75,49 @@ def test_an_edit_and_a_missing_drawing_are_noticed_whatever_the_times(done, how)
     assert done.planned() == set()
     assert (done.path / missing).read_bytes() == before
     assert {file: file.stat().st_ino for file in others} == others
+
+
+@pytest.fixture
+def snakemake(tmp_path):
+    """Return a small tree, and a function that runs a plain snakemake and returns its rules."""
+    tree = fresh_tree(tmp_path / "tree", of_scenes("fig3"))
+
+    def run(*arguments):
+        result = tree.python("-m", "snakemake", "--cores", "2", *arguments)
+        assert result.returncode == 0, result.stderr
+        said = re.findall(r"^(?:local)?rule (\w+):", result.stdout + result.stderr, re.M)
+        return {*said} - {"all"}
+
+    return tree, run
+
+
+@pytest.mark.slow
+def test_a_plain_snakemake_makes_what_an_edit_outdates_and_nothing_else(snakemake):
+    tree, run = snakemake
+    results, whole = tree.path / "results", {"periodic", "motion", "draw_motion"}
+    assert run() == whole and run() == set()
+    tree.edit("fig3", duration=12)
+    assert run("-n") == whole - {"periodic"}
+    tree.edit("fig3", duration=16)
+    assert run("-n") == run() == set()  # the edit is undone
+    tree.edit("fig3", duration=12)
+    run("--touch")
+    assert run() == whole - {"periodic"}
+    shutil.copytree(results, tree.path / "old")
+    tree.edit("fig3", duration=16)
+    assert run() == whole - {"periodic"}  # undone after a run
+    for kept in (True, False):  # results of another commit, over the present .snakemake or without
+        shutil.rmtree(results)
+        shutil.copytree(tree.path / "old", results, copy_function=shutil.copy2)
+        assert run() == whole - {"periodic"}
+        if kept:
+            shutil.rmtree(tree.path / ".snakemake")
+        assert run("-n") == set()
+    assert run("--forceall") == whole
+    run("--delete-all-output")
+    assert not [*results.glob("paper/*.nc"), *results.glob("paper/provenance/*")]
+    assert run("--until", "periodic") == {"periodic"}
+    assert run() == whole - {"periodic"}
 
 
 @pytest.mark.slow

@@ -11,32 +11,27 @@ from project import ROOT, fresh_tree, of_scenes, shipped
 
 from pipeline.records.sources import BOOKKEEPING
 
-# Appended to jobs/job.py: when a result is made, write the names of the loaded files.
+# Put into jobs/job.py: when a result is made, write the names of the loaded files.
 NOTES = """
-
-class _Noting:
-    def __init__(self, result, answer):
-        self.result, self.answer = result, answer
-
-    def send(self, made):
-        import json, os
-
-        files = [getattr(module, "__file__", None) or "" for module in sys.modules.values()]
-        with open(os.path.join(os.environ["NOTES"], self.result.replace("/", " ")), "w") as file:
-            json.dump(files, file)
-        self.answer.send(made)
-
 _make = make
 
-def make(spec, answer, *known):
-    _make(spec, _Noting(spec.result, answer), *known)
-"""
+
+def make(spec, *given):
+    import json, os
+
+    _make(spec, *given)
+    files = [getattr(module, "__file__", None) or "" for module in sys.modules.values()]
+    with open(os.path.join(os.environ["NOTES"], spec.result.replace("/", " ")), "w") as file:
+        json.dump(files, file)
+
+
+if __name__"""
 
 
 def loaded(tree, folder, *targets):
     """Return {result: files of the tree that its job, in a Python of its own, had loaded}."""
-    with (tree.path / "src/pipeline/jobs/job.py").open("a") as making:
-        making.write(NOTES)
+    job = tree.path / "src/pipeline/jobs/job.py"
+    job.write_text(job.read_text().replace("if __name__", NOTES))
     notes = folder / "notes"
     notes.mkdir()
     result = tree.python("-m", "snakemake", "--cores", "2", *targets, NOTES=str(notes))
@@ -81,7 +76,7 @@ def test_a_job_loads_what_its_record_names(tmp_path):
     loaded_files = loaded(tree, tmp_path, *targets)
     assert len(loaded_files) >= 19
     assert dict(undeclared(tree, loaded_files)) == {}
-    assert all("src/pipeline/records/record.py" in files for files in loaded_files.values())
+    assert all("src/pipeline/records/provenance.py" in files for files in loaded_files.values())
 
 
 def test_comments_formatting_and_docstrings_outdate_nothing(done):
@@ -107,9 +102,9 @@ PLANTED = {
     "pipeline.jobs.job": ("pseudorigid: {spec", "planted: {spec"),
     "pipeline.jobs.forks": ("the job was killed", "planted"),
     "pipeline.loading": ("        note_loaded(path, data)\n", ""),
-    "pipeline.records.build_spec": ("class BuildSpec", "_P = 1\n\n\nclass BuildSpec"),
+    "pipeline.records.differences": ("number of entries", "planted"),
     "pipeline.records.files": (".part", ".unfinished"),
-    "pipeline.records.record": ('"python": platform', '"planted": platform'),
+    "pipeline.records.provenance": ('"python": platform', '"planted": platform'),
     "pipeline.records.sources": ("SCHEME = 1 ", "SCHEME = 99 "),
     "pseudorigid": ("has no attribute", "planted"),
 }
