@@ -1,4 +1,4 @@
-"""The part of the paper, Figures 2 to 8. Its rules are in workflow/rules/paper.smk."""
+"""The part of the paper, Figures 2 to 8. pipeline.renew writes workflow/rules/paper.smk from it."""
 
 from pipeline.declaration import Part, SceneSet, Stage
 

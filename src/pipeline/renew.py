@@ -43,7 +43,7 @@ def generated() -> dict[str, str]:
 
 
 def rules() -> str:
-    """Return the rules of the part that has the main set of scenes."""
+    """Return the text of the rules for the part that has the main set of scenes."""
     name, part = next((name, part) for name, part in parts().items() if MAIN in part.sets)
     found = [
         {"name": n, "function": stage.function, "stages": stage.inputs, "file": f"{n}_{{scene}}.nc"}

@@ -81,19 +81,11 @@ def test_orbits_are_counted():
 '''
 
 
-def with_rule(text):
-    """Add a rule like that of portraits, which are drawn from the same stage."""
-    rule = r"(?ms)^(?:use )?rule (?:\w+ as )?draw_portrait(?: with)?:\n.*?(?=\n\n\n|\Z)"
-    (found,) = re.findall(rule, text)
-    return f"{text}\n\n{found.replace('portrait', 'returns')}\n"
-
-
 # File of a step -> its text, from the one before.
 EDITS = {
     "src/paper/figures/NAME.py": lambda text: DRAWING,
     "src/paper/figures/reports.py": lambda text: text + REPORT,
     "src/paper/kinds.py": lambda text: text + KIND,
-    "workflow/rules/paper.smk": with_rule,
     "src/paper/presets.js": lambda text: text.replace("PRESETS, {\n", f"PRESETS, {{\n{PRESET}", 1),
     "src/paper/captions.toml": lambda text: text + CAPTION,
     "src/paper/examples.yaml": lambda text: text + EXAMPLE,
