@@ -11,7 +11,7 @@ from pipeline.cli.table import wrapped
 from pipeline.config import MAIN, Config
 from pipeline.records import artifacts
 from pipeline.records.files import write_whole
-from pipeline.records.names import suggestion
+from pipeline.spelling import suggestion
 from pipeline.records.sources import ROOT
 
 from . import ledger as claims

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
 from ..declaration import files, lacking
-from ..records.names import suggestion
+from ..spelling import suggestion
 
 if TYPE_CHECKING:  # it needs packages
     from ..config import Config

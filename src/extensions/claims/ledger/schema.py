@@ -15,7 +15,7 @@ from extensions.proofs.kinds import theorems
 from pipeline.config import ConfigError
 from pipeline.config.schema.stages import STAGES
 from pipeline.config.validation.mistakes import dotted
-from pipeline.records.names import suggestion
+from pipeline.spelling import suggestion
 
 from .lookup import derived
 from .outcomes import PROVED, Outcome, VerdictWord

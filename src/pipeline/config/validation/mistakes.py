@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
-from ...records.names import suggestion
+from ...spelling import suggestion
 from ..schema.fields import NAME, TAGS, TYPES_ALONE, Block
 
 Place = tuple[int | str, ...]  # keys and indices that lead to a value
