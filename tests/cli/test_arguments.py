@@ -10,7 +10,7 @@ from documents import complaint
 from project import run
 
 from pipeline.cli import arguments
-from pipeline.commands import all_commands
+from pipeline.command_list import all_commands
 from pipeline.config.schema.sets import SETS
 from pipeline.declaration import parts
 

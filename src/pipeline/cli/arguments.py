@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from ..commands import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
+from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
 from ..declaration import files, lacking
 from ..spelling import suggestion
 

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from ..commands import DEFAULT_COMMAND, all_commands, module_of
+from ..command_list import DEFAULT_COMMAND, all_commands, module_of
 from ..declaration import SourceError, imported
 from ..records.files import memory_is_short
 from . import arguments

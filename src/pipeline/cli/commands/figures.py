@@ -4,7 +4,7 @@ import os
 from contextlib import nullcontext
 from pathlib import PurePath
 
-from ...commands import DEFAULT_COMMAND, all_commands
+from ...command_list import DEFAULT_COMMAND, all_commands
 from ...config import MAIN, PUBLISHED
 from ...records.sources import ROOT
 from .. import figures, running

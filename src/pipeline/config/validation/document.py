@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import yaml
 from pydantic import create_model
 
-from ...commands import all_commands
+from ...command_list import all_commands
 from ...declaration import SRC, SourceError, files, imported, parts
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
