@@ -18,7 +18,7 @@ import pytest
 from project import SHIPPED, wait_for
 from runs import contents, rows
 
-from pipeline.cli import figures, running
+from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
 from pipeline.config import load
@@ -86,14 +86,14 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
         path.write_text("half")
         raise OSError(errno.EIO, "Input/output error")
 
-    monkeypatch.setattr(figures, "ROOT", tmp_path)
+    monkeypatch.setattr(publishing, "ROOT", tmp_path)
     with monkeypatch.context() as patch:
         patch.setattr(Path, "write_bytes", write_half)
-        problems, _ = figures._publish({"published.png": "drawing.png"})
+        problems, _ = publishing._publish({"published.png": "drawing.png"})
     assert problems == {"published.png": "cannot be written: Input/output error"}
     assert published.read_text() == "before"
     assert sorted(tmp_path.iterdir()) == [drawing, published]
-    assert figures._publish({"published.png": "drawing.png"})[0] == {}
+    assert publishing._publish({"published.png": "drawing.png"})[0] == {}
     assert published.read_text() == "after"
 
 

@@ -4,7 +4,7 @@ import os
 import shutil
 import sys
 
-from pipeline.cli import figures
+from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.packages import add_packages
 from pipeline.cli.running import INTERRUPTED
@@ -32,7 +32,7 @@ def run(args: Arguments) -> int:
         os.environ[ONLY_SET] = group
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
     sweeps = args.config.variants[group]
-    figures.require_known("sweep", args.sweep, list(sweeps))
+    publishing.require_known("sweep", args.sweep, list(sweeps))
     if not sweeps:
         raise UsageError("config.yaml: sweeps: empty")
     if args.slurm and args.gpu:
@@ -47,7 +47,7 @@ def run(args: Arguments) -> int:
         for n in sweeps
         if not args.sweep or {n, sweeps[n].as_mapping().get("over")} & {*args.sweep}
     ]
-    drawings = figures.drawings_of(args.config, group, names) if args.word == "atlas" else {}
+    drawings = publishing.drawings_of(args.config, group, names) if args.word == "atlas" else {}
     datasets = args.config.datasets
     data = [datasets.get((group, name, "sweep")) for name in names]  # None for verdicts
     if args.gpu and not any(data):
@@ -60,7 +60,7 @@ def run(args: Arguments) -> int:
         if args.gpu and not args.makes_nothing and not _computed(args, [*filter(None, data)]):
             return INTERRUPTED
         files = drawings | {path: path for path in data if path}
-        return figures.make(args.config, group, files, args)
+        return publishing.make(args.config, group, files, args)
 
 
 def _computed(args: Arguments, datasets: list[str]) -> bool:

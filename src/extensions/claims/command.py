@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 
-from pipeline.cli import figures
+from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.running import INTERRUPTED
 from pipeline.cli.session import UsageError, interruptible, locked
@@ -30,10 +30,10 @@ def run(args: Arguments) -> int:
     except UsageError as error:
         data, lacking = [], str(error)
     with locked():
-        files = figures.drawings_of(config, "claims")
+        files = publishing.drawings_of(config, "claims")
         if lacking and not files:
             raise UsageError(lacking)
-        status = figures.make(config, "claims", files, args, data)
+        status = publishing.make(config, "claims", files, args, data)
         if lacking and status != INTERRUPTED:
             print(f"\n{claims.FILE} stays as it is: {lacking}")
         if status or lacking or args.makes_nothing:

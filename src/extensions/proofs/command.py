@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
 
-from pipeline.cli import figures
+from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments, hint
 from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
 from pipeline.cli.table import print_lines, wrapped
@@ -31,8 +31,8 @@ def run(args: Arguments) -> int:
             raise CommandLineError(f"no theorem {name}{meant}")
     with locked():
         if args.pictures:
-            wanted = figures.drawings_of(args.config, "proofs")
-            return figures.make(args.config, "proofs", wanted, args)
+            wanted = publishing.drawings_of(args.config, "proofs")
+            return publishing.make(args.config, "proofs", wanted, args)
         if args.impacts:
             from .proved_impacts import prove_figures
 
@@ -58,7 +58,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
     results = [known[name] for name in names]
     for path in results if args.again else ():
         (ROOT / path).unlink(missing_ok=True)
-    status = figures.make(args.config, "theorems", {}, args, results)
+    status = publishing.make(args.config, "theorems", {}, args, results)
     if status or args.makes_nothing:
         return status
     for path in results:

@@ -16,7 +16,7 @@ from project import ROOT, SHIPPED
 from extensions.explorer import page as explorer
 from extensions.publication.commands import article, site
 from pipeline import config
-from pipeline.cli import figures
+from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import UsageError
 
@@ -47,7 +47,7 @@ def test_results_that_are_not_the_committed_ones_are_named_and_not_published(
     forge(moved, DATA)
     monkeypatch.setattr(command, "ROOT", moved.path)
     monkeypatch.setattr(command, "locked", nullcontext)
-    monkeypatch.setattr(figures, "make", lambda *_: 0)
+    monkeypatch.setattr(publishing, "make", lambda *_: 0)
     args = Arguments(config=config.load(moved.config), dry_run=False, options=[])
     name = command.__name__.rpartition(".")[2]
     with pytest.raises(UsageError, match=rf"^{name}: [^\n]*{DATA}[^\n]*$"):

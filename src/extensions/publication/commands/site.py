@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from pipeline.cli import figures
+from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.packages import add_packages
 from pipeline.cli.session import interruptible, locked, one_line
@@ -21,8 +21,8 @@ _LINKS = '<nav><a href="index.html">Site</a> · <a href="article.html">Article</
 def run(args: Arguments) -> int:
     """Make missing results, then the folder, whole or not at all."""
     with locked():
-        files = figures.drawings_of(args.config, MAIN)
-        status = figures.make(args.config, MAIN, files, args)
+        files = publishing.drawings_of(args.config, MAIN)
+        status = publishing.make(args.config, MAIN, files, args)
         if status or args.makes_nothing:
             return status
         with one_line("site: "):

@@ -1,6 +1,6 @@
 """./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
 
-from pipeline.cli import figures, running
+from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.session import CommandLineError, interruptible, locked, one_line
 from pipeline.config import MAIN
@@ -12,14 +12,14 @@ def run(args: Arguments) -> int:
     config, status = args.config, 0
     known = [MAIN, *config.own_variants]
     names = [name for name in (args.a, args.b) if name is not None]
-    figures.require_known("variant", names, known)
+    publishing.require_known("variant", names, known)
     if len(set(names)) < 2:
         raise CommandLineError(f"compare needs two names of {', '.join(known)}")
     scenes = args.figure or list(config.scenes)
     with locked():
         for name in names:
-            drawings = figures.drawings_of(config, name, scenes)
-            made = figures.make(config, name, drawings, args, brief=True)
+            drawings = publishing.drawings_of(config, name, scenes)
+            made = publishing.make(config, name, drawings, args, brief=True)
             status = made or status
             if status == running.INTERRUPTED:
                 return status

@@ -7,7 +7,7 @@ from pathlib import PurePath
 from ...command_list import DEFAULT_COMMAND, all_commands
 from ...config import MAIN, PUBLISHED
 from ...records.sources import ROOT
-from .. import figures, running
+from .. import publishing, running
 from ..arguments import Arguments, hint
 from ..session import CommandLineError, locked
 
@@ -18,23 +18,23 @@ def run(args: Arguments) -> int:
     group, status = command.scenes, 0
     data: list[str] = []
     if group:
-        targets = {group: figures.drawings_of(config, group)}
+        targets = {group: publishing.drawings_of(config, group)}
         data = config.data_only(group)
     else:
         targets = _variant(args) if args.word else _named(args)
     # Plain -n reads only, also where nothing can be written.
     with nullcontext() if args.dry_run and not args.options else locked():
         for name, drawings in targets.items():
-            status = figures.make(config, name, drawings, args, data) or status
+            status = publishing.make(config, name, drawings, args, data) or status
             if status == running.INTERRUPTED:
                 break
     return status
 
 
-def _named(args: Arguments) -> dict[str, figures.Drawings]:
+def _named(args: Arguments) -> dict[str, publishing.Drawings]:
     """Select every figure of the paper, or the named figures and files, by sets of scenes."""
-    published = {group: figures.drawings_of(args.config, group) for group in PUBLISHED}
-    targets: dict[str, figures.Drawings] = {}
+    published = {group: publishing.drawings_of(args.config, group) for group in PUBLISHED}
+    targets: dict[str, publishing.Drawings] = {}
     other_results: list[str] = []
     for name in args.figure or ["all"]:
         # A path is relative to the root or to the user's folder.
@@ -75,11 +75,11 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     raise CommandLineError(f"no command or figure {name}{meant}")
 
 
-def _variant(args: Arguments) -> dict[str, figures.Drawings]:
+def _variant(args: Arguments) -> dict[str, publishing.Drawings]:
     """Select all figures of a variant, or the named ones."""
     variants = args.config.own_variants
     if args.variant is None:
         names = ", ".join(variants) or "none"
         raise CommandLineError(f"variant needs a name: config.yaml has {names}")
-    figures.require_known("variant", [args.variant], variants)
-    return {args.variant: figures.drawings_of(args.config, args.variant, args.figure)}
+    publishing.require_known("variant", [args.variant], variants)
+    return {args.variant: publishing.drawings_of(args.config, args.variant, args.figure)}
