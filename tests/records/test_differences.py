@@ -53,7 +53,7 @@ OTHERS = [
     ),
     (
         {"variables": {"x": VARIABLE | {"sha256": "1", "blocks": "a x c"}}},
-        "a.nc: variable x differs from block 1 on (value 1,024 of 2,050)",
+        "a.nc: variable x differs from value 1,024 of 2,050 on",
     ),
     ({"error": "a.nc: damaged"}, "a.nc: damaged"),
 ]

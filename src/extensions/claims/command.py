@@ -11,8 +11,8 @@ from pipeline.cli.table import wrapped
 from pipeline.config import MAIN, Config
 from pipeline.records import artifacts
 from pipeline.records.files import write_whole
-from pipeline.spelling import suggestion
 from pipeline.records.sources import ROOT
+from pipeline.spelling import suggestion
 
 from . import ledger as claims
 from .ledger.schema import Verdict

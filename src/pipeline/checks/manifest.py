@@ -19,7 +19,7 @@ from ..records.artifacts import (
     load,
     plain_attributes,
 )
-from ..records.differences import BLOCK
+from ..records.differences import CHUNK
 from ..records.files import file_hash
 from ..records.pictures import PictureError, drawing_hash
 from ..records.provenance import public_record, versions
@@ -33,7 +33,7 @@ from .published_sets import (
 )
 from .quantities import facts
 
-_SHORT_DIGITS = 16  # hex digits of the hash of a block or an attribute
+_SHORT_DIGITS = 16  # hex digits of the hash of a chunk or an attribute
 
 # `environment` (package -> version), `texts` and `sources` (path -> hash), and `results` (path ->
 # entry). The `sources` of an entry are files, or the result that has the same ones.
@@ -41,22 +41,22 @@ Manifest = dict[str, Any]
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Describe a dataset by hashes of its attributes, variables and blocks of their values."""
+    """Describe a dataset by hashes of its attributes, variables and chunks of their values."""
     variables = {}
     for name, variable in dataset.variables.items():
         dtype, values = canonical_values(variable)
-        slices = [values[start : start + BLOCK] for start in range(0, len(values), BLOCK)]
-        blocks = [
-            json.dumps(block).encode() if isinstance(block, list) else block.tobytes()
-            for block in slices
+        slices = [values[start : start + CHUNK] for start in range(0, len(values), CHUNK)]
+        chunks = [
+            json.dumps(each).encode() if isinstance(each, list) else each.tobytes()
+            for each in slices
         ]
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
             "dtype": dtype,
             "attributes": _attribute_hashes(variable),
-            "sha256": hashlib.sha256(b"".join(blocks)).hexdigest(),
-            "blocks": " ".join(_short_hash(block) for block in blocks),
+            "sha256": hashlib.sha256(b"".join(chunks)).hexdigest(),
+            "blocks": " ".join(_short_hash(chunk) for chunk in chunks),
         }
     return {"attributes": _attribute_hashes(dataset), "variables": variables}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 DAMAGED = "changed after it was made"
-BLOCK = 1024  # values of a dataset that are hashed together, so that a difference can be located
+CHUNK = 1024  # values of a dataset that are hashed together, so that a difference can be located
 
 
 def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
@@ -114,9 +114,9 @@ def _differing_variable(old: Mapping[str, Any] | None, new: Mapping[str, Any] | 
     if old.get("sha256") == new["sha256"]:
         return None
     pairs = zip(str(old.get("blocks")).split(), new["blocks"].split(), strict=False)
-    block = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
-    first, size = block * BLOCK, math.prod(new["shape"])
-    return f" differs from block {block} on (value {first:,} of {size:,})"
+    chunk = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
+    first, size = chunk * CHUNK, math.prod(new["shape"])
+    return f" differs from value {first:,} of {size:,} on"
 
 
 def _differing_output(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, str]:

@@ -108,7 +108,7 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
 @pytest.mark.parametrize(
     ("path", "like", "wrong", "words"),
     [
-        (DATA, None, {"fig3.png", "fig3.svg"}, "data: {}: variable strain differs from block 0"),
+        (DATA, None, {"fig3.png", "fig3.svg"}, "data: {}: variable strain differs from value 0 "),
         (DRAWING, "paper_figures/fig4.png", {"fig3.png"}, "drawing: {}: "),
     ],
 )
