@@ -28,7 +28,7 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.method import Scan
-from pipeline.config.schema.scene import CrossFieldError, Scene, entries, exact
+from pipeline.config.schema.scene import CrossFieldError, Scene, as_decimal, entries
 from pseudorigid.figures.axes.direction import disproportion
 from pseudorigid.kernel.closed_forms import fixed_point, twice_energy_above_rest
 
@@ -280,17 +280,17 @@ def _start_errors(scene: Scene, start: Point, place: tuple[str, int]) -> Iterato
     if (start.xdot is None) == (start.y is None):
         yield place, start.as_mapping(), "a point {x, xdot} or {x, y}"
         return
-    k, g, energy = exact(scene.ball.k), exact(scene.ball.g), exact(scene.energy)
-    x = exact(start.x)
+    k, g, energy = as_decimal(scene.ball.k), as_decimal(scene.ball.g), as_decimal(scene.energy)
+    x = as_decimal(start.x)
     twice_kinetic_energy = 2 * energy + 2 * g * x - k * x * x
     # Nearer to the rim than this, rounding decides whether the ball leaves the floor.
     margin = Fraction(1, 10**12) * twice_energy_above_rest(k, g, energy)
     if start.y is not None:
-        y = exact(start.y)
+        y = as_decimal(start.y)
         inside = (1 + k) * twice_kinetic_energy - y * y > margin
         condition = "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"
     else:
-        v = exact(start.xdot)
+        v = as_decimal(start.xdot)
         square = twice_kinetic_energy - v * v  # k udot^2
         inside = square > margin and (v >= 0 or square - k * v * v > margin)
         condition = "xdot^2 < 2E + 2gx - kx^2 and xdot + udot > 0"

@@ -132,8 +132,8 @@ class Part(NamedTuple):
     # is given, this module runs the command.
     options: Mapping[str, tuple[str, dict[str, Any], str]] = {}
     settings: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
-    methods: Mapping[str, str] = {}  # key of a scene's `method` -> the class of its block
-    exact: Mapping[str, Mapping[str, str]] = {}  # method -> stage -> the function that computes it
+    # Key of a scene's `method` -> the class of its block, and stage -> function that computes it.
+    methods: Mapping[str, tuple[str, Mapping[str, str]]] = {}
     reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
     benchmark: str = ""  # a module with rows of the benchmark
     folders: tuple[str, ...] = ()  # in results/, of its commands; no variant has such a name

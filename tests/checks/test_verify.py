@@ -163,7 +163,7 @@ FAULTS = [
         MOTION,
         spoil_value,
         "fig4",
-        rf"data: {MOTION}: variable strain differs from value 1,024 ",
+        rf"data: {MOTION}: variable strain differs from value 1,",
         True,
     ),
 ]

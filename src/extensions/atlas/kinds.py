@@ -18,7 +18,7 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
-from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, exact
+from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, as_decimal
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 # Bounds of a sweep.
@@ -50,7 +50,7 @@ class Span(Block):
         """
         steps = self.count - 1
         if self.spacing == "even":
-            first, last = exact(self.from_), exact(self.to)
+            first, last = as_decimal(self.from_), as_decimal(self.to)
             values = [first + (last - first) * i / steps for i in range(self.count)]
             twelve = Context(prec=12)
             return [
@@ -159,8 +159,8 @@ def _energy_errors(
     first: float, last: float, k: list[float], g: float | None
 ) -> Iterator[CrossFieldError]:
     """Yield an error for the first or last energy, or for g, if a ball could rest or flatten."""
-    lowest, _ = energy_bounds(exact(k[-1]), 1)
-    if not exact(first) > lowest:
+    lowest, _ = energy_bounds(as_decimal(k[-1]), 1)
+    if not as_decimal(first) > lowest:
         words = f"E/g^2 above -1/(2k) = {float(lowest)}, where a ball with k = {k[-1]} is at rest"
         yield ("energy",), first, words
     if not last <= HIGHEST_ENERGY:
@@ -168,7 +168,7 @@ def _energy_errors(
     elif g is not None and not g < k[0]:
         yield ("g",), g, f"0 < g < k = {k[0]}"
     elif g is not None:
-        highest = energy_bounds(exact(k[0]), exact(g))[1] / exact(g) ** 2
-        if not exact(last) < highest:
+        highest = energy_bounds(as_decimal(k[0]), as_decimal(g))[1] / as_decimal(g) ** 2
+        if not as_decimal(last) < highest:
             words = f"E/g^2 below (k/2 - g)/g^2 = {float(highest)}, where the ball could flatten"
             yield ("energy",), last, words

@@ -7,7 +7,7 @@ from annotated_types import Predicate
 
 from extensions.atlas.kinds import Atlas
 from pipeline.config.schema.fields import Name, Range, allowed, distinct, whole
-from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, exact
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, as_decimal
 
 MOST_CELLS = 2_000  # of the regular share
 
@@ -42,12 +42,12 @@ class Families(Scene):
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the section exists over the whole span of k, and the number of values."""
         yield from super().cross_field_errors()
-        g, energy = exact(self.ball.g), exact(self.energy)
-        low, high = (exact(value) for value in self.span)
+        g, energy = as_decimal(self.ball.g), as_decimal(self.energy)
+        low, high = (as_decimal(value) for value in self.span)
         sound = low > 0 and high <= 1 and g * g + 2 * high * energy > 0
         if self.parameter == "k" and not sound:
             yield ("span",), self.span, "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
-        step = exact(self.step)
+        step = as_decimal(self.step)
         if high // step <= -(-low // step):
             yield ("step",), self.step, "one with two multiples or more in the span"
         if (high - low) / step > MOST_CELLS:

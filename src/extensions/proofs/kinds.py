@@ -19,13 +19,13 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
-from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, exact
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, as_decimal
 from pseudorigid.dynamics import paper
 
 from .search.rotation_numbers import quotients_near
 
 # k and E/g^2 of the theorems about graphs.
-GRAPHS = (exact(0.2), exact(3.125)), (exact(0.2), exact(6.25))
+GRAPHS = (as_decimal(0.2), as_decimal(3.125)), (as_decimal(0.2), as_decimal(6.25))
 
 
 class Horseshoe(OfBranches):
@@ -132,7 +132,7 @@ class Graph(OfOrbits):
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that there is a theorem about a graph."""
         yield from super().cross_field_errors()
-        (k, g), energy = (exact(self.ball.k), exact(self.ball.g)), exact(self.energy)
+        (k, g), energy = (as_decimal(self.ball.k), as_decimal(self.ball.g)), as_decimal(self.energy)
         if (k, energy / g**2) not in GRAPHS:
             here = ", ".join(str(float(ratio * g**2)) for _, ratio in GRAPHS)
             words = f"a theorem's energy: with k = 0.2 and this g, one of {here}"

@@ -3,6 +3,7 @@
 from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage, names, switch
 
 CERTIFICATES = "src/extensions/proofs/certificates"
+_TRUE_ORBITS = "extensions.proofs.true_orbits.orbit.true_scene_orbits"
 _SCENES = "extensions.proofs.theorems.scenes"
 PART = Part(
     needs=("paper",),
@@ -41,8 +42,7 @@ PART = Part(
         ),
     },
     settings={"prove": "extensions.proofs.settings.Prove"},
-    methods={"exact": "extensions.proofs.settings.Exact"},
-    exact={"exact": {"orbits": "extensions.proofs.true_orbits.orbit.true_scene_orbits"}},
+    methods={"exact": ("extensions.proofs.settings.Exact", {"orbits": _TRUE_ORBITS})},
     reads={"src/extensions/proofs/theorems/statements.py": f"{CERTIFICATES}/*.toml"},
     seconds={
         "results/theorems/theorem_entropy.nc": 16,

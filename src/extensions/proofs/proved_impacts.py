@@ -12,7 +12,7 @@ import xarray as xr
 from flint import arb
 
 from pipeline.config import MAIN, Config
-from pipeline.config.results import drawn, stages
+from pipeline.config.results import drawn, stage_parameters
 from pipeline.config.schema.scene import Picture
 from pipeline.records.artifacts import load
 from pipeline.records.provenance import Freshness
@@ -135,7 +135,7 @@ def _impacts_behind(
     scene: Picture, data: Callable[[str], xr.Dataset], sample: int
 ) -> Iterator[tuple[str, Impacts]]:
     """Yield a name and impacts for each stage of a scene, and for each orbit of exponents."""
-    block, used = scene.as_mapping(), stages(scene).keys()
+    block, used = scene.as_mapping(), stage_parameters(scene).keys()
     ball, energy = Ball(**block["ball"]), block["energy"]
     if {"orbits", "manifolds"} <= used:
         sample = max(1, sample // 2)  # for each of the two

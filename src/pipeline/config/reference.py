@@ -76,7 +76,8 @@ def fields(part: str) -> str:
     shipped: Any = with_shipped({})
     scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
-    models = {key: imported(of) for key, of in {**declared.settings, **declared.methods}.items()}
+    methods = {key: place for key, (place, _) in declared.methods.items()}
+    models = {key: imported(of) for key, of in {**declared.settings, **methods}.items()}
     models |= {"every scene": Scene, "a variant": Variant}
     models |= {name: kind for name, kind in KINDS.items() if kind.__module__.split(".")[-2] == part}
     for title, model in models.items():

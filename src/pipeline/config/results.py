@@ -56,7 +56,7 @@ class Config:
     def data_of(self, variant: str, scene: str) -> dict[str, str]:
         """Map each stage of a scene to the path of its dataset."""
         block = self.variants[variant][scene]
-        return {stage: self.datasets[variant, scene, stage] for stage in stages(block)}
+        return {stage: self.datasets[variant, scene, stage] for stage in stage_parameters(block)}
 
     def build_specs(self, names: Iterable[str] | None = None) -> dict[str, BuildSpec]:
         """Specify each result of all sets and variants, or of some; inputs come first.
@@ -73,7 +73,7 @@ class Config:
     def _specs_of(self, variant: str, name: str) -> Iterator[BuildSpec]:
         """Yield the specifications of a scene's datasets and drawings."""
         scene, data = self.variants[variant][name], self.data_of(variant, name)
-        for stage, parameters in stages(scene).items():
+        for stage, parameters in stage_parameters(scene).items():
             path, declared, step, block = data[stage], STAGES[stage], stage, parameters
             label, inputs = _label(path, name), [data[used] for used in declared.inputs]
             if declared.main:
@@ -118,7 +118,7 @@ class Config:
         return [path for name in scenes for path in self.data_of(variant, name).values()]
 
 
-def stages(scene: Picture) -> dict[str, YamlMapping]:
+def stage_parameters(scene: Picture) -> dict[str, YamlMapping]:
     """Map each stage of a scene to the fields of the scene that decide its data."""
     parameters = {}
     for name in upstream(scene.stages):
@@ -154,8 +154,8 @@ def dataset_paths(variants: Variants) -> Datasets:
     for variant, scenes in variants.items():
         for scene, block in scenes.items():
             over = getattr(block, "over", None)
-            below = stages(scenes[over]) if over else {}
-            for stage, parameters in stages(block).items():
+            below = stage_parameters(scenes[over]) if over else {}
+            for stage, parameters in stage_parameters(block).items():
                 used = [paths[variant, scene, name] for name in STAGES[stage].inputs]
                 owner = over if over and stage in below else scene
                 name = f"{stage}_{owner}" if parameters else stage

@@ -10,7 +10,7 @@ from pathlib import Path
 import xarray as xr
 
 from pipeline.config import Config
-from pipeline.config.results import drawing, drawn, stages
+from pipeline.config.results import drawing, drawn, stage_parameters
 from pipeline.records.artifacts import load
 from pipeline.records.differences import brief, differing_keys
 from pipeline.records.pictures import pixels
@@ -53,7 +53,7 @@ class _Comparison:
             keys = [f"{k}: {brief(a)} | {brief(b)}" for k, a, b in differing_keys(before, after)]
             yield from keys or ["the same config"]
         yield from (f"{name}: {state}" for name, state in states.items() if state != CURRENT)
-        for stage in stages(blocks[0]) if in_both else ():
+        for stage in stage_parameters(blocks[0]) if in_both else ():
             results = [self.config.datasets[name, scene, stage] for name in self.names]
             if all(self.freshness.state(result) == CURRENT for result in results):
                 first, second = self._datasets(scene, stage)

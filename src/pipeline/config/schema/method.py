@@ -25,7 +25,7 @@ class Scan(Block):
 
 # Key that only a method of a part has -> the class of its block.
 _BY_KEY: dict[str, type[Block]] = {
-    key: imported(place) for each in parts().values() for key, place in each.methods.items()
+    key: imported(place) for each in parts().values() for key, (place, _) in each.methods.items()
 }
 METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
 

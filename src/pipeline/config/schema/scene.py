@@ -93,7 +93,7 @@ class Scene(Picture):
         yield from super().cross_field_errors()
 
 
-def exact(value: float) -> Fraction:
+def as_decimal(value: float) -> Fraction:
     """Return a number as the decimal that was written. As floats, 0.2 / 2 - 0.04 exceeds 0.06."""
     return Fraction(str(value))
 
@@ -110,16 +110,16 @@ def entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...]
 
 def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
     """Yield energies without motion, with flights too long, or at which the ball could flatten."""
-    k, g = exact(scene.ball.k), exact(scene.ball.g)
+    k, g = as_decimal(scene.ball.k), as_decimal(scene.ball.g)
     lowest, highest = energy_bounds(k, g)
     long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
     names = ["energy", "energies"] + ["span"] * scene.along_energy()
     for place, energy in entries(scene, *names):
-        if not exact(energy) > lowest:
+        if not as_decimal(energy) > lowest:
             bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
             yield place, energy, f"a number above {bound}"
-        elif not exact(energy) < highest:
+        elif not as_decimal(energy) < highest:
             bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
             yield place, energy, f"a number below {bound}"
-        elif not exact(energy) <= long:
+        elif not as_decimal(energy) <= long:
             yield place, energy, f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"

@@ -10,7 +10,7 @@ for _part in parts().values():
     STAGES |= _part.stages
 # method of a part -> stage -> the function that computes it
 METHODS = {
-    method: functions for part in parts().values() for method, functions in part.exact.items()
+    key: functions for part in parts().values() for key, (_, functions) in part.methods.items()
 }
 
 

@@ -15,7 +15,7 @@ from pydantic import create_model
 from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.scene import CompletionError, Picture, Scene, exact
+from ..schema.scene import CompletionError, Picture, Scene, as_decimal
 from ..schema.sets import SETS
 from ..schema.variant import Variant
 from .mistakes import Mistake, Place, refusal, unknown, validate
@@ -184,4 +184,4 @@ def _times(values: Any, *factors: float) -> Any:
     if isinstance(values, Point):
         scaled = {key: _times(value, *factors) for key, value in values.as_mapping().items()}
         return values.model_copy(update=scaled)
-    return float(math.prod(map(exact, (values, *factors))))
+    return float(math.prod(map(as_decimal, (values, *factors))))
