@@ -13,7 +13,7 @@ import psutil
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from pipeline.cli.session import RUN
+from pipeline.cli.running import RUN
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import disk_is_full, memory_is_short
 from pipeline.records.provenance import failure, read_spec, spec_path

@@ -31,8 +31,8 @@ PACKAGES_OF_PARTS = {
 LAYERS = {
     "pseudorigid": ("verified", "figures", "dynamics", "kernel"),
     "pipeline": (
-        *("cli", "renew", "jobs", "checks", "config", "commands"),
-        *("records", "loading", "declaration"),
+        *("cli", "renew", "jobs", "checks", "config", "command_list"),
+        *("records", "loading", "declaration", "spelling"),
     ),
 }
 LEVEL = {f"{package}.{part}": i for package in LAYERS for i, part in enumerate(LAYERS[package])}

@@ -20,7 +20,7 @@ from runs import contents, rows
 
 from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 from pipeline.config import load
 from pipeline.records.provenance import Freshness
 
@@ -166,10 +166,10 @@ def test_a_signal_to_the_run_alone_ends_its_jobs(done):
 
 
 def test_two_runs_do_not_meet(tree):
-    session = tree.path / "src/pipeline/cli/session.py"
-    text = session.read_text()
-    session.write_text(text.replace("LOCK_SECONDS = 5.0", "LOCK_SECONDS = 0.5"))
-    assert session.read_text() != text
+    lock = tree.path / "src/pipeline/cli/lock.py"
+    text = lock.read_text()
+    lock.write_text(text.replace("LOCK_SECONDS = 5.0", "LOCK_SECONDS = 0.5"))
+    assert lock.read_text() != text
     with (tree.path / ".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         result = tree.run()

@@ -6,16 +6,10 @@ import sys
 
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.errors import CommandLineError, UsageError, one_line, print_error
+from pipeline.cli.lock import locked
 from pipeline.cli.packages import add_packages
-from pipeline.cli.running import INTERRUPTED
-from pipeline.cli.session import (
-    CommandLineError,
-    UsageError,
-    interruptible,
-    locked,
-    one_line,
-    print_error,
-)
+from pipeline.cli.running import INTERRUPTED, interruptible
 from pipeline.config.schema.sets import SETS
 from pipeline.declaration import ONLY_SET
 from pipeline.records.sources import ROOT

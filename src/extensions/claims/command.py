@@ -5,8 +5,9 @@ from collections.abc import Sequence
 
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.running import INTERRUPTED
-from pipeline.cli.session import UsageError, interruptible, locked
+from pipeline.cli.errors import UsageError
+from pipeline.cli.lock import locked
+from pipeline.cli.running import INTERRUPTED, interruptible
 from pipeline.cli.table import wrapped
 from pipeline.config import MAIN, Config
 from pipeline.records import artifacts

@@ -4,7 +4,8 @@ import os
 import webbrowser
 
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import locked, one_line
+from pipeline.cli.errors import one_line
+from pipeline.cli.lock import locked
 from pipeline.records.files import write_whole
 from pipeline.records.sources import ROOT
 

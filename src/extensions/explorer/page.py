@@ -18,8 +18,8 @@ from typing import Any
 
 from extensions.processors.build import CompiledFile
 from pipeline import config
+from pipeline.cli.errors import UsageError
 from pipeline.cli.packages import add_packages
-from pipeline.cli.session import UsageError
 from pipeline.config.schema.kinds import KINDS
 from pipeline.declaration import RENEW
 from pipeline.records.files import read_text

@@ -6,7 +6,9 @@ from functools import partial
 
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments, hint
-from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
+from pipeline.cli.errors import CommandLineError, UsageError, one_line
+from pipeline.cli.lock import locked
+from pipeline.cli.running import interruptible
 from pipeline.cli.table import print_lines, wrapped
 from pipeline.jobs.heartbeat import Heartbeat
 from pipeline.records.files import replacing

@@ -40,7 +40,8 @@ def _run(words: list[str]) -> int:
     from ..records.files import FileError
     from ..records.provenance import ChangedError
     from ..records.sources import ROOT
-    from .session import UsageError, print_error, set_environment
+    from .errors import UsageError, print_error
+    from .running import set_environment
 
     try:
         args.start = Path.cwd()

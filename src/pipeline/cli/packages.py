@@ -19,7 +19,9 @@ from pathlib import Path
 from ..records.files import FileError, read_yaml, write_whole
 from ..records.sources import ROOT
 from .arguments import read
-from .session import UsageError, interruptible, locked, one_line, print_error
+from .errors import UsageError, one_line, print_error
+from .lock import locked
+from .running import interruptible
 
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")

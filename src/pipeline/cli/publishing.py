@@ -21,7 +21,7 @@ from ..records.provenance import (
 from ..records.sources import ROOT
 from . import running
 from .arguments import Arguments
-from .session import CommandLineError, print_error
+from .errors import CommandLineError, print_error
 from .table import FileRow, print_files
 
 Drawings = dict[str, str]  # path where users find a figure -> path of its drawing in results

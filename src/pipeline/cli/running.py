@@ -1,10 +1,13 @@
-"""Run snakemake on the outdated results."""
+"""Run snakemake on the outdated results, in an environment of its own, until a signal comes."""
 
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
 from typing import Any
 
 from ..records.differences import DAMAGED
@@ -12,9 +15,10 @@ from ..records.files import disk_is_full, memory_is_short, why_not_a_file
 from ..records.provenance import Freshness, log_path, record_path, with_dependencies
 from ..records.sources import ROOT
 from .arguments import Arguments
-from .session import RUN, UsageError, interruptible, print_error
+from .errors import UsageError, print_error
 
 INTERRUPTED = 130
+RUN = "PSEUDORIGID_RUN"  # a variable of runs that end with this process
 # Reasons that are printed when a result is made again, because no edit explains them.
 _REPORTED = ("its record", "no record", DAMAGED)
 # The options of profiles/default; snakemake prints a line if it reads them there. --nolock: the
@@ -25,6 +29,7 @@ OPTIONS = (
     *("--scheduler", "greedy"),
 )
 
+_NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
 _LOGGER = ("--logger", "reproduce")
 
 
@@ -97,3 +102,57 @@ def _wait(command: list[str], remote: bool) -> int:
                 child.send_signal(signal.SIGINT)
                 child.wait()
             raise
+
+
+def _end_jobs() -> None:
+    """Kill every process that this one started; results are written whole or not at all."""
+    import psutil
+
+    for process in psutil.Process().children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            process.kill()
+
+
+@contextmanager
+def interruptible(end: bool = True) -> Iterator[list[int]]:
+    """Raise KeyboardInterrupt in the body on Ctrl-C, SIGTERM or SIGHUP, and end the jobs.
+
+    Jobs end at once, or without `end` after the body. Yields a list that gets the signal's number.
+    """
+    caught: list[int] = []
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # which nohup sets
+        numbers.append(signal.SIGHUP)
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        caught.append(number)
+        warnings.simplefilter("ignore")  # multiprocessing warns that its processes were killed
+        for each in numbers:
+            signal.signal(each, signal.SIG_IGN)
+        if end:
+            _end_jobs()
+        raise KeyboardInterrupt
+
+    before = {number: signal.signal(number, stop) for number in numbers}
+    try:
+        yield caught
+    finally:
+        if caught:
+            _end_jobs()  # also jobs that have started since
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def set_environment() -> None:
+    """Select this tree's packages and caches, and drop settings of snakemake and numba.
+
+    Settings stay that say whether numba compiles, for which processor, and where it keeps the code.
+    """
+    caches = ROOT / ".venv" / "cache"
+    for name in [name for name in os.environ if name.startswith(("SNAKEMAKE_", "NUMBA_"))]:
+        if name not in _NUMBA_SETTINGS:
+            del os.environ[name]
+    os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
+    os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")
+    for name in ("MPLBACKEND", RUN):  # no window is opened
+        os.environ.pop(name, None)

@@ -11,7 +11,7 @@ from project import fresh_tree, of_scenes, wait_for
 from extensions.atlas import cell, command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 from pipeline.records.artifacts import load
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}

@@ -10,7 +10,7 @@ from project import fresh_tree, of_scenes, shipped
 
 from extensions.claims import command
 from pipeline import config
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 
 MINE = {"mine": yaml.safe_load(example("clusters"))}
 

@@ -8,7 +8,7 @@ from project import fresh_tree, of_scenes
 from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
-from pipeline.cli.session import CommandLineError, UsageError
+from pipeline.cli.errors import CommandLineError, UsageError
 from pipeline.records import artifacts
 from pseudorigid.verified.flight import NotProvedError
 

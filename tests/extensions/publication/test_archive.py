@@ -15,7 +15,7 @@ from extensions.publication.archive import EXPLORER
 from extensions.publication.commands import against as command
 from pipeline import config
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 from pipeline.records.files import FileError
 
 FILE = "results/archive/pseudorigid.tar"

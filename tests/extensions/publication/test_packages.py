@@ -14,7 +14,7 @@ from extensions.publication import archive
 from extensions.publication.commands.archive import download, requirements_for
 from pipeline import config
 from pipeline.cli import packages
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 
 PYTHON = ".".join(platform.python_version_tuple()[:2])
 

@@ -18,7 +18,7 @@ from extensions.publication.commands import article, site
 from pipeline import config
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import UsageError
+from pipeline.cli.errors import UsageError
 
 BESIDE = ("explorer.html", "article.html", "article.pdf")  # of other writers than Sphinx
 

@@ -3,7 +3,7 @@
 import os
 
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import CommandLineError, one_line
+from pipeline.cli.errors import CommandLineError, one_line
 from pipeline.records.sources import ROOT
 
 from .. import archive

@@ -12,8 +12,10 @@ from pathlib import Path
 from packaging.markers import Marker
 
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.errors import CommandLineError, UsageError, one_line
+from pipeline.cli.lock import locked
 from pipeline.cli.packages import HASH, logical_lines, pip_environment, pip_settings
-from pipeline.cli.session import CommandLineError, UsageError, interruptible, locked, one_line
+from pipeline.cli.running import interruptible
 from pipeline.records.files import file_hash
 from pipeline.records.sources import ROOT
 

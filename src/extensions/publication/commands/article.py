@@ -1,8 +1,10 @@
 """./reproduce article: set the replication article from the results."""
 
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.errors import one_line
+from pipeline.cli.lock import locked
 from pipeline.cli.packages import add_packages
-from pipeline.cli.session import interruptible, locked, one_line
+from pipeline.cli.running import interruptible
 from pipeline.records.files import write_whole
 from pipeline.records.sources import ROOT
 

@@ -6,8 +6,10 @@ from tempfile import TemporaryDirectory
 
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.errors import UsageError, one_line
+from pipeline.cli.lock import locked
 from pipeline.cli.packages import add_packages
-from pipeline.cli.session import interruptible, locked, one_line
+from pipeline.cli.running import interruptible
 from pipeline.config import MAIN
 from pipeline.records.sources import ROOT
 

@@ -2,7 +2,9 @@
 
 from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.session import CommandLineError, interruptible, locked, one_line
+from pipeline.cli.errors import CommandLineError, one_line
+from pipeline.cli.lock import locked
+from pipeline.cli.running import interruptible
 from pipeline.config import MAIN
 from pipeline.records.sources import ROOT
 

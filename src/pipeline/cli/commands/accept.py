@@ -12,7 +12,8 @@ from ...config import Config
 from ...records.files import file_hash, read_bytes, write_whole
 from ...records.sources import ROOT
 from ..arguments import Arguments
-from ..session import interruptible, locked
+from ..lock import locked
+from ..running import interruptible
 
 
 def run(args: Arguments) -> int:

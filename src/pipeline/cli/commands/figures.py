@@ -9,7 +9,8 @@ from ...config import MAIN, PUBLISHED
 from ...records.sources import ROOT
 from .. import publishing, running
 from ..arguments import Arguments, hint
-from ..session import CommandLineError, locked
+from ..errors import CommandLineError
+from ..lock import locked
 
 
 def run(args: Arguments) -> int:

@@ -11,24 +11,24 @@ import pytest
 from project import ROOT
 from verdicts import commit
 
-from pipeline.cli import session
+from pipeline.cli import lock
 from pipeline.records.provenance import git
 
 RUN = """
 import sys
 from pathlib import Path
 
-from pipeline.cli import running, session
+from pipeline.cli import lock, running
 
-session.ROOT = Path(sys.argv[1])
-with session.locked():
+lock.ROOT = Path(sys.argv[1])
+with lock.locked():
     running._wait(["sh", "-c", "echo $$; exec sleep 60"], False)
 """
 
 
 def test_the_lock_is_held_until_the_snakemake_of_a_killed_run_ends(tmp_path, monkeypatch):
-    monkeypatch.setattr(session, "ROOT", tmp_path)
-    monkeypatch.setattr(session, "LOCK_SECONDS", 0.2)
+    monkeypatch.setattr(lock, "ROOT", tmp_path)
+    monkeypatch.setattr(lock, "LOCK_SECONDS", 0.2)
     run = subprocess.Popen(
         [sys.executable, "-c", RUN, str(tmp_path)],
         stdout=subprocess.PIPE,
@@ -40,10 +40,10 @@ def test_the_lock_is_held_until_the_snakemake_of_a_killed_run_ends(tmp_path, mon
         snakemake = int(run.stdout.readline())
         run.kill()
         run.wait()
-        with pytest.raises(session.UsageError, match="another"), session.locked():
+        with pytest.raises(lock.UsageError, match="another"), lock.locked():
             pass
         os.kill(snakemake, signal.SIGKILL)
-    with session.locked():
+    with lock.locked():
         pass
 
 
@@ -90,20 +90,20 @@ def test_a_file_system_without_locks_is_said_once(tmp_path, monkeypatch, capsys)
     def refuse(file, how):
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
 
-    monkeypatch.setattr(session, "ROOT", tmp_path)
-    monkeypatch.setattr(session.fcntl, "flock", refuse)
-    monkeypatch.setenv(session._NO_LOCKS, "")  # as before any command
+    monkeypatch.setattr(lock, "ROOT", tmp_path)
+    monkeypatch.setattr(lock.fcntl, "flock", refuse)
+    monkeypatch.setenv(lock._NO_LOCKS, "")  # as before any command
     for _ in range(2):  # as after an installation
-        with session.locked():
+        with lock.locked():
             pass
     line = "reproduce: no locks here (No locks available): run one command at a time\n"
     assert capsys.readouterr().err == line
 
 
 def test_results_that_are_no_folder_are_one_line(tmp_path, monkeypatch):
-    monkeypatch.setattr(session, "ROOT", tmp_path)
+    monkeypatch.setattr(lock, "ROOT", tmp_path)
     (tmp_path / "results").symlink_to("nowhere")
-    with pytest.raises(session.UsageError, match=r"^results is no folder"), session.locked():
+    with pytest.raises(lock.UsageError, match=r"^results is no folder"), lock.locked():
         pass
 
 
@@ -128,10 +128,10 @@ import signal
 import warnings
 from contextlib import suppress
 
-from pipeline.cli import session
+from pipeline.cli import running
 
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup ignores it
-with suppress(KeyboardInterrupt), session.interruptible() as caught:
+with suppress(KeyboardInterrupt), running.interruptible() as caught:
     signal.raise_signal(signal.SIGHUP)
 warnings.warn("forkserver: process died unexpectedly")
 print(caught)
