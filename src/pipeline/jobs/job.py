@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from ..records.files import memory_is_short, write_whole
+from ..records.files import FileError, memory_is_short, write_whole
 from ..records.provenance import BuildSpec, log_path, read_spec, recorded
 
 
@@ -56,4 +56,8 @@ def make_and_answer(answer: "Connection[bool, bool]", *given: Any) -> None:
 
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C
-    make(read_spec(sys.argv[1]))
+    try:
+        specification = read_spec(sys.argv[1])
+    except FileError as error:
+        sys.exit(f"pseudorigid: {error}")
+    make(specification)

@@ -88,7 +88,8 @@ def read_spec(path: str | os.PathLike[str]) -> BuildSpec:
     try:
         return BuildSpec(**json.loads(read_text(path)))
     except (OSError, ValueError, TypeError) as error:
-        raise FileError(f"{path}: no specification of a result: {error}") from None
+        reason = getattr(error, "strerror", None) or error
+        raise FileError(f"{path}: no specification of a result: {reason}") from None
 
 
 # -- records ---------------------------------------------------------------------------------------
