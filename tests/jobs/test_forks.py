@@ -71,20 +71,3 @@ def test_jobs_are_new_pythons_where_no_process_can_fork_them(monkeypatch):
 
     monkeypatch.setattr(forks.forkserver, "ensure_running", refuse)
     assert forks.forking(data=False).get_start_method() == "spawn"
-
-
-@pytest.mark.slow
-def test_the_executor_makes_all_and_leaves_current_results(tmp_path):
-    """The rule `all` has no output: it goes to snakemake's own executor."""
-    portrait = {"picture": "portrait", "energy": 0.01, "starts": [0.1], "impacts": 50}
-    tree = fresh_tree(tmp_path / "tree", {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"a": portrait}})
-    command = ("-P", "-m", "snakemake", "--cores", "2", "--executor", "reproduce")
-    result = tree.python(*command, "all")
-    assert result.returncode == 0, result.stderr
-    drawing = tree.path / "results/paper/figures/a.png"
-    before = drawing.stat().st_ino
-    assert tree.python(*command, "--forceall", "all").returncode == 0  # its result is current
-    assert drawing.stat().st_ino == before
-    (tree.path / "src/pipeline/jobs/draw.py").write_text("raise ValueError\n")
-    assert tree.python(*command, "--forceall", "all").returncode == 1  # not made, and not lost
-    assert drawing.stat().st_ino == before

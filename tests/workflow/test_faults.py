@@ -165,18 +165,6 @@ def test_a_signal_to_the_run_alone_ends_its_jobs(done):
         assert job.status() == psutil.STATUS_ZOMBIE
 
 
-def test_two_runs_do_not_meet(tree):
-    lock = tree.path / "src/pipeline/cli/lock.py"
-    text = lock.read_text()
-    lock.write_text(text.replace("LOCK_SECONDS = 5.0", "LOCK_SECONDS = 0.5"))
-    assert lock.read_text() != text
-    with (tree.path / ".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        result = tree.run()
-    assert result.returncode == 1
-    assert result.stdout == "reproduce: another ./reproduce is running in this folder\n"
-
-
 @pytest.fixture
 def start(tmp_path, monkeypatch):
     """Return a function that starts a run in an empty folder."""

@@ -32,20 +32,6 @@ def test_a_fresh_clone_computes_everything_whatever_the_file_times(tree, finishe
     assert b"committed" not in contents(finished).values()
 
 
-def test_a_first_run_is_short_and_each_step_names_its_scene(finished):
-    output = (finished.path / "first run").read_text().splitlines()
-    steps = [line.split() for line in output if re.search(r" \d+ of \d+$", line)]
-    assert {step[0] for step in steps} == set(finished.document()["scenes"])
-    assert [step[-3:] for step in steps] == [
-        [str(i + 1), "of", str(len(steps))] for i in range(len(steps))
-    ]
-    # Steps, an empty line, the header and the files; else what ends a silence of 5 s, and a note on
-    # the axis of a panel, which the short orbits of Figure 7 have not.
-    others = "running: ", "snakemake looks for ", "fig7: axes.largest is not used"
-    output = [line for line in output if not line.startswith(others)]
-    assert len(output) == len(steps) + 3 + len(finished.document()["scenes"])
-
-
 def test_a_plan_is_in_our_words_and_makes_nothing(done):
     done.edit("fig2", energy=0.0098)
     done.edit("fig7", records=5)
