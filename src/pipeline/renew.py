@@ -14,7 +14,7 @@ from .checks import figures_page
 from .checks.published_sets import ChecksumError
 from .config import MAIN, ConfigError, reference
 from .config.schema.kinds import KINDS
-from .declaration import RENEW, SourceError, files, imported, parts
+from .declaration import RENEW, SourceError, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 

@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
-from pipeline.cli.errors import UsageError, one_line
+from pipeline.cli.errors import one_line
 from pipeline.cli.lock import locked
 from pipeline.cli.packages import add_packages
 from pipeline.cli.running import interruptible

@@ -15,14 +15,13 @@ from extensions.proofs.theorems.statements import THEOREMS
 from paper.numbers import printed
 from pipeline.checks import published_sets
 from pipeline.checks.captions import caption_of
-from pipeline.checks.freshness import CURRENT, Freshness
 from pipeline.checks.quantities import measured
 from pipeline.config import MAIN, Config
 from pipeline.config.results import drawn
 from pipeline.config.schema.sets import SETS
 from pipeline.records.artifacts import load
 from pipeline.records.files import read_text
-from pipeline.records.record import read_record, record_path
+from pipeline.records.provenance import CURRENT, Freshness, read_record, record_path
 
 _PROOFS = "src/extensions/proofs"
 # Functions of parts, which are no part of the wheel.
