@@ -31,7 +31,7 @@ def generated() -> dict[str, str]:
     fields = "".join(map(reference.fields, parts()))
     for name, begin, section in (
         ("docs/config.md", BEGIN, fields),
-        ("README.md", FIGURES, figures_page.table()),
+        ("README.md", FIGURES, figures_page.main_figures()),
     ):
         if (ROOT / name).exists():
             texts[name] = with_section(read_text(ROOT / name), begin, section, END)

@@ -38,6 +38,7 @@ PART = Part(
             details="Makes missing results first, including the sweeps of the atlas.",
         ),
     },
+    committed="extensions.claims.ledger.bar.committed",
     seconds={
         "results/claims/spread_spread.nc": 90,
         "results/claims/rotation_rotation.nc": 8,

@@ -42,7 +42,11 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     shown_name = f"Figure {numbered[1]}" if numbered else name
     known = defaultdict[str, Any](int, drawn=[]) if facts is None else facts
     texts = (_ENVIRONMENT.from_string(templates[part]) for part in Caption._fields[1:])
-    title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
+    try:
+        title, shows, *rest = (" ".join(text.render(s=block, d=known).split()) for text in texts)
+    except jinja2.UndefinedError as error:
+        words = f"{name}: the committed manifest lacks a fact of the caption ({error})"
+        raise ValueError(f"{words}: run ./reproduce accept") from None
     hidden = [f"Note: {line}." for line in known["hidden"] or ()]
     return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
 

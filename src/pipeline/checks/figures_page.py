@@ -1,4 +1,4 @@
-"""Texts about committed pictures: docs/figures.md, README's table, the manifest of codecheck.yml.
+"""Texts about committed pictures: docs/figures.md, README's figures, the manifest of codecheck.yml.
 
 The captions have the values from which the committed pictures were made.
 """
@@ -33,14 +33,14 @@ def page() -> str:
     return environment.from_string(template).render(sections=sections, fill=wrapped)
 
 
-def table() -> str:
-    """Return the main set's pictures and captions as a table, for README.md."""
+def main_figures() -> str:
+    """Return the main set's pictures, each with its caption below, for README.md."""
     (main, captions), *_ = _captions()
-    rows = [
-        f"| ![{c.name}]({main.folder}/{scene}.png) | **{c.name}: {c.title}.** {c.shows} {c.see} |"
-        for scene, c in captions.items()
-    ]
-    return "\n".join(["| | |", "|---|---|", *rows, ""])
+    lines = []
+    for scene, c in captions.items():
+        lines += [f"![{c.title}]({main.folder}/{scene}.png)", ""]
+        lines += [f"**{c.name}: {c.title}.** {c.shows} {c.see}", ""]
+    return "\n".join(lines)
 
 
 def codecheck_manifest() -> str:
