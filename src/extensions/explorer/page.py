@@ -38,9 +38,10 @@ PRESETS = "presets.js of parts"
 _DATA = '<script type="application/json" id="data">'
 # Scripts of both, those of the worker, and of the page, in their order.
 BOTH = ("kernel_api.js", "geometry.js")
-WORKER = ("analysis.js", "worker.js")
+WORKER = ("analysis.js", "crowd.js", "worker.js")
 APP = (
-    *("state.js", "orbits.js", "section.js", "time.js", "charts.js", "compute.js", "presets.js"),
+    *("state.js", "orbits.js", "section.js", "colouring.js", "filling.js", "time.js", "charts.js"),
+    *("compute.js", "presets.js"),
     PRESETS,
     *("svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
 )

@@ -10,6 +10,7 @@ const analysis = (() => {
   const GROWTH_THRESHOLD = 2.2;
   const FIRST_VERDICT = 500; // impacts below which an orbit gets no verdict
   const LEAST_IMPACTS = 2000; // behind the verdict "regular"; a shorter orbit is followed further
+  const BLOCKS = 65536; // of sums of an orbit; longer orbits have longer blocks
   const RESOLUTION = 20000; // cells of a symmetry line
   const SAME = 1e-9; // all lengths from here on in section radii
   const CLOSURE = 1e-14;
@@ -44,8 +45,11 @@ const analysis = (() => {
       this.needed = Infinity; // impacts until one whole turn, and as many again
       this.orbit = pseudorigid.follow(k, g, ...state);
       this.impacts = 0;
-      this.turns = new Float64Array(1024);
+      this.turns = new Float64Array(1024); // sums over blocks, and those of `sizes`
       this.sizes = new Float64Array(1024);
+      this.width = 1; // impacts of a block
+      this.blocks = 0;
+      this.open = { impacts: 0, turn: 0, size: 0 }; // the block that is not complete
       const fixed = geometry.fixedPoint(k, g, energy);
       this.centre = fixed.x;
       this.expected = Number.isNaN(fixed.rotation) ? 0.5 : fixed.rotation;
@@ -70,18 +74,13 @@ const analysis = (() => {
         this.refused = pseudorigid.TOO_LONG;
       }
       const total = this.impacts + impacts;
-      if (total > this.turns.length) {
-        this.turns = grown(this.turns, total);
-        this.sizes = grown(this.sizes, total);
-      }
-      this.sizes.set(piece.size, this.impacts);
       let [p, q] = this.last;
       for (let i = 0; i < impacts; i++) {
         const [r, s] = this.relative(piece.x[i], piece.xdot[i], piece.udot[i]);
         let turn = Math.atan2(q * r - p * s, p * r + q * s) / (2 * Math.PI);
         if (turn < this.expected - 0.5) turn += 1;
         else if (turn > this.expected + 0.5) turn -= 1;
-        this.turns[this.impacts + i] = turn;
+        this.add(turn, piece.size[i]);
         // At the fixed point itself roundings decide the angle.
         const near = Math.abs(r) + Math.abs(s) <= 1e-12 * (Math.abs(piece.x[i]) + Math.abs(piece.udot[i]));
         this.turned += near ? this.expected : turn;
@@ -92,6 +91,26 @@ const analysis = (() => {
       this.last = [p, q];
       this.impacts = total;
       return piece;
+    }
+
+    /** Add an impact to the sums over blocks, which become twice as long where there are too many. */
+    add(turn, size) {
+      const { open } = this;
+      open.impacts += 1;
+      open.turn += turn;
+      open.size += size;
+      if (open.impacts < this.width) return;
+      if (this.blocks === this.turns.length) [this.turns, this.sizes] = [grown(this.turns), grown(this.sizes)];
+      this.turns[this.blocks] = open.turn;
+      this.sizes[this.blocks] = open.size;
+      this.blocks += 1;
+      open.impacts = open.turn = open.size = 0;
+      if (this.blocks < BLOCKS) return;
+      this.blocks /= 2;
+      this.width *= 2;
+      for (const sums of [this.turns, this.sizes]) {
+        for (let i = 0; i < this.blocks; i++) sums[i] = sums[2 * i] + sums[2 * i + 1];
+      }
     }
 
     /** The type of the orbit as in Python, or "" for one that is too short or stops. */
@@ -109,21 +128,20 @@ const analysis = (() => {
 
     /** Exponent, rotation number and verdict after all impacts so far. */
     facts() {
-      const n = this.impacts;
-      const growth = growthOf(this.sizes, n);
+      const growth = growthOf(this.sizes, this.blocks) / this.width;
       const verdict = this.verdict(growth);
       return {
-        impacts: n,
+        impacts: this.impacts,
         exponent: this.orbit.exponent(),
-        rotation: weightedMean(this.turns, n),
+        rotation: weightedMean(this.turns, this.blocks) / this.width,
         growth,
         verdict,
       };
     }
   }
 
-  function grown(array, size) {
-    const larger = new Float64Array(Math.max(size, 2 * array.length));
+  function grown(array) {
+    const larger = new Float64Array(2 * array.length);
     larger.set(array);
     return larger;
   }

@@ -1,7 +1,7 @@
 "use strict";
 /*
- * The two workers: one follows the orbits on the screen, the other does what may take seconds, so
- * that neither waits for the other and the page waits for none.
+ * The workers: one follows the orbits on the screen, another does what may take seconds, and a pool
+ * of one for each processor computes many orbits, so that none waits for another.
  */
 class Computer {
   constructor() {
@@ -38,5 +38,40 @@ class Computer {
     if (!this.waiting.size) return;
     this.worker.terminate();
     this.start();
+  }
+}
+
+/** Workers that share requests, which are done in their order. */
+class Pool {
+  constructor() {
+    this.idle = Array.from({ length: navigator.hardwareConcurrency || 2 }, () => new Computer());
+    this.queue = [];
+  }
+
+  get size() {
+    return navigator.hardwareConcurrency || 2;
+  }
+
+  /** Ask for a job unless `wanted` is false when its turn comes; the promise then holds null. */
+  ask(job, args, wanted = () => true) {
+    return new Promise((resolve, reject) => {
+      this.queue.push({ job, args, wanted, resolve, reject });
+      this.next();
+    });
+  }
+
+  async next() {
+    while (this.queue.length && !this.queue[0].wanted()) this.queue.shift().resolve(null);
+    if (!this.queue.length || !this.idle.length) return;
+    const computer = this.idle.pop();
+    const { job, args, wanted, resolve, reject } = this.queue.shift();
+    try {
+      const result = await computer.ask(job, args);
+      resolve(wanted() ? result : null);
+    } catch (error) {
+      reject(error);
+    }
+    this.idle.push(computer);
+    this.next();
   }
 }

@@ -88,6 +88,7 @@ class Controls {
       element("span").append(this.option(state.span, `${state.span} / ω`));
     }
     element("span").value = String(state.span);
+    element("map").value = state.map;
     element("impacts").value = String(state.impacts);
     element("back").checked = state.back;
     element("jump").checked = state.jump;
@@ -315,6 +316,8 @@ class Controls {
     on("as-disk", "click", () => this.shape("disk"));
     for (const colour of COLOURS) on(`by-${colour}`, "click", () => this.changed({ colour }));
     for (const chart of ["exponent", "rotation"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
+    on("map", "change", () => this.changed({ map: element("map").value }));
+    on("play-energy", "click", () => (page.sweeping ? page.stopSweep() : page.sweepEnergy()));
     on("home", "click", () => this.whole());
     on("closer", "click", () => this.zoom(0.6));
     on("further", "click", () => this.zoom(1 / 0.6));
@@ -508,7 +511,7 @@ class Controls {
   whole() {
     const { view } = this.state;
     [view.x, view.y, view.half] = HOME[view.kind];
-    this.moved();
+    this.zoomed();
   }
 
   /** Zoom by a factor about a point of the screen, which stays where it is. */
@@ -522,7 +525,27 @@ class Controls {
     view.x += across * (1 - half / view.half);
     view.y += up * (1 - half / view.half);
     view.half = half;
+    this.zoomed();
+  }
+
+  /** Draw after a zoom, and fill what is in sight. */
+  zoomed() {
+    const { view } = this.state;
+    this.state.fill = view.half < HOME[view.kind][2] - 0.1;
     this.moved();
+  }
+
+  /** Say that a window is full. */
+  filled() {
+    const { orbits } = this.page.filling;
+    const regular = orbits.filter((orbit) => !orbit.isSea()).length;
+    if (orbits.length) setText("map-note", `The window is full: ${COUNT.format(orbits.length)} orbits began in it, ${COUNT.format(regular)} of them regular.`);
+  }
+
+  /** Say how much of what is in sight is regular. */
+  noteMap() {
+    const { words } = this.page.colouring;
+    setText("map-note", words);
   }
 
   /** Let a box of the screen, given by two corners, fill the view. */
@@ -538,7 +561,7 @@ class Controls {
     view.x += (0.5 * (a + c) - middle[0]) / scale;
     view.y -= (0.5 * (b + d) - middle[1]) / scale;
     view.half = Math.max(2e-15, view.half * share);
-    this.moved();
+    this.zoomed();
   }
 
   pan(across, down) {
@@ -845,6 +868,11 @@ class Controls {
 
   // ---------------------------------------------------------------- time
 
+  showSweep() {
+    element("play-energy").textContent = this.page.sweeping ? "Stop E" : "Play E";
+    if (!this.page.sweeping) this.editing = false; // the whole film is one entry of the history
+  }
+
   showPlaying() {
     element("play").textContent = this.page.playing ? "Pause" : "Play";
   }
@@ -1057,14 +1085,14 @@ class Controls {
       setText("scene-note", `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
     });
     for (const [id, all] of [["csv", false], ["csv-all", true]]) {
-      on(id, "click", () => {
+      on(id, "click", async () => {
         const orbits = (all ? page.orbits : [page.orbits[this.state.chosen]]).filter((orbit) => orbit?.count);
         if (!orbits.length) {
           setText("record-note", all ? "Start an orbit first." : "Choose an orbit first.");
           return;
         }
         const name = all ? "orbits.csv" : "orbit.csv";
-        download(name, orbitsCsv(page, orbits));
+        download(name, await orbitsCsv(page, orbits));
         const count = orbits.reduce((sum, orbit) => sum + orbit.count, 0);
         setText("record-note", `${name} has ${COUNT.format(count)} impacts after the start, to the last bit.`);
       });

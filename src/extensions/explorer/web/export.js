@@ -137,17 +137,17 @@ function link(page) {
 }
 
 /** Orbits as CSV, numbers to the last bit; the first row of each is its start. */
-function orbitsCsv(page, orbits) {
+async function orbitsCsv(page, orbits) {
   const lines = aboutLines(page).map((line) => `# ${line}\n`);
   const parts = [...lines, "orbit,impact,x,xdot,udot,tau\n"];
   for (const orbit of orbits) {
     const name = page.orbits.indexOf(orbit) + 1;
-    const rows = [`${name},0,${orbit.start.join(",")},`];
+    parts.push(`${name},0,${orbit.start.join(",")},\n`);
     const sign = orbit.back ? -1 : 1;
-    for (let i = 0; i < orbit.count; i++) {
-      rows.push([name, sign * (i + 1), orbit.x[i], orbit.xdot[i], orbit.udot[i], orbit.tau[i]].join(","));
-    }
-    parts.push(`${rows.join("\n")}\n`);
+    await page.eachPiece(orbit, 0, ({ x, xdot, udot, tau }, from) => {
+      const row = (_, i) => [name, sign * (from + i + 1), x[i], xdot[i], udot[i], tau[i]].join(",");
+      parts.push(`${Array.from(x, row).join("\n")}\n`);
+    });
   }
   return new Blob(parts, { type: "text/csv" });
 }
@@ -167,7 +167,9 @@ async function picture(page, ratio = null) {
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.fillStyle = colours.page;
   pen.fillRect(0, 0, width, tall);
-  const { layers } = new SectionView(box, () => page.scene(), { ratio: ratio ?? 1, svg });
+  const view = new SectionView(box, () => page.scene(), { ratio: ratio ?? 1, svg });
+  await page.replay(view);
+  const { layers } = view;
   for (const layer of layers) pen.drawImage(layer, 0, 0, width, height);
   pen.font = "11px monospace";
   lines.forEach((line, i) => write(pen, line, 10, height + 8 + 15 * i, colours.muted));

@@ -14,7 +14,9 @@ globalThis.pseudorigid = (() => {
   const ORBIT = EXCEPTION + 8;
   const ROWS = ORBIT + 8 * 24;
   const LANE_ROWS = ROWS + 8 * 5 * CHUNK;
-  const ORDER = LANE_ROWS + 8 * 30 * LANES;
+  const LANE_KEPT = [0, 1, 2, 3, ...Array.from({ length: 11 }, (_, i) => 33 + i)]; // rows, in CROWD's order
+  const CROWD = ["x", "xdot", "udot", "tau", "a", "b", "c", "length", "sum", "p", "q", "turned", "weighted", "whole", "grown"];
+  const ORDER = LANE_ROWS + 8 * 44 * LANES;
   const PAGE = 65536; // bytes of a page of memory
   const memory = new WebAssembly.Memory({ initial: Math.ceil((ORDER + 8 * LANES) / PAGE) });
   const doubles = new Float64Array(memory.buffer);
@@ -105,6 +107,38 @@ globalThis.pseudorigid = (() => {
       call("history_in_lanes", 0, LANE_ROWS, ORDER, count, k, g, impacts);
       rows.forEach((row, i) => arrays[i].set(row, first));
     }
+  }
+
+  // Return orbits of {x, xdot, udot}, arrays, that `followMany` follows with a tangent vector each.
+  function crowd(k, { x, xdot, udot }, centre) {
+    const orbits = Object.fromEntries(CROWD.map(name => [name, new Float64Array(x.length)]));
+    Object.entries({ x, xdot, udot }).forEach(([name, values]) => orbits[name].set(values));
+    for (const name of ["a", "length"]) orbits[name].fill(1);
+    orbits.whole.fill(Infinity);
+    const round = 1 / Math.sqrt(k * (1 + k)); // the section is a disk in (x, round * y)
+    for (let i = 0; i < x.length; i += 1) {
+      orbits.p[i] = x[i] - centre;
+      orbits.q[i] = round * (xdot[i] - k * udot[i]);
+    }
+    return orbits;
+  }
+
+  // Follow a crowd in place over impacts `from` to `to`; `grown` then has the sum of the logarithm of
+  // the vector's length over these. Turns around (centre, 0) have the weights of `span` impacts.
+  function followMany(k, g, orbits, { centre, expected, from, to, span }) {
+    const arrays = CROWD.map(name => orbits[name]);
+    for (let first = 0; first < orbits.x.length; first += LANES) {
+      const count = Math.min(LANES, orbits.x.length - first);
+      const rows = LANE_KEPT.map(i => at(LANE_ROWS + 8 * i * LANES, count));
+      rows.forEach((row, i) => row.set(arrays[i].subarray(first, first + count)));
+      call("follow_in_lanes", 0, LANE_ROWS, ORDER, count, k, g, centre, expected, from, to, span);
+      rows.forEach((row, i) => arrays[i].set(row, first));
+    }
+  }
+
+  // Return the exponents of a crowd after some impacts, with the bits of `exponent`.
+  function exponents({ sum, length }, impacts) {
+    return sum.map((value, i) => (value + call("elementary", 3, length[i])[2]) / impacts);
   }
 
   // Return the state and flight time of the next impact.
@@ -318,7 +352,7 @@ globalThis.pseudorigid = (() => {
   }
 
   return {
-    history, start, exponent, stateXY, step, iterate, iterateMany, reverse, afterImpact, tangent, newton, follow,
+    history, start, exponent, stateXY, step, iterate, iterateMany, crowd, followMany, exponents, reverse, afterImpact, tangent, newton, follow,
     sha256, bytesOf, checkFigure, TOO_LONG,
   };
 })();

@@ -5,6 +5,7 @@
  */
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
 const HUES = 7; // of the style sheet
+const SWEEP = 240; // energies from the least to the largest
 const SLOW = 200; // impacts asked for at once, up to which one can watch
 
 class Explorer {
@@ -17,6 +18,9 @@ class Explorer {
     this.forgetLines();
     this.follower = new Computer();
     this.searcher = new Computer();
+    this.pool = new Pool();
+    this.colouring = new Colouring(this);
+    this.filling = new Filling(this);
     this.generation = 0;
     this.round = 0; // of `run`, which a change of the ball ends
     this.at = window.history.state?.at ?? 0; // the place in the browser's history
@@ -39,14 +43,28 @@ class Explorer {
     }));
     const lines = [...this.branchLines, ...this.jumpLines];
     const now = this.time ? this.time.now() : null;
-    const range = ["rotation", "exponent"].includes(this.state.colour) ? this.range() : null;
-    return { state: this.state, orbits: this.orbits, range, overlays: { lines, marks }, cursor: now?.state };
+    const map = this.colouring.window ? this.colouring : null;
+    const filling = this.filling.orbits;
+    return {
+      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursor: now?.state,
+    };
+  }
+
+  /** What colours mean: {name, range}, without a range for verdicts; null if there is nothing to say. */
+  scale() {
+    const names = { rotation: "rotation number", exponent: "exponent", verdict: "verdict" };
+    const { window, by, range } = this.colouring;
+    if (window) return { name: by === "verdict" ? names[by] : `${names[by]}, 200 impacts`, range };
+    const { colour } = this.state;
+    if (!["rotation", "exponent"].includes(colour)) return null;
+    const found = this.range();
+    return Number.isFinite(found[0]) ? { name: colour === "exponent" ? "exponent so far" : names[colour], range: found } : null;
   }
 
   /** The range of what colours the orbits, the rotation number or the exponent. */
   range() {
-    const values = this.orbits.map((orbit) => orbit.facts?.[this.state.colour]).filter(Number.isFinite);
-    const [low, high] = [Math.min(...values), Math.max(...values)];
+    const values = [...this.orbits, ...this.filling.orbits].map((orbit) => orbit.facts?.[this.state.colour]);
+    const [low, high] = [Math.min, Math.max].map((end) => end(...values.filter(Number.isFinite)));
     return low < high ? [low, high] : [low, low + 1e-9];
   }
 
@@ -104,6 +122,8 @@ class Explorer {
       if (fast) orbit.pace = 2000;
     }
     this.fresh = true; // the old picture stays until there are new impacts
+    this.section.project();
+    this.colouring.update();
     if (!this.orbits.length) this.look();
     this.chooseMotion();
     this.search();
@@ -124,8 +144,47 @@ class Explorer {
   look() {
     this.fresh = false;
     this.section.look();
+    this.colouring.update();
+    this.filling.update();
+    this.replaySoon();
     this.time.draw();
     this.drawChart();
+  }
+
+  /** Draw the impacts that are not kept again, once the picture has been drawn anew. */
+  replaySoon() {
+    clearTimeout(this.replayWaits);
+    this.replays = (this.replays ?? 0) + 1;
+    this.replayWaits = setTimeout(() => this.replay(), 150);
+  }
+
+  /** Draw the impacts that are not kept, on the page or in a picture for a file. */
+  async replay(section = this.section) {
+    const { replays } = this;
+    for (const orbit of this.orbits) {
+      await this.eachPiece(orbit, orbit.kept, (piece) => {
+        section.plot(orbit, piece, 0, piece.x.length);
+        section.showPoints();
+      }, () => section !== this.section || replays === this.replays);
+    }
+  }
+
+  /** Call `act` with pieces of an orbit's impacts, from one on; those that are not kept are computed again. */
+  async eachPiece(orbit, from, act, wanted = () => true) {
+    const { k, g } = this.state;
+    const end = orbit.count;
+    const kept = Object.fromEntries(["x", "xdot", "udot", "tau"].map((name) => [name, orbit[name].subarray(from, orbit.kept)]));
+    if (from < orbit.kept) act(kept, from);
+    let state = orbit.last;
+    for (let done = orbit.kept; done < end; ) {
+      const impacts = Math.min(100000, end - done);
+      const piece = await this.pool.ask("replay", { k, g, state, impacts }, wanted);
+      if (!piece) return;
+      state = ["x", "xdot", "udot"].map((name) => piece[name].at(-1));
+      orbit.mirror(piece);
+      act(piece, done);
+      done += impacts;
+    }
   }
 
   // ---------------------------------------------------------------- orbits
@@ -184,7 +243,7 @@ class Explorer {
   /** Follow an orbit over as many impacts again. */
   extend(orbit) {
     this.mark();
-    orbit.impacts = Math.min(MOST_IMPACTS, 2 * orbit.impacts);
+    orbit.impacts = Math.max(orbit.impacts, Math.min(MOST_IMPACTS, 2 * orbit.impacts));
     this.changedOrbits();
     this.run();
   }
@@ -195,9 +254,8 @@ class Explorer {
     for (const orbit of running) Object.assign(orbit, { endless: false, impacts: orbit.count });
     const orbit = this.orbits[this.state.chosen];
     if (!running.length) {
-      const most = COUNT.format(MOST_IMPACTS);
-      this.controls.hint(orbit ? `The orbit goes on until it is stopped, at most to ${most} impacts.` : "Choose an orbit first.");
-      if (!orbit || orbit.refused || orbit.count >= MOST_IMPACTS) return;
+      this.controls.hint(orbit ? "The orbit goes on until you stop it." : "Choose an orbit first.");
+      if (!orbit || orbit.refused || orbit.count >= MOST_FOLLOWED) return;
       this.mark();
       orbit.endless = true;
     }
@@ -228,14 +286,14 @@ class Explorer {
     const waiting = this.orbits.filter((orbit) => !orbit.done);
     if (!waiting.length) return null;
     const orbits = waiting.map((orbit) => {
-      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_IMPACTS : orbit.impacts) - orbit.count);
+      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_FOLLOWED : orbit.impacts) - orbit.count);
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
     return this.follower.ask("advance", { orbits, time: BATCH_TIME });
   }
 
-  /** Add impacts to the orbits; returns [orbit, its impacts before] and whether colours changed. */
+  /** Add impacts to the orbits; returns [orbit, its new impacts] and whether colours changed. */
   append(pieces) {
     const plots = [];
     let recoloured = false;
@@ -246,13 +304,13 @@ class Explorer {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
       const before = look(orbit);
-      plots.push([orbit, orbit.count]);
       orbit.append(piece, this.state.k);
+      plots.push([orbit, piece]);
       if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
       recoloured ||= before !== look(orbit);
       if (orbit.count > orbit.impacts) {
         orbit.impacts = orbit.count;
-        orbit.endless &&= orbit.count < MOST_IMPACTS;
+        orbit.endless &&= orbit.count < MOST_FOLLOWED;
         this.state.orbits[this.orbits.indexOf(orbit)].impacts = orbit.count;
         this.saveSoon();
       }
@@ -262,9 +320,10 @@ class Explorer {
   }
 
   draw({ plots, recoloured }) {
-    if (recoloured || this.fresh || !this.orbits.some((orbit) => !orbit.done)) this.look();
+    const whole = !this.orbits.some((orbit) => orbit.count > orbit.kept || !orbit.done);
+    if (recoloured || this.fresh || whole) this.look();
     else {
-      for (const [orbit, from] of plots) this.section.plot(orbit, from);
+      for (const [orbit, piece] of plots) this.section.plot(orbit, piece, 0, piece.x.length);
       this.section.showPoints();
     }
     this.controls.updateFacts();
@@ -429,6 +488,9 @@ class Explorer {
 
   /** Trace branches anew, finer, where the view has magnified them. */
   viewChanged() {
+    this.colouring.update(120);
+    this.filling.update();
+    this.replaySoon();
     clearTimeout(this.finer);
     this.finer = setTimeout(() => {
       const { view } = this.state;
@@ -444,6 +506,35 @@ class Explorer {
       this.search();
     }, 500);
     this.saveSoon();
+  }
+
+  // ---------------------------------------------------------------- the energy as a film
+
+  /** Raise E from the least energy, or from where it is, to the bound of eq. (31). */
+  async sweepEnergy() {
+    const { k, g } = this.state;
+    const [low, high] = geometry.energyBounds(k, g);
+    const steps = Array.from({ length: SWEEP }, (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
+    if (this.state.energy >= steps.at(-1)) this.controls.takeBall({ k, g, E: steps[0] });
+    this.sweeping = true;
+    this.controls.showSweep();
+    for (const E of steps.filter((value) => value > this.state.energy)) {
+      const begin = performance.now();
+      this.controls.takeBall({ k, g, E });
+      element("E").value = String(E);
+      const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.shows(E));
+      while (this.sweeping && !(shown() && performance.now() - begin > 100)) {
+        if (performance.now() - begin > 2000) break;
+        await nextFrame();
+      }
+      if (!this.sweeping || this.state.energy !== E || this.state.k !== k || this.state.g !== g) break;
+    }
+    this.stopSweep();
+  }
+
+  stopSweep() {
+    this.sweeping = false;
+    this.controls.showSweep();
   }
 
   // ---------------------------------------------------------------- the ball in time

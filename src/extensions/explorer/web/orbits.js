@@ -1,6 +1,7 @@
 "use strict";
-/* The orbits on the screen: their impacts so far, and what is known about each. */
+/* The orbits on the screen: their first impacts, and what is known about each. */
 const NEAR = 300; // impacts by which an orbit's curve is known
+const KEPT = 50000; // impacts of an orbit that are kept; later ones are computed again to draw them
 
 /**
  * Give each regular orbit the hue whose nearest bearer is furthest, so that curves next to each other
@@ -28,7 +29,9 @@ class Orbit {
   clear() {
     Orbit.keys = (Orbit.keys ?? 0) + 1;
     this.key = Orbit.keys;
-    this.count = 0;
+    this.count = 0; // impacts so far, of which the first are `kept`
+    this.kept = 0;
+    this.last = null; // the last state that is kept, before it is mirrored
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
     this.refused = ""; // why it stops before its end
@@ -42,28 +45,34 @@ class Orbit {
     return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts);
   }
 
-  /** Add impacts that the worker has computed; those of a backward orbit are mirrored. */
+  /** Add impacts that the worker has computed, and keep the first ones. */
   append(piece, k) {
     this.k = k;
-    const size = piece.x.length;
+    const size = Math.min(piece.x.length, KEPT - this.kept);
+    if (size) this.last = ["x", "xdot", "udot"].map((name) => piece[name][size - 1]);
+    this.mirror(piece);
     for (const name of ["x", "xdot", "udot", "tau"]) {
-      if (this.count + size > this[name].length) {
-        const larger = new Float64Array(Math.max(this.count + size, 2 * this[name].length));
+      if (this.kept + size > this[name].length) {
+        const larger = new Float64Array(Math.min(KEPT, Math.max(this.kept + size, 2 * this[name].length)));
         larger.set(this[name]);
         this[name] = larger;
       }
-      this[name].set(piece[name], this.count);
+      this[name].set(piece[name].slice(0, size), this.kept);
     }
-    if (this.back) {
-      for (let i = this.count; i < this.count + size; i++) {
-        const state = pseudorigid.reverse(k, this.x[i], this.xdot[i], this.udot[i]);
-        [this.x[i], this.xdot[i], this.udot[i]] = state;
-      }
-    }
-    this.count += size;
+    this.kept += size;
+    this.count += piece.x.length;
     this.facts = piece.facts;
     this.refused = piece.refused ?? "";
-    if (piece.facts) this.history.push([this.count, piece.facts.exponent]);
+    const [before] = this.history.at(-1) ?? [0];
+    if (piece.facts && (this.count > 1.01 * before || this.done)) this.history.push([this.count, piece.facts.exponent]);
+  }
+
+  /** Turn impacts of the worker in place into those of a backward orbit, if this is one. */
+  mirror({ x, xdot, udot }) {
+    if (!this.back) return;
+    for (let i = 0; i < x.length; i++) {
+      [x[i], xdot[i], udot[i]] = pseudorigid.reverse(this.k, x[i], xdot[i], udot[i]);
+    }
   }
 
   /** The state before impact i; 0 is the start. */
@@ -103,7 +112,7 @@ class Orbit {
     let least = Infinity;
     for (const [a, b] of [[this, other], [other, this]]) {
       const y = a.q * height;
-      for (let i = 0; i < Math.min(b.count, NEAR); i++) {
+      for (let i = 0; i < Math.min(b.kept, NEAR); i++) {
         const p = (b.x[i] - a.start[0]) / radius;
         const q = (b.xdot[i] - b.k * b.udot[i] - y) / height;
         least = Math.min(least, p * p + q * q);

@@ -1,12 +1,14 @@
 "use strict";
 /*
- * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on four canvases: the ground with
- * its axes, the impacts of orbits, lines over them, and cursors. Impacts are written pixel by pixel. For
- * a file all are drawn anew: at another `ratio` of pixels, or by an `svg` pen.
+ * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on canvases: the ground with its
+ * axes, the section in colour, the impacts of orbits, lines over them, and cursors. Impacts are counted
+ * pixel by pixel, in a density image. For a file all are drawn anew: at another `ratio` of pixels, or by
+ * an `svg` pen.
  */
 const SNAP = 4; // pixels from the symmetry line within which a start lies on it
 const ABOVE = { azimuth: 270, elevation: 90 };
-const LAYERS = ["ground", "points", "lines", "cursors"];
+const LAYERS = ["ground", "map", "points", "lines", "cursors"];
+const SOLID = 65535; // hits of a pixel that is drawn in full
 
 class SectionView {
   constructor(box, read, { ratio = null, svg = null } = {}) {
@@ -21,7 +23,7 @@ class SectionView {
       return canvas;
     });
     const pens = this.layers.map((canvas) => canvas.getContext("2d"));
-    [this.ground, this.points, this.lines, this.cursors] = svg ? [svg, svg, svg, svg] : pens;
+    [this.ground, this.map, this.points, this.lines, this.cursors] = svg ? LAYERS.map(() => svg) : pens;
     this.cross = null; // the keyboard's pointer on the screen
     this.fan = null; // [p, p] of the fan that is being drawn
     this.corners = null; // of the box that is being drawn, on the screen
@@ -37,12 +39,14 @@ class SectionView {
       canvas.width = Math.round(this.width * this.ratio);
       canvas.height = Math.round(this.height * this.ratio);
     }
-    for (const pen of [this.ground, this.lines, this.cursors]) {
+    for (const pen of [this.ground, this.map, this.lines, this.cursors]) {
       pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     }
     if (!this.svg) {
       this.image = this.points.createImageData(this.points.canvas.width, this.points.canvas.height);
       this.pixels = new Uint32Array(this.image.data.buffer);
+      this.inks = new Uint32Array(this.pixels.length); // the colour of the last impact on each pixel
+      this.hits = new Uint16Array(this.pixels.length); // impacts on it
     }
     this.look();
   }
@@ -52,6 +56,7 @@ class SectionView {
     this.colours = readColours();
     this.project();
     this.drawGround();
+    this.drawMap();
     this.drawPoints();
     this.drawLines();
     this.drawCursors();
@@ -122,6 +127,11 @@ class SectionView {
 
   /** The place [p, q] under a point of the screen, on the symmetry line if near; null if none. */
   place(left, top) {
+    const place = this.placeOf(left, top);
+    return place && this.distanceFromLine(left, top, place[0]) <= SNAP ? [place[0], 0] : place;
+  }
+
+  placeOf(left, top) {
     const across = (left - this.middle[0]) / this.scale;
     const up = (this.middle[1] - top) / this.scale;
     let p;
@@ -135,8 +145,7 @@ class SectionView {
       p = hit[0] / this.radius;
       q = (hit[1] - this.k * hit[2]) / this.sectionHeight;
     }
-    if (!(p * p + q * q < 1)) return null;
-    return this.distanceFromLine(left, top, p) <= SNAP ? [p, 0] : [p, q];
+    return p * p + q * q < 1 ? [p, q] : null;
   }
 
   /** The nearest point of the half ellipsoid at a position of the screen, from its centre. */
@@ -196,7 +205,6 @@ class SectionView {
     ground.font = `13px ${colours.font}`;
     if (this.kind === "disk") this.drawDisk();
     else this.drawHalfEllipsoid();
-    this.drawScale();
     if (!this.framed) {
       this.drawBox();
       return;
@@ -211,20 +219,30 @@ class SectionView {
     this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall, origin[1], (disk ? this.sectionHeight : radius) / scale);
   }
 
-  /** Draw which colours mean which rotation numbers or exponents. */
+  /** Draw which colours mean which rotation numbers, exponents or verdicts. */
   drawScale() {
-    const { ground, colours } = this;
-    const { state, range } = this.read();
-    if (!range || !Number.isFinite(range[0])) return;
+    const { lines, colours } = this;
+    const { scale } = this.read();
+    if (!scale) return;
     const [left, top] = [this.width - this.frame.right - 176, this.frame.top + 8];
-    const name = { rotation: "rotation number", exponent: "exponent so far" }[state.colour];
-    for (let i = 0; i < 80; i++) {
-      ground.fillStyle = mixed(colours.ramp, i / 79);
-      ground.fillRect(left + 2 * i, top + 18, 2.5, 9);
+    lines.font = `13px ${colours.font}`;
+    lines.fillStyle = colours.page;
+    lines.fillRect(left - 8, top - 5, 178, 52);
+    if (!scale.range) {
+      ["regular", "chaotic"].forEach((name, i) => {
+        lines.fillStyle = colours[name];
+        lines.fillRect(left, top + 4 + 22 * i, 12, 12);
+        write(lines, name, left + 20, top + 2 + 22 * i, colours.ink);
+      });
+      return;
     }
-    write(ground, name, left + 160, top, colours.ink, "right");
-    write(ground, shortNumber(range[0], 3), left, top + 30, colours.muted);
-    write(ground, shortNumber(range[1], 3), left + 160, top + 30, colours.muted, "right");
+    for (let i = 0; i < 80; i++) {
+      lines.fillStyle = mixed(colours.ramp, i / 79);
+      lines.fillRect(left + 2 * i, top + 18, 2.5, 9);
+    }
+    write(lines, scale.name, left + 160, top, colours.ink, "right");
+    write(lines, shortNumber(scale.range[0], 3), left, top + 30, colours.muted);
+    write(lines, shortNumber(scale.range[1], 3), left + 160, top + 30, colours.muted, "right");
   }
 
   drawDisk() {
@@ -347,43 +365,63 @@ class SectionView {
   // ---------------------------------------------------------------- impacts
 
   drawPoints() {
-    this.pixels?.fill(0);
-    const { orbits } = this.read();
+    this.inks?.fill(0);
+    this.hits?.fill(0);
+    [this.spread, this.visited] = [0, 0]; // impacts of the sea, and pixels that they are on
+    const { orbits, filling } = this.read();
     const rank = (orbit) => (orbit.chosen ? 2 : orbit.isSea() ? 0 : 1);
-    const order = [...orbits].sort((a, b) => rank(a) - rank(b));
-    for (const orbit of order) this.plot(orbit, 0);
+    const order = [...filling, ...orbits].sort((a, b) => rank(a) - rank(b));
+    for (const orbit of order) this.plot(orbit, orbit, 0, orbit.kept);
     this.showPoints();
   }
 
+  /** Draw the density image: pixels of the sea are as dark as they have impacts beside the mean. */
   showPoints() {
-    if (!this.svg) this.points.putImageData(this.image, 0, 0);
+    if (this.svg) return;
+    const { pixels, inks, hits } = this;
+    const half = 0.5 * Math.max(0, this.spread / Math.max(1, this.visited) - 1);
+    const alpha = Uint8Array.from({ length: 256 }, (_, n) => 255 * Math.max(0.2, n / (n + half || 1)));
+    for (let i = 0; i < pixels.length; i++) {
+      const n = hits[i];
+      if (n < 256) pixels[i] = (inks[i] & 0xffffff) | (n && alpha[n] << 24);
+      else pixels[i] = (inks[i] & 0xffffff) | ((n === SOLID ? 255 : 255 * (n / (n + half))) << 24);
+    }
+    this.points.putImageData(this.image, 0, 0);
   }
 
-  /** Write the impacts of an orbit from one on into the pixels. */
-  plot(orbit, from) {
-    const { pixels, image, ratio, svg } = this;
+  /** Add impacts of an orbit, from one to before another, to the pixels. */
+  plot(orbit, states, from, to) {
+    const { inks, hits, image, ratio, svg } = this;
     const colour = orbit.colour(this.colours);
     const sea = orbit.isSea();
-    const size = orbit.chosen ? (sea ? 1.7 : 3) : sea ? 0.7 : 1.7;
+    const size = orbit.chosen && !sea ? 3 : sea && !orbit.few ? 0.7 : 1.7;
     if (svg) {
       const places = [];
-      this.eachPoint(orbit, from, 1, size, (left, top) => places.push(left, top));
+      this.eachPoint(states, from, to, 1, size, (left, top) => places.push(left, top));
       svg.dots(places, size, colour);
       return;
     }
     const width = Math.max(1, Math.round(size * ratio));
     const wide = image.width;
     const ink = packed(colour);
-    this.eachPoint(orbit, from, ratio, width, (column, row) => {
+    this.eachPoint(states, from, to, ratio, width, (column, row) => {
       const first = Math.round(row - width / 2) * wide + Math.round(column - width / 2);
       for (let a = 0; a < width; a++) {
-        for (let b = 0; b < width; b++) pixels[first + a * wide + b] = ink;
+        for (let b = first + a * wide; b < first + a * wide + width; b++) {
+          inks[b] = ink;
+          if (!sea) hits[b] = SOLID;
+          else if (hits[b] < SOLID - 1) {
+            this.spread += 1;
+            if (!hits[b]) this.visited += 1;
+            hits[b] += 1;
+          }
+        }
       }
     });
   }
 
   /** Call `act` with the place of each impact that is in sight, as `screen` has it, times a ratio. */
-  eachPoint({ x, xdot, udot, count }, from, ratio, size, act) {
+  eachPoint({ x, xdot, udot }, from, to, ratio, size, act) {
     const { frame, k, centre, radius } = this;
     const left = frame.left * ratio + size / 2;
     const top = frame.top * ratio + size / 2;
@@ -394,7 +432,7 @@ class SectionView {
     const [ox, oy] = this.origin;
     if (this.kind === "disk") {
       const fy = (this.scale * ratio) / this.sectionHeight;
-      for (let i = from; i < count; i++) {
+      for (let i = from; i < to; i++) {
         const column = mx + (x[i] - ox) * scale;
         const row = my - (xdot[i] - k * udot[i] - oy) * fy;
         if (column >= left && row >= top && column <= right && row <= bottom) act(column, row);
@@ -403,7 +441,7 @@ class SectionView {
     }
     const [[e0, e1, e2], [a0, a1], [u0, u1, u2]] = [this.eye, this.across, this.up];
     const through = (-2 * (e1 + e2)) / this.eyeSquare;
-    for (let i = from; i < count; i++) {
+    for (let i = from; i < to; i++) {
       const dx = x[i] - centre;
       const v = xdot[i];
       const w = udot[i];
@@ -413,6 +451,77 @@ class SectionView {
       const row = my - (u0 * dx + u1 * v + u2 * w - oy) * scale;
       if (column >= left && row >= top && column <= right && row <= bottom) act(column, row);
     }
+  }
+
+  // ---------------------------------------------------------------- the section in colour
+
+  /** The part of the section in sight, as ranges of p and q; null if there is none. */
+  window() {
+    const { frame, width, height } = this;
+    const [left, right, top, bottom] = [frame.left, width - frame.right, frame.top, height - frame.bottom];
+    const clamped = (values) => values.map((value) => Math.min(1, Math.max(-1, value)));
+    if (this.kind === "disk") {
+      const [p, q] = [(this.origin[0] - this.centre) / this.radius, this.origin[1] / this.sectionHeight];
+      const [across, up] = [(right - left) / 2 / this.scale, (bottom - top) / 2 / this.scale];
+      const found = { p: clamped([p - across, p + across]), q: clamped([q - up, q + up]) };
+      return found.p[0] < found.p[1] && found.q[0] < found.q[1] ? found : null;
+    }
+    const range = { p: [Infinity, -Infinity], q: [Infinity, -Infinity] };
+    for (let i = 0; i <= 24; i++) {
+      for (let j = 0; j <= 24; j++) {
+        const place = this.placeOf(left + ((right - left) * i) / 24, top + ((bottom - top) * j) / 24);
+        if (!place) continue;
+        ["p", "q"].forEach((name, n) => {
+          range[name] = [Math.min(range[name][0], place[n]), Math.max(range[name][1], place[n])];
+        });
+      }
+    }
+    if (!(range.p[0] < range.p[1] && range.q[0] < range.q[1])) return null;
+    for (const [name, [low, high]] of Object.entries(range)) {
+      const room = (high - low) / 20; // beyond the points that were tried
+      range[name] = clamped([low - room, high + room]);
+    }
+    return range;
+  }
+
+  /** Where in a window each pixel of the map is: shares across and up, NaN outside the section. */
+  shares({ p, q }) {
+    const { state } = this.read();
+    const key = JSON.stringify([state.view, state.k, this.width, this.height, p, q]);
+    if (this.sharesOf === key) return this.sharesTable;
+    const step = 1 / Math.min(2, this.ratio);
+    const [wide, tall] = [Math.floor(this.width / step), Math.floor(this.height / step)];
+    const table = new Float32Array(2 * wide * tall).fill(NaN);
+    for (let row = 0; row < tall; row++) {
+      for (let column = 0; column < wide; column++) {
+        const [left, top] = [(column + 0.5) * step, (row + 0.5) * step];
+        if (!this.inside([left, top])) continue;
+        const place = this.placeOf(left, top);
+        if (!place) continue;
+        table[2 * (row * wide + column)] = (place[0] - p[0]) / (p[1] - p[0]);
+        table[2 * (row * wide + column) + 1] = (place[1] - q[0]) / (q[1] - q[0]);
+      }
+    }
+    Object.assign(this, { sharesOf: key, sharesTable: { table, wide, tall } });
+    return this.sharesTable;
+  }
+
+  /** Draw the section in colour, if it is. */
+  drawMap() {
+    const { map } = this.read();
+    this.map.clearRect(0, 0, this.width, this.height);
+    if (!map?.window) return;
+    const { table, wide, tall } = this.shares(map.window);
+    const image = new ImageData(wide, tall);
+    const pixels = new Uint32Array(image.data.buffer);
+    const ink = map.inks(this.colours);
+    for (let i = 0; i < pixels.length; i++) {
+      if (!Number.isNaN(table[2 * i])) pixels[i] = ink(table[2 * i], table[2 * i + 1]);
+    }
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [wide, tall];
+    canvas.getContext("2d").putImageData(image, 0, 0);
+    this.map.drawImage(canvas, 0, 0, this.width, this.height);
   }
 
   // ---------------------------------------------------------------- lines and cursors
@@ -443,6 +552,7 @@ class SectionView {
       for (const [x, v, w] of points) this.mark(lines, this.screen(x, v, w), colours[colour], shape);
     }
     lines.restore();
+    this.drawScale();
   }
 
   clip(pen) {

@@ -7,8 +7,10 @@
  * on the half ellipsoid a position on the screen in section radii; `half` is half the view's size.
  */
 const MOST_ORBITS = 64;
-const MOST_IMPACTS = 10000000; // of an orbit, in 320 MB
+const MOST_IMPACTS = 10000000; // of an orbit, unless it runs on
+const MOST_FOLLOWED = 2000000000;
 const COLOURS = ["orbit", "verdict", "rotation", "exponent"];
+const MAPS = ["none", "exponent", "rotation", "verdict"]; // what colours the pixels of the section
 const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
@@ -18,6 +20,8 @@ function freshState() {
     energy: 0.01,
     view: { ...HOME_VIEW },
     colour: "orbit",
+    map: "none",
+    fill: false, // whether the window is filled with orbits, as it is after a zoom
     orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
@@ -92,6 +96,8 @@ function writeAddress(state) {
     ["E", state.energy],
     ["view", [view.kind, view.azimuth, view.elevation, view.x, view.y, view.half].join(",")],
     ["colour", state.colour],
+    ["map", state.map === "none" ? "" : state.map],
+    ["fill", state.fill ? 1 : ""],
     ["orbits", state.orbits.map(writeOrbit).join(";")],
     ["chosen", state.chosen],
     ["motion", state.motion ? writeMotion(state.motion) : ""],
@@ -164,12 +170,14 @@ function readAddress(text) {
       state.view = { kind, azimuth, elevation, x, y, half };
     },
     colour: (value) => (state.colour = one("colour", value, COLOURS)),
+    map: (value) => (state.map = one("map", value, MAPS)),
+    fill: (value) => (state.fill = value === "1"),
     orbits(value) {
       state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
         const match = /^(@?)([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
         if (!match) fail("orbits", part, "a start like 0.5*3000, 0.1:0.2*3000 or @x:y*3000 is needed");
         const at = [number("a start", match[2]), match[3] ? number("a start", match[3]) : 0];
-        const impacts = number("impacts", match[4], `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
+        const impacts = number("impacts", match[4], `1 to ${MOST_FOLLOWED}`, whole(1, MOST_FOLLOWED));
         return { part, at, typed: match[1] !== "", impacts, back: match[5] !== "", sea: match[6] !== "" };
       });
     },

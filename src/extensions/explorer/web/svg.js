@@ -86,6 +86,11 @@ class SvgPen {
     this.parts.push(`<text ${place} font-size="${size}" font-family="${family}" fill="${this.fillStyle}">${escaped(text)}</text>`);
   }
 
+  drawImage(canvas, left, top, width, height) {
+    const place = `x="${left}" y="${top}" width="${width}" height="${height}"`;
+    this.parts.push(`<image ${place} href="${canvas.toDataURL()}"/>`);
+  }
+
   /** Dots at places [left, top, left, top, ...]. */
   dots(places, size, colour) {
     let path = "";

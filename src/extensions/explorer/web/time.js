@@ -4,7 +4,7 @@
  * the curves of Figures 3 and 4. x points downwards from where the undeformed ball touches the floor.
  */
 
-/** The flights along an orbit, from its start at t = 0; backwards in time for a backward orbit. */
+/** The flights along the kept part of an orbit from t = 0; backwards in time for a backward orbit. */
 class OrbitMotion {
   constructor(orbit) {
     this.orbit = orbit;
@@ -13,8 +13,8 @@ class OrbitMotion {
 
   get count() {
     const { orbit, times } = this;
-    for (let i = times.length - 1; i < orbit.count; i++) times.push(times[i] + orbit.tau[i]);
-    return orbit.count;
+    for (let i = times.length - 1; i < orbit.kept; i++) times.push(times[i] + orbit.tau[i]);
+    return orbit.kept;
   }
 
   get ends() {

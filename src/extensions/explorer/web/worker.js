@@ -63,6 +63,19 @@ const jobs = {
     return analysis.jumpCurve(k, g, energy);
   },
 
+  pixels(request) {
+    return request.rest ? crowd.further(request) : crowd.begin(request);
+  },
+
+  fill(request) {
+    return crowd.fill(request);
+  },
+
+  /** Further impacts of an orbit from a state, of which the page has kept only the first ones. */
+  replay({ k, g, state, impacts }) {
+    return pseudorigid.history(k, g, ...state, impacts);
+  },
+
   /** Compare the orbits of a figure with the committed dataset. */
   check({ figure }) {
     return pseudorigid.checkFigure(figure);

@@ -1,0 +1,97 @@
+"use strict";
+/*
+ * Orbits that fill a window after a zoom: cell by cell of a grid over what is in sight, each that no
+ * orbit has met yet begins another one. The same window and size of the page give the same orbits.
+ */
+const CELLS = 48; // along a side
+const STRIDE = 1009; // between cells, so that they are met all over the window
+const SEEDS = 16; // orbits that begin together, before the cells that they met are known
+const MOST_POINTS = 1000000;
+const SETTLED = 250; // ms after which a view is filled
+
+/** An orbit of which only the points in the window are kept. */
+class WindowOrbit {
+  constructor({ x, xdot, udot, facts }, index, page) {
+    Object.assign(this, { x, xdot, udot, facts, page, kept: x.length, hue: index % HUES });
+    Object.assign(this, { chosen: false, settled: true, few: true });
+  }
+
+  isSea() {
+    return this.facts.verdict !== "regular";
+  }
+
+  colour(colours) {
+    return Orbit.prototype.colour.call(this, colours);
+  }
+}
+
+class Filling {
+  constructor(page) {
+    this.page = page;
+    this.key = "";
+    this.orbits = [];
+    this.done = false;
+  }
+
+  /** Fill what is in sight now, unless that is done or under way. */
+  update() {
+    const { state, section } = this.page;
+    const { k, g, energy, view } = state;
+    clearTimeout(this.waits);
+    const wanted = state.fill && view.half < HOME[view.kind][2] - 0.1;
+    const key = wanted ? JSON.stringify([k, g, energy, view, section.width, section.height]) : "";
+    if (key === this.key) return;
+    this.key = key;
+    this.done = false;
+    this.waits = setTimeout(() => this.run(key), wanted ? SETTLED : 0);
+  }
+
+  async run(key) {
+    const { page } = this;
+    const { section } = page;
+    this.orbits = [];
+    section.drawPoints();
+    const window = key && section.window();
+    if (!window) return;
+    const { k, g, energy } = page.state;
+    const low = geometry.pointAt(k, g, energy, window.p[0], window.q[0]);
+    const high = geometry.pointAt(k, g, energy, window.p[1], window.q[1]);
+    const range = { x: [low.x, high.x], y: [low.y, high.y] };
+    const met = new Uint8Array(CELLS * CELLS);
+    const share = (value, [from, to]) => Math.min(CELLS - 1, Math.floor((CELLS * (value - from)) / (to - from)));
+    let points = 0;
+    let next = 0;
+    while (points < MOST_POINTS) {
+      const places = [];
+      for (; next < met.length && places.length < SEEDS; next++) {
+        const cell = (next * STRIDE) % met.length;
+        const at = [cell % CELLS, Math.floor(cell / CELLS)].map((n, i) => {
+          const [from, to] = i ? window.q : window.p;
+          return from + ((n + 0.5) / CELLS) * (to - from);
+        });
+        if (!met[cell] && at[0] ** 2 + at[1] ** 2 < 1 && geometry.stateAt(k, g, energy, { p: at[0], q: at[1] })) places.push(at);
+      }
+      if (!places.length) break;
+      const requests = [];
+      for (let i = 0; i < places.length; i += 4) {
+        const request = { k, g, energy, places: places.slice(i, i + 4), window: range };
+        requests.push(page.pool.ask("fill", request, () => key === this.key));
+      }
+      const found = (await Promise.all(requests)).flat();
+      if (key !== this.key) return;
+      for (const orbit of found) {
+        for (let i = 0; i < orbit.x.length; i++) {
+          met[share(orbit.xdot[i] - k * orbit.udot[i], range.y) * CELLS + share(orbit.x[i], range.x)] = 1;
+        }
+        points += orbit.x.length;
+        const one = new WindowOrbit(orbit, this.orbits.length, page);
+        this.orbits.push(one);
+        section.plot(one, one, 0, one.kept);
+      }
+      section.showPoints();
+    }
+    this.done = true;
+    if (["rotation", "exponent"].includes(page.state.colour)) section.look();
+    page.controls.filled();
+  }
+}
