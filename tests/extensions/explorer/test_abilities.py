@@ -122,3 +122,25 @@ def test_no_orbit_is_called_regular_before_it_has_made_a_whole_turn(person):
     found = [row["verdict"] for row in person.settled()]
     assert found[:3] == ["undecided", "undecided", "chaotic"]
     assert found[3:] == ["regular", "regular", "chaotic", "too short for a verdict"]
+
+
+@pytest.mark.parametrize(("start", "impacts"), [(0.534522, 200), (-0.3, 1000)])
+def test_two_balls_separate_as_in_python(person, start, impacts):
+    person.open(f"{DISK}&orbits={start}*2000&chosen=0")
+    person.set("apart", "1e-5")
+    person.press("twin")
+    person.settle()
+    wait_for(lambda: "after" in person.text("twin-note"))
+    one = np.array(BALL.start(start, ENERGY))
+    other = BALL.state_xy(one[0] + 1e-5, one[1] - BALL.k * one[2], ENERGY)
+    x, xdot, udot, _ = (BALL.history(other, impacts)[0] - BALL.history(tuple(one), impacts)[0]).T
+    apart = np.hypot(x, (xdot - BALL.k * udot) / np.sqrt(BALL.k * (1 + BALL.k)))
+    note = person.text("twin-note")
+    assert f"after {impacts} impacts are {float(f'{apart[-1]:.2g}'):g} apart" in note
+    if impacts == 1000:
+        assert "in proportion" in note
+        return
+    first = np.argmax(apart > 0.02 * BALL.section(ENERGY)[1])
+    logs = np.log([1e-5, *apart[:first]])
+    assert f"exp({np.polyfit(np.arange(first + 1), logs, 1)[0]:.2g})" in note
+    assert person.state()["twin"] == "0.00001" and person.state()["chart"] == "distance"

@@ -38,8 +38,8 @@ function drawRing(pen, [left, top], radius, ground, colour) {
 }
 
 class Plot {
-  constructor(pen, { width, height, frame, colours, across, up, logarithmic = false }) {
-    Object.assign(this, { pen, frame, colours, across, up, logarithmic });
+  constructor(pen, { width, height, frame, colours, across, up, logarithmic = false, decades = false }) {
+    Object.assign(this, { pen, frame, colours, across, up, logarithmic: [logarithmic, decades] }); // across, up
     this.size = [width - frame.left - frame.right, height - frame.top - frame.bottom];
     pen.font = `13px ${colours.font}`;
   }
@@ -66,8 +66,7 @@ class Plot {
     const bottom = frame.top + size[1];
     [this.across, this.up].forEach(([low, high], index) => {
       const middle = 0.5 * (low + high);
-      const decades = !index && this.logarithmic;
-      const ticks = decades ? decadesAround(low, high) : ticksAround(middle, high - low, size[index] / (index ? 34 : 70));
+      const ticks = this.logarithmic[index] ? decadesAround(low, high) : ticksAround(middle, high - low, size[index] / (index ? 34 : 70));
       const { offsets, labels } = ticks;
       offsets.forEach((offset, i) => {
         const [left, top] = this.at(index ? [this.across[0], middle + offset] : [middle + offset, this.up[0]]);
@@ -137,12 +136,13 @@ class Plot {
 /** Ticks at powers of ten between two logarithms, and at 2 and 5 times them where there are few. */
 function decadesAround(low, high) {
   const ticks = [];
-  for (let n = Math.floor(low); n <= high; n++) {
+  const every = Math.ceil((high - low) / 8);
+  for (let n = every * Math.floor(low / every); n <= high; n += every) {
     for (const factor of high - low < 2.5 ? [1, 2, 5] : [1]) ticks.push(factor * 10 ** n);
   }
   const shown = ticks.filter((value) => Math.log10(value) >= low && Math.log10(value) <= high);
   const offsets = shown.map((value) => Math.log10(value) - 0.5 * (low + high));
-  return { offsets, labels: shown.map((value) => COUNT.format(value)) };
+  return { offsets, labels: shown.map((value) => (value < 0.001 ? value.toExponential(0).replaceAll("-", "−") : COUNT.format(value))) };
 }
 
 /** Exponents so far against the logarithm of the number of impacts; Figure 7 has the number. */

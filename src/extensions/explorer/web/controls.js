@@ -111,7 +111,10 @@ class Controls {
       ...Object.fromEntries(COLOURS.map((colour) => [`by-${colour}`, state.colour === colour])),
       "chart-exponent": state.chart === "exponent",
       "chart-rotation": state.chart === "rotation",
+      "chart-distance": state.chart === "distance",
     };
+    element("twin").checked = state.twin > 0;
+    if (state.twin) element("apart").value = String(state.twin);
     for (const [id, on] of Object.entries(pressed)) element(id).setAttribute("aria-pressed", on);
   }
 
@@ -315,7 +318,7 @@ class Controls {
     on("as-surface", "click", () => this.shape("surface"));
     on("as-disk", "click", () => this.shape("disk"));
     for (const colour of COLOURS) on(`by-${colour}`, "click", () => this.changed({ colour }));
-    for (const chart of ["exponent", "rotation"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
+    for (const chart of ["exponent", "rotation", "distance"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
     on("map", "change", () => this.changed({ map: element("map").value }));
     on("play-energy", "click", () => (page.sweeping ? page.stopSweep() : page.sweepEnergy()));
     on("home", "click", () => this.whole());
@@ -389,15 +392,18 @@ class Controls {
       page.time.reset();
       page.setTime(this.state.time);
     });
+    for (const id of ["twin", "apart"]) on(id, "change", () => this.pair(id));
+    on("large", "click", () => element("stage").requestFullscreen().catch(() => this.hint("This browser does not allow the full screen.")));
     this.listenToPeriodic(on);
     this.listenToRecord(on);
     on("check", "click", () => this.check());
-    new ResizeObserver(() => {
+    const sizes = new ResizeObserver(() => {
       page.section?.resize();
       page.time?.draw();
       page.drawChart();
       this.atlas.draw();
-    }).observe(this.box);
+    });
+    for (const box of [this.box, element("stage")]) sizes.observe(box);
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => this.theme(matches ? "dark" : "light"));
     element("atlas-panel").addEventListener("toggle", () => this.atlas.draw());
   }
@@ -535,11 +541,14 @@ class Controls {
     this.moved();
   }
 
-  /** Say that a window is full. */
+  /** Say what fills the window. */
   filled() {
-    const { orbits } = this.page.filling;
-    const regular = orbits.filter((orbit) => !orbit.isSea()).length;
-    if (orbits.length) setText("map-note", `The window is full: ${COUNT.format(orbits.length)} orbits began in it, ${COUNT.format(regular)} of them regular.`);
+    const { orbits, rare } = this.page.filling;
+    if (!orbits.length) return;
+    const regular = COUNT.format(orbits.filter((orbit) => !orbit.isSea()).length);
+    const full = `The window is full: ${COUNT.format(orbits.length)} orbits began in it, ${regular} of them regular.`;
+    const few = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular. They return to it too rarely to draw curves.`;
+    setText("map-note", rare ? few : full);
   }
 
   /** Say how much of what is in sight is regular. */
@@ -867,6 +876,19 @@ class Controls {
   }
 
   // ---------------------------------------------------------------- time
+
+  /** Take over whether there is a second ball, and its distance. */
+  pair(id) {
+    const distance = readNumber(element("apart").value);
+    const allowed = distance > 0 && distance < 1;
+    complain("apart", allowed ? "" : `distance = ${element("apart").value.trim() || "nothing"} is not allowed: above 0, below 1`, "apart");
+    if (allowed && (id === "twin" || this.state.twin)) this.page.setTwin(element("twin").checked ? distance : 0);
+    else if (!allowed) element("twin").checked = this.state.twin > 0;
+  }
+
+  noteTwin() {
+    setText("twin-note", this.page.twin.words);
+  }
 
   showSweep() {
     element("play-energy").textContent = this.page.sweeping ? "Stop E" : "Play E";

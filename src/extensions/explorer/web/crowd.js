@@ -98,9 +98,9 @@ const crowd = (() => {
 
   /**
    * The orbits from places, each with its points in a window of (x, y). A regular one that returns is
-   * followed until it has drawn its curve there.
+   * followed until it has drawn its curve there, unless `brief`.
    */
-  function fill({ k, g, energy, places, window }) {
+  function fill({ k, g, energy, places, window, brief }) {
     return places.map(([p, q]) => {
       const state = geometry.stateAt(k, g, energy, { p, q });
       const points = { x: [state[0]], xdot: [state[1]], udot: [state[2]] };
@@ -119,7 +119,7 @@ const crowd = (() => {
       const facts = follower.facts();
       let impacts = DECISIVE;
       const goesOn = () =>
-        facts.verdict === "regular" && points.x.length < ENOUGH &&
+        !brief && facts.verdict === "regular" && points.x.length < ENOUGH &&
         impacts < (points.x.length > PROMISING ? LONGEST : TRIED);
       while (goesOn()) {
         piece = pseudorigid.history(k, g, piece.x.at(-1), piece.xdot.at(-1), piece.udot.at(-1), PIECE);

@@ -1,10 +1,12 @@
 "use strict";
 /*
- * Orbits that fill a window after a zoom: cell by cell of a grid over what is in sight, each that no
- * orbit has met yet begins another one. The same window and size of the page give the same orbits.
+ * Orbits that fill a window after a zoom. They begin at places spread evenly over what is in sight, in
+ * cells of a grid that no orbit has met yet. The same window and size of the page give the same orbits.
  */
 const CELLS = 48; // along a side
-const STRIDE = 1009; // between cells, so that they are met all over the window
+const STARTS = 4000;
+const SPREAD = [0.7548776662466927, 0.5698402909980532]; // the R2 sequence of M. Roberts
+const RARE = 0.1; // returns of an orbit, on average, below which orbits are not followed further
 const SEEDS = 16; // orbits that begin together, before the cells that they met are known
 const MOST_POINTS = 1000000;
 const SETTLED = 250; // ms after which a view is filled
@@ -63,18 +65,18 @@ class Filling {
     let next = 0;
     while (points < MOST_POINTS) {
       const places = [];
-      for (; next < met.length && places.length < SEEDS; next++) {
-        const cell = (next * STRIDE) % met.length;
-        const at = [cell % CELLS, Math.floor(cell / CELLS)].map((n, i) => {
-          const [from, to] = i ? window.q : window.p;
-          return from + ((n + 0.5) / CELLS) * (to - from);
-        });
-        if (!met[cell] && at[0] ** 2 + at[1] ** 2 < 1 && geometry.stateAt(k, g, energy, { p: at[0], q: at[1] })) places.push(at);
+      for (; next < STARTS && places.length < SEEDS; next++) {
+        const [across, up] = SPREAD.map((step) => (0.5 + next * step) % 1);
+        const cell = Math.floor(up * CELLS) * CELLS + Math.floor(across * CELLS);
+        const [p, q] = [[across, window.p], [up, window.q]].map(([part, [from, to]]) => from + part * (to - from));
+        if (!met[cell] && geometry.stateAt(k, g, energy, { p, q })) places.push([p, q]);
       }
+      const count = this.orbits.length;
+      this.rare = count >= 4 * SEEDS && points < (1 + RARE) * count;
       if (!places.length) break;
       const requests = [];
       for (let i = 0; i < places.length; i += 4) {
-        const request = { k, g, energy, places: places.slice(i, i + 4), window: range };
+        const request = { k, g, energy, places: places.slice(i, i + 4), window: range, brief: this.rare };
         requests.push(page.pool.ask("fill", request, () => key === this.key));
       }
       const found = (await Promise.all(requests)).flat();

@@ -29,6 +29,7 @@ class Explorer {
     this.section = new SectionView(element("section"), () => this.scene());
     this.time = new TimeView(element("ball"), element("curves"), () => this);
     this.motion = null;
+    this.twin = new Twin(this);
     this.controls = new Controls(this);
   }
 
@@ -42,11 +43,11 @@ class Explorer {
       shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
     }));
     const lines = [...this.branchLines, ...this.jumpLines];
-    const now = this.time ? this.time.now() : null;
+    const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) => (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
     const map = this.colouring.window ? this.colouring : null;
     const filling = this.filling.orbits;
     return {
-      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursor: now?.state,
+      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursors,
     };
   }
 
@@ -553,6 +554,7 @@ class Explorer {
     const orbit = this.orbits[state.chosen];
     if (periodic) this.motion = new PeriodicMotion(periodic);
     else this.motion = !state.motion && orbit?.start ? new OrbitMotion(orbit) : null;
+    this.twin.update();
     this.time.reset();
     this.time.draw();
     this.section.drawPoints();
@@ -561,6 +563,15 @@ class Explorer {
     this.controls.updateFacts();
     this.controls.markChosen();
     this.drawChartSoon();
+  }
+
+  /** Let a second ball start at a distance, or with 0 none. */
+  setTwin(distance) {
+    this.mark();
+    Object.assign(this.state, { twin: distance, chart: distance ? "distance" : "exponent" });
+    this.chooseMotion();
+    this.controls.press();
+    this.saveSoon();
   }
 
   showPeriodic(one) {
@@ -618,6 +629,11 @@ class Explorer {
   // ---------------------------------------------------------------- charts and the address
 
   drawChart() {
+    this.controls.noteTwin();
+    if (this.state.chart === "distance") {
+      this.twin.draw(element("chart"));
+      return;
+    }
     if (this.state.chart === "rotation") {
       drawRotations(element("chart"), this.orbits);
       return;

@@ -74,7 +74,7 @@ class SectionView {
     const disk = view.kind === "disk";
     // Seen from above, along the axis of udot, the half ellipsoid is the plane (x, xdot) of Figure 6.
     this.framed = disk || (view.elevation === ABOVE.elevation && view.azimuth === ABOVE.azimuth);
-    const margin = this.framed ? { left: disk ? 52 : 62, top: 10, right: 10, bottom: 40 } : null;
+    const margin = this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
     this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
     const wide = this.width - this.frame.left - this.frame.right;
     const tall = this.height - this.frame.top - this.frame.bottom;
@@ -613,12 +613,14 @@ class SectionView {
 
   drawCursors() {
     const { cursors, colours } = this;
-    const { cursor } = this.read();
+    const { cursors: moments } = this.read();
     cursors.clearRect(0, 0, this.width, this.height);
     cursors.save();
     this.clip(cursors);
-    const now = cursor && this.screen(...cursor);
-    if (now) drawRing(cursors, now, 8, colours.page, colours.ink); // where the ball in time is
+    for (const state of moments) { // where the balls in time are
+      const now = this.screen(...state);
+      if (now) drawRing(cursors, now, 8, colours.page, colours.ink);
+    }
     if (this.fan) {
       const [from, to] = this.fan;
       const states = Array.from({ length: 41 }, (_, i) => this.lineState(from + ((to - from) * i) / 40));

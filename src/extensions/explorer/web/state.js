@@ -32,6 +32,7 @@ function freshState() {
     chart: "exponent",
     time: 0,
     span: 16, // of the time view
+    twin: 0, // distance at which a second ball starts, 0 for none
     back: false, // direction and impacts of the next orbit
     impacts: 3000,
     preset: "",
@@ -108,6 +109,7 @@ function writeAddress(state) {
     ["chart", state.chart],
     ["t", state.time],
     ["span", state.span],
+    ["twin", state.twin || ""],
     ["next", `${state.impacts}${state.back ? "<" : ""}`],
     ["preset", state.preset],
   ]);
@@ -207,9 +209,10 @@ function readAddress(text) {
       });
     },
     jump: (value) => (state.jump = value === "1"),
-    chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation"])),
+    chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation", "distance"])),
     t: (value) => (state.time = number("t", value)),
     span: (value) => (state.span = number("span", value, "a time above 0", (v) => v > 0 && v <= 1000)),
+    twin: (value) => (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
     next(value) {
       state.back = value.endsWith("<");
       const count = value.replace("<", "");

@@ -52,6 +52,7 @@ class OrbitMotion {
 /** The flights along a periodic orbit, whose own points are repeated without an end. */
 class PeriodicMotion {
   constructor(orbit) {
+    this.orbit = orbit;
     this.points = orbit.points;
     this.period = orbit.period;
     this.begins = [0];
@@ -96,7 +97,7 @@ class TimeView {
   constructor(ball, curves, read) {
     this.ball = ball;
     this.curves = curves;
-    this.read = read; // returns {state, motion}
+    this.read = read; // returns {state, motion, twin}
     this.extent = [Infinity, -Infinity];
   }
 
@@ -116,12 +117,12 @@ class TimeView {
     const { state, motion } = this.read();
     const colours = readColours();
     this.drawCurves(state, motion, colours);
-    this.drawBall(state, motion, colours);
+    this.drawBalls(colours);
   }
 
-  /** Where the ball is: {x, u, index, state}; null without a motion. */
-  now() {
-    const { state, motion } = this.read();
+  /** Where a ball is: {x, u, index, state}; null without a motion. */
+  now(motion = this.read().motion) {
+    const { state } = this.read();
     if (!motion || !motion.count) return null;
     const index = motion.indexAt(state.time);
     const { begin, tau, state: before } = motion.flight(index);
@@ -133,14 +134,15 @@ class TimeView {
     const { pen, width, height } = fitted(this.curves);
     const frame = { left: 50, top: 24, right: 10, bottom: 36 };
     const [from, to] = this.window();
-    const lines = { height: [], strain: [] };
     const impacts = [];
-    if (motion?.count) {
+    const curvesOf = (motion) => {
+      const lines = { height: [], strain: [] };
+      if (!motion?.count) return lines;
       let j = motion.indexAt(Math.max(from, motion.ends[0]));
       for (; j < motion.count; j++) {
         const { begin, tau, state: before } = motion.flight(j);
         if (begin > to) break;
-        if (begin >= from) impacts.push([begin, -before[0]]);
+        if (begin >= from && motion === this.read().motion) impacts.push([begin, -before[0]]);
         const samples = Math.max(3, Math.min(60, Math.ceil(tau * 20)));
         for (let i = 0; i <= samples; i++) {
           const t = (tau * i) / samples;
@@ -153,7 +155,10 @@ class TimeView {
         }
         if (impacts.length > 4000) break;
       }
-    }
+      return lines;
+    };
+    const lines = curvesOf(motion);
+    const other = curvesOf(this.read().twin.motion);
     let [low, high] = this.extent;
     if (!(low < high)) [low, high] = [-0.5, 0.3];
     const room = 0.06 * (high - low);
@@ -161,6 +166,7 @@ class TimeView {
     plot.axes("t", "");
     plot.line(lines.height, colours.hues[0], 1.8);
     plot.line(lines.strain, colours.hues[1], 1.8);
+    plot.line(other.height, colours.hues[2], 1.2);
     for (const point of impacts) plot.dot(point, colours.ink, impacts.length > 100 ? 1.5 : 3);
     plot.key([["height −x", colours.hues[0]], ["strain u", colours.hues[1]]]);
     const now = this.now();
@@ -172,47 +178,53 @@ class TimeView {
     this.plot = plot;
   }
 
-  drawBall(state, motion, colours) {
+  /** Draw the ball, and beside it the second one if there is one. */
+  drawBalls(colours) {
     const { pen, width, height } = fitted(this.ball);
-    const now = this.now();
+    const { motion, twin } = this.read();
+    const motions = twin.motion ? [motion, twin.motion] : [motion];
     const top = Math.max(0.4, Math.min(6, this.extent[1] > 0 ? this.extent[1] : 0));
-    const scale = Math.min((height - 34) / (2.25 + top), (width - 12) / 2.1); // pixels in R
+    const wide = width / motions.length;
+    const scale = Math.min((height - 34) / (2.25 + top), (wide - 12) / 2.1); // pixels in R
     const floor = height - 26;
     strokePath(pen, colours.ink, 2, () => {
       pen.moveTo(4, floor);
       pen.lineTo(width - 4, floor);
     });
     pen.font = `13px ${colours.font}`;
-    const label = now ? `u = ${now.u.toFixed(3).replace("-", "−")}` : "no orbit";
-    write(pen, label, width / 2, floor + 6, colours.muted, "center");
+    motions.forEach((one, i) => this.drawBall(pen, this.now(one), { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
+  }
+
+  drawBall(pen, now, { middle: across, floor, scale, colours, hue }) {
+    write(pen, now ? `u = ${now.u.toFixed(3).replace("-", "−")}` : "no orbit", across, floor + 6, colours.muted, "center");
     if (!now) return;
     const middle = floor - scale * (1 - now.x);
     const half = scale * Math.max(0.02, 1 + now.u);
     pen.save();
-    const outline = (high) => pen.ellipse(width / 2, middle, scale, high, 0, 0, 2 * Math.PI);
-    strokePath(pen, colours.hues[0], 2, () => outline(half));
-    pen.fillStyle = colours.hues[0];
+    const outline = (high) => pen.ellipse(across, middle, scale, high, 0, 0, 2 * Math.PI);
+    strokePath(pen, hue, 2, () => outline(half));
+    pen.fillStyle = hue;
     pen.globalAlpha = 0.22;
     pen.fill();
     pen.clip();
     // Lines of latitude, which come closer as the ball flattens.
     pen.globalAlpha = 0.6;
-    strokePath(pen, colours.hues[0], 1, () => {
+    strokePath(pen, hue, 1, () => {
       for (const share of [-0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75]) {
-        pen.moveTo(0, middle + half * share);
-        pen.lineTo(width, middle + half * share);
+        pen.moveTo(across - scale, middle + half * share);
+        pen.lineTo(across + scale, middle + half * share);
       }
     });
     pen.restore();
     // The undeformed ball above the floor, for comparison, and the centre.
     pen.save();
     pen.beginPath();
-    pen.rect(0, 0, width, floor);
+    pen.rect(across - scale - 2, 0, 2 * scale + 4, floor);
     pen.clip();
     pen.setLineDash([3, 4]);
     strokePath(pen, colours.muted, 1, () => outline(scale));
     pen.restore();
     pen.fillStyle = colours.ink;
-    pen.fillRect(width / 2 - 2, middle - 2, 4, 4);
+    pen.fillRect(across - 2, middle - 2, 4, 4);
   }
 }
