@@ -41,7 +41,7 @@ BOTH = ("kernel_api.js", "geometry.js")
 WORKER = ("analysis.js", "crowd.js", "worker.js")
 APP = (
     *("state.js", "orbits.js", "section.js", "colouring.js", "filling.js", "time.js", "charts.js"),
-    *("twin.js", "compute.js", "presets.js"),
+    *("twin.js", "families.js", "compute.js", "presets.js"),
     PRESETS,
     *("svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
 )

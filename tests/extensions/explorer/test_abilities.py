@@ -46,7 +46,7 @@ def test_an_orbit_runs_on_until_it_is_stopped(person):
     assert person.text("run-on") == "Stop"
     person.press("run-on")
     person.settle()
-    assert person.text("run-on") == "Run on"
+    assert person.text("run-on") == "Continue"
     impacts = person.run(count)
     assert person.state()["orbits"] == f"0.5*100;0.534522*{impacts}"
     person.reload()  # the link has the same orbit

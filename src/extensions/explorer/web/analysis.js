@@ -692,5 +692,37 @@ const analysis = (() => {
     };
   }
 
-  return { Follower, periodicOrbits, nearestOrbit, traceBranch, jumpCurve };
+  /** A periodic orbit at other energies: samples {energy, trace, places}, as far as Newton's method follows it. */
+  function family(k, g, energy, { points, period }) {
+    const [least, most] = geometry.energyBounds(k, g);
+    const longest = (most - least) / 200;
+    const from = { energy, x: points[0][0], y: points[0][1] - k * points[0][2] };
+    const sides = [-1, 1].map((sign) => {
+      const samples = [];
+      let before = from;
+      let last = from;
+      for (let step = longest / 4; step > 1e-9 * (most - least) && samples.length < 1000; ) {
+        const to = last.energy + sign * step;
+        const ahead = last === before ? 0 : (to - last.energy) / (last.energy - before.energy);
+        const guess = ["x", "y"].map((name) => last[name] + ahead * (last[name] - before[name]));
+        const { radius, centre, height } = geometry.section(k, g, to);
+        const [x, y, across, up] = pseudorigid.newton(k, g, to, ...guess, period, 8);
+        const state = Math.hypot(across, up) < 1e-9 * radius && geometry.chartState(k, g, to, x, y);
+        const orbit = state && to > least && to < most && Math.hypot(x - guess[0], y - guess[1]) < 0.02 * radius && orbitFrom(k, g, state, period);
+        if (!orbit || orbit.slice(1).some((point) => Math.hypot(point[0] - x, point[1] - k * point[2] - y) < 1e-6 * radius)) {
+          step /= 2;
+          continue;
+        }
+        const [a, , , d] = pseudorigid.tangent(k, g, ...state, period);
+        [before, last] = [last, { energy: to, x, y }];
+        const places = orbit.map(([px, v, w]) => [(px - centre) / radius, (v - k * w) / height]);
+        samples.push({ energy: to, trace: a + d, places });
+        step = Math.min(longest, 1.5 * step);
+      }
+      return samples;
+    });
+    return [...sides[0].reverse(), ...sides[1]];
+  }
+
+  return { Follower, family, periodicOrbits, nearestOrbit, traceBranch, jumpCurve };
 })();

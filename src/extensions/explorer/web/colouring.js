@@ -77,14 +77,14 @@ class Colouring {
   async compute(ball, window, map, wanted) {
     const grids = GRIDS[map].map((size) => new Grid(size));
     const [coarse, fine] = grids;
-    const first = await Promise.all(this.chunks(coarse.size, window).map((chunk) => this.ask({ ...ball, ...chunk }, wanted)));
+    const first = await Promise.all(this.chunks(coarse.size, window).map((chunk) => this.page.pool.ask("pixels", { ...ball, ...chunk }, wanted)));
     if (!wanted()) return;
     first.forEach((result) => coarse.take(result));
     const open = this.chunks(fine.size, window).map((chunk) => ({ ...ball, ...chunk }));
     Object.assign(this, { window, grids, by: map, energy: ball.energy, left: open.length });
     this.draw();
     const follow = async (request) => {
-      const result = await this.ask(request, wanted);
+      const result = await this.page.pool.ask("pixels", request, wanted);
       if (!result) return;
       fine.take(result);
       this.left -= 1;
@@ -98,10 +98,6 @@ class Colouring {
       this.drawSoon();
     };
     open.forEach(follow);
-  }
-
-  ask(request, wanted) {
-    return this.page.pool.ask("pixels", request, wanted);
   }
 
   /** The cells of a grid whose middles lie on the section, in rows that jump about. */
@@ -135,11 +131,6 @@ class Colouring {
     section.drawMap();
     section.drawLines();
     controls.noteMap();
-  }
-
-  /** Whether the picture is that of an energy. */
-  shows(energy) {
-    return this.energy === energy;
   }
 
   get done() {

@@ -48,10 +48,6 @@ class Pool {
     this.queue = [];
   }
 
-  get size() {
-    return navigator.hardwareConcurrency || 2;
-  }
-
   /** Ask for a job unless `wanted` is false when its turn comes; the promise then holds null. */
   ask(job, args, wanted = () => true) {
     return new Promise((resolve, reject) => {

@@ -9,7 +9,6 @@ class Controls {
   constructor(page) {
     this.page = page;
     this.box = element("section");
-    this.seen = { regular: false, chaotic: false };
     this.fill();
     this.listen();
     this.pointers();
@@ -42,28 +41,27 @@ class Controls {
     this.option = option;
   }
 
-  /** The pictures of the paper, its claims and proofs, and those of each variant. */
+  /** The pictures of the paper, its claims and proofs; `variants` has those that have others. */
   menu(option) {
     const { presets, scenes } = this.page.data;
-    const titles = new Map(presets.map(({ name, title }) => [name, title]));
-    const groups = new Map();
-    for (const name of [...titles.keys(), ...Object.keys(scenes)]) {
-      const [variant, scene] = name.includes("/") ? name.split("/") : ["", name];
-      const group = groups.get(variant) ?? new Map();
-      const title = titles.get(scene) ?? scene;
-      if (scenes[name]) group.set(name, variant ? `${title.split(":")[0]}, ${variant}` : title);
-      groups.set(variant, group);
-    }
-    return [...groups].flatMap(([variant, group]) => {
-      const options = [...group].map(([name, title]) => option(name, title));
-      return variant ? [node("optgroup", { label: `Variant ${variant}` }, ...options)] : options;
-    });
+    const own = Object.keys(scenes).filter((name) => !name.includes("/"));
+    const names = [...new Set([...presets.map(({ name }) => name), ...own])];
+    return names.filter((name) => scenes[name]).map((name) => option(name, presets.find((one) => one.name === name)?.title ?? name));
+  }
+
+  /** The names of a scene in the variants that have it, that of the paper first. */
+  variants(scene) {
+    return Object.keys(this.page.data.scenes).filter((name) => name === scene || name.endsWith(`/${scene}`));
   }
 
   /** Say under the picture what there is to see; a change of the picture makes it one's own. */
   words() {
     const { preset, k, g, energy } = this.state;
-    element("preset").value = preset;
+    element("preset").value = preset.split("/").at(-1);
+    const names = preset ? this.variants(element("preset").value) : [];
+    element("variant").replaceChildren(...names.map((name) => this.option(name, name.includes("/") ? name.split("/")[0] : "the paper")));
+    element("variant").value = preset;
+    element("variant-label").hidden = names.length < 2;
     const values = `k = ${shortNumber(k)}, g = ${shortNumber(g)}, E = ${shortNumber(energy)}`;
     const [variant, scene] = preset.split("/");
     const { presets } = this.page.data;
@@ -84,6 +82,7 @@ class Controls {
     }
     this.slides();
     this.words();
+    this.showTour();
     if (![...element("span").options].some(({ value }) => Number(value) === state.span)) {
       element("span").append(this.option(state.span, `${state.span} / ω`));
     }
@@ -112,12 +111,14 @@ class Controls {
       "chart-exponent": state.chart === "exponent",
       "chart-rotation": state.chart === "rotation",
       "chart-distance": state.chart === "distance",
+      "chart-families": state.chart === "families",
     };
     element("twin").checked = state.twin > 0;
     if (state.twin) element("apart").value = String(state.twin);
     for (const [id, on] of Object.entries(pressed)) element(id).setAttribute("aria-pressed", on);
   }
 
+  /** Say something that holds until the next change. */
   hint(text) {
     element("hint").textContent = text;
   }
@@ -129,21 +130,14 @@ class Controls {
     else this.hint(`${touch ? "Tap" : "Click"} anywhere on the surface: an orbit starts there, and its ball bounces.`);
   }
 
-  /** Tell what has been found, and what to do next. */
+  /** Say what the orbit is that was started last. */
   completed() {
     this.sceneKinds();
     const mine = this.watched;
     if (!["regular", "chaotic"].includes(mine?.facts?.verdict)) return;
     this.watched = null;
-    this.seen[mine.facts.verdict] = true;
-    const first =
-      mine.facts.verdict === "regular"
-        ? "This orbit is regular: it stays on closed curves, an island."
-        : "This orbit is chaotic: it wanders over the sea.";
-    let next = "Drag along the dashed line for a fan of orbits; zoom by wheel or pinch.";
-    if (!this.seen.chaotic) next = "Now start one in the grey sea.";
-    else if (!this.seen.regular) next = "Now start one inside the closed curves.";
-    this.hint(`${first} ${next}`);
+    const seen = { regular: "regular: it stays on closed curves, an island", chaotic: "chaotic: it wanders over the sea" };
+    this.hint(`This orbit is ${seen[mine.facts.verdict]}.`);
   }
 
   listOrbits() {
@@ -174,7 +168,7 @@ class Controls {
   }
 
   updateFacts() {
-    element("run-on").textContent = this.page.orbits.some((orbit) => orbit.endless) ? "Stop" : "Run on";
+    element("run-on").textContent = this.page.orbits.some((orbit) => orbit.endless) ? "Stop" : "Continue";
     const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
@@ -306,19 +300,19 @@ class Controls {
   listen() {
     const { page } = this;
     const on = (id, type, act) => element(id).addEventListener(type, act);
-    on("preset", "change", () => {
-      const name = element("preset").value;
-      if (!name) return;
-      page.pause();
-      page.mark();
-      page.show(presetState(name, page.data.scenes));
-      this.welcome();
-    });
+    for (const id of ["preset", "variant"]) {
+      on(id, "change", () => element(id).value && this.turnTo(presetState(element(id).value, page.data.scenes)));
+    }
+    const step = (to) => (to > page.data.tour.length ? this.endTour() : this.turnTo(tourState(to, page.data.tour)));
+    on("tour-start", "click", () => step(1));
+    on("tour-back", "click", () => step(this.state.tour - 1));
+    on("tour-next", "click", () => step(this.state.tour + 1));
+    on("tour-end", "click", () => this.endTour());
     on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
     on("as-surface", "click", () => this.shape("surface"));
     on("as-disk", "click", () => this.shape("disk"));
     for (const colour of COLOURS) on(`by-${colour}`, "click", () => this.changed({ colour }));
-    for (const chart of ["exponent", "rotation", "distance"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
+    for (const chart of ["exponent", "rotation", "distance", "families"]) on(`chart-${chart}`, "click", () => this.changed({ chart }));
     on("map", "change", () => this.changed({ map: element("map").value }));
     on("play-energy", "click", () => (page.sweeping ? page.stopSweep() : page.sweepEnergy()));
     on("home", "click", () => this.whole());
@@ -392,6 +386,9 @@ class Controls {
       page.time.reset();
       page.setTime(this.state.time);
     });
+    on("chart", "click", ({ offsetX, offsetY }) => this.state.chart === "families" && page.families.openAt(offsetX, offsetY));
+    window.addEventListener("beforeprint", () => this.theme("light", (this.printed = document.documentElement.dataset.theme)));
+    window.addEventListener("afterprint", () => this.theme(this.printed));
     for (const id of ["twin", "apart"]) on(id, "change", () => this.pair(id));
     on("large", "click", () => element("stage").requestFullscreen().catch(() => this.hint("This browser does not allow the full screen.")));
     this.listenToPeriodic(on);
@@ -408,12 +405,39 @@ class Controls {
     element("atlas-panel").addEventListener("toggle", () => this.atlas.draw());
   }
 
+  /** Show another state of the page. */
+  turnTo(state) {
+    this.page.pause();
+    this.page.stopSweep();
+    this.page.mark();
+    this.page.show(state);
+  }
+
+  endTour() {
+    this.page.mark();
+    this.state.tour = 0;
+    this.showTour();
+    this.page.saveSoon();
+  }
+
+  showTour() {
+    const { tour } = this.state;
+    element("tour").hidden = !tour;
+    if (!tour) return;
+    const { length, [tour - 1]: { title, text } } = this.page.data.tour;
+    setText("tour-title", `${tour} of ${length}. ${title}`);
+    setText("tour-text", text);
+    element("tour-back").disabled = tour === 1;
+    element("tour-next").textContent = tour < length ? "Next" : "Finish";
+  }
+
   /** Say whether the next drag draws a box, or the next click looks for a periodic orbit. */
   toggle(name, on) {
     this.box.classList.toggle(name, on);
     element(name).setAttribute("aria-pressed", on);
-    if (on && name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
-    else if (on) this.hint("Drag a box on the section: it fills the view then.");
+    if (!on) this.welcome();
+    else if (name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
+    else this.hint("Drag a box on the section: it fills the view then.");
   }
 
   /** Draw after a change of how things are shown. */
@@ -421,8 +445,22 @@ class Controls {
     Object.assign(this.state, choice);
     this.press();
     this.page.look();
+    this.page.families.update();
+    this.listFamilies();
     this.updateFacts();
     this.page.saveSoon();
+  }
+
+  /** The ends of each family, which open the section there. */
+  listFamilies() {
+    const { families } = this.page;
+    const rows = families.shown.map(({ period, samples }) => {
+      const ends = [samples[0], samples.at(-1)].map((sample) =>
+        button(`E = ${shortNumber(sample.energy, 5)}`, `E = ${shortNumber(sample.energy, 5)}: open the end of this family`, () => families.open(period, sample)));
+      return node("li", {}, `Period ${period}: from `, ends[0], " to ", ends[1]);
+    });
+    if (!rows.length) rows.push(node("li", { textContent: "Find periodic orbits: the diagram follows them over the energy." }));
+    element("families").replaceChildren(...(this.state.chart === "families" ? rows : []));
   }
 
   theme(name) {
@@ -467,9 +505,9 @@ class Controls {
     const [from, to] = ["fan-from", "fan-to"].map((id) => readNumber(element(id).value));
     const count = readCount(element("fan-count").value);
     let error = "";
-    if (!(Math.abs(from) < 1 && Math.abs(to) < 1)) error = "the ends of a fan lie between −1 and 1";
+    if (!(Math.abs(from) < 1 && Math.abs(to) < 1)) error = "the ends of a row of orbits lie between −1 and 1";
     else if (!(Number.isInteger(count) && count >= 2 && count <= MOST_ORBITS)) {
-      error = `a fan has 2 to ${MOST_ORBITS} orbits`;
+      error = `a row has 2 to ${MOST_ORBITS} orbits`;
     }
     complain("fan", error, "fan-from", "fan-to", "fan-count");
     if (!error) this.shoot(from, to, count);
@@ -485,7 +523,7 @@ class Controls {
 
   shoot(from, to, count = FAN) {
     this.begin(fan(from, to, count, 0).map(({ p }) => [p, 0]));
-    this.hint(`A fan of ${count} orbits. The chart of rotation numbers shows them side by side.`);
+    this.hint(`A row of ${count} orbits starts. The chart of rotation numbers shows them side by side.`);
   }
 
   // ---------------------------------------------------------------- the view
@@ -656,7 +694,7 @@ class Controls {
     box.addEventListener("pointerup", lift);
     box.addEventListener("pointercancel", lift);
     box.addEventListener("pointerleave", () => {
-      this.hovered = null;
+      this.hover(null);
       element("where").textContent = "";
     });
     box.addEventListener(
@@ -707,8 +745,24 @@ class Controls {
 
   hover(point, type) {
     this.hovered = point;
-    this.box.classList.toggle("on-line", this.onLine(point, type) !== null);
-    element("where").textContent = this.describe(point);
+    this.hovering ??= requestAnimationFrame(() => {
+      this.hovering = null;
+      const { section } = this.page;
+      const mark = this.hovered && section.markAt(this.hovered);
+      section.touched = mark || !this.hovered ? null : section.orbitAt(this.hovered);
+      section.drawCursors();
+      if (!this.hovered) return;
+      const named = mark ? orbitWords(mark.orbit) : this.name(section.touched);
+      element("where").textContent = `${this.describe(this.hovered)}${named && ` · ${named}`}`;
+    });
+    this.box.classList.toggle("on-line", point !== null && this.onLine(point, type) !== null);
+  }
+
+  /** What an orbit under the pointer is. */
+  name(orbit) {
+    if (!orbit) return "";
+    const number = this.page.orbits.indexOf(orbit) + 1;
+    return `${number ? `orbit ${number}` : "an orbit"}: ${orbit.facts?.verdict || "no verdict yet"}, rotation number ${shortNumber(orbit.facts?.rotation ?? NaN, 4)}`;
   }
 
   describe(point) {
@@ -776,7 +830,9 @@ class Controls {
 
   startAt(point) {
     const place = this.page.section.place(...point);
+    const mark = this.page.section.markAt(point);
     if (place && this.box.classList.contains("pick")) this.pick(place);
+    else if (mark) this.page.explain(mark.one, mark.orbit);
     else if (place) this.begin([place]);
     else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
   }
@@ -868,7 +924,7 @@ class Controls {
     if (!place) return;
     if (this.fanFrom === null || this.fanFrom === undefined) {
       [this.fanFrom] = place;
-      this.hint("One end of the fan is set: move the pointer and press F again.");
+      this.hint("One end of the row is set: move the pointer and press F again.");
       return;
     }
     this.shoot(this.fanFrom, place[0]);
@@ -884,10 +940,6 @@ class Controls {
     complain("apart", allowed ? "" : `distance = ${element("apart").value.trim() || "nothing"} is not allowed: above 0, below 1`, "apart");
     if (allowed && (id === "twin" || this.state.twin)) this.page.setTwin(element("twin").checked ? distance : 0);
     else if (!allowed) element("twin").checked = this.state.twin > 0;
-  }
-
-  noteTwin() {
-    setText("twin-note", this.page.twin.words);
   }
 
   showSweep() {
@@ -980,21 +1032,10 @@ class Controls {
     list.replaceChildren();
     const saddles = [];
     let count = 0;
-    const add = (orbit, one) => {
+    for (const { orbit, one } of page.shownPeriodic()) {
+      if (one.type !== "near") count += 1;
       if (orbit.type !== "elliptic") saddles.push({ ...one, points: orbit.period });
       list.append(this.periodicRow(orbit, one));
-    };
-    this.state.near.forEach((spec, nth) => {
-      const orbit = page.found.get(writeNear(spec));
-      if (orbit) add(orbit, { period: 0, type: "near", nth });
-    });
-    for (const period of this.state.periods) {
-      const seen = {};
-      for (const orbit of page.periodic.get(period) ?? []) {
-        const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
-        count += 1;
-        add(orbit, { period, type: orbit.type, nth });
-      }
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
       setText("periodic-note", `${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
@@ -1042,7 +1083,7 @@ class Controls {
       {},
       node("span", { textContent: shape, ariaHidden: "true" }),
       node("div", {}, `Period ${period}, ${type}${one.type === "near" ? ", near a click" : ""}`, node("div", { className: "facts", textContent: facts })),
-      button("In time", `Show the ${type} orbit of period ${period} in time`, show),
+      button("In time", `In time: the ${type} orbit of period ${period}`, show),
     );
   }
 
@@ -1157,6 +1198,11 @@ class Controls {
     setText("check-note", found.join(" "));
     element("check").disabled = false;
   }
+}
+
+/** A periodic orbit's period, type and residue. */
+function orbitWords({ period, type, trace }) {
+  return `period ${period}: ${type}, residue ${shortNumber(0.25 * (2 - trace), 5)}`;
 }
 
 /** Say what is wrong beside fields, or with an empty text that nothing is. */

@@ -154,7 +154,11 @@ async function orbitsCsv(page, orbits) {
 
 /** The section as it is drawn, with a margin that tells what it shows: PNG at a ratio, or SVG. */
 async function picture(page, ratio = null) {
-  const { width, height, colours } = page.section;
+  const { view } = page.state;
+  const { width } = page.section;
+  // The whole section fills a picture that is as tall as it is; a window keeps its shape.
+  const whole = view.half > HOME[view.kind][2] - 0.1;
+  const height = !whole ? page.section.height : view.kind === "disk" ? width - 12 : Math.round(0.8 * width);
   const about = aboutLines(page);
   const each = Math.floor((width - 20) / 6.7); // characters in a line
   const lines = about.flatMap((line) => line.match(new RegExp(`.{1,${each}}`, "g")));
@@ -163,14 +167,18 @@ async function picture(page, ratio = null) {
   const svg = ratio ? null : new SvgPen();
   const canvas = document.createElement("canvas");
   Object.assign(canvas, { width: width * (ratio ?? 1), height: tall * (ratio ?? 1) });
+  const light = node("div", { hidden: true }); // the theme of files, whatever that of the page is
+  light.dataset.theme = "light";
+  document.body.append(light);
+  const colours = readColours(light);
   const pen = svg ?? canvas.getContext("2d");
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.fillStyle = colours.page;
   pen.fillRect(0, 0, width, tall);
-  const view = new SectionView(box, () => page.scene(), { ratio: ratio ?? 1, svg });
-  await page.replay(view);
-  const { layers } = view;
-  for (const layer of layers) pen.drawImage(layer, 0, 0, width, height);
+  const drawn = new SectionView(box, () => page.scene(), { ratio: ratio ?? 1, svg, light });
+  light.remove();
+  await page.replay(drawn);
+  for (const layer of drawn.layers) pen.drawImage(layer, 0, 0, width, height);
   pen.font = "11px monospace";
   lines.forEach((line, i) => write(pen, line, 10, height + 8 + 15 * i, colours.muted));
   if (svg) return new Blob([svg.file(width, tall, about.join("\n"))], { type: "image/svg+xml" });

@@ -18,13 +18,9 @@ class WindowOrbit {
     Object.assign(this, { chosen: false, settled: true, few: true });
   }
 
-  isSea() {
-    return this.facts.verdict !== "regular";
-  }
+  isSea() { return this.facts.verdict !== "regular"; }
 
-  colour(colours) {
-    return Orbit.prototype.colour.call(this, colours);
-  }
+  colour(colours) { return Orbit.prototype.colour.call(this, colours); }
 }
 
 class Filling {

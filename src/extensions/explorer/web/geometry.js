@@ -14,14 +14,10 @@ const geometry = {
   },
 
   /** The lowest energy, and the upper bound of eq. (31). */
-  energyBounds(k, g) {
-    return [-(g * g) / (2 * k), 0.5 * k - g];
-  },
+  energyBounds(k, g) { return [-(g * g) / (2 * k), 0.5 * k - g]; },
 
   /** The energy above which the map jumps. */
-  firstJump(k, g) {
-    return g * g * (1 + 0.5 * k);
-  },
+  firstJump(k, g) { return g * g * (1 + 0.5 * k); },
 
   /** The state of a start, with the bits of the pipeline's `start` and `state_xy`; null outside. */
   stateAt(k, g, energy, { p, q, xy }) {

@@ -260,30 +260,18 @@ globalThis.pseudorigid = (() => {
     return bytes;
   }
 
-  // FIPS 180-4. crypto.subtle is absent from pages without a server in some browsers.
-  const rounds = (() => {
-    const constants = [], roots = [];
-    for (let n = 2; constants.length < 64; n += 1) {
-      let prime = true;
-      for (let d = 2; d * d <= n; d += 1) if (n % d === 0) prime = false;
-      if (prime) {
-        constants.push(fraction(n, 3n));
-        if (roots.length < 8) roots.push(fraction(n, 2n));
-      }
-    }
-    return { constants: Uint32Array.from(constants), initial: Uint32Array.from(roots) };
-
-    // Return the first 32 bits of the fraction of a root of n, by bisection on whole numbers.
-    function fraction(n, degree) {
-      const target = BigInt(n) << (32n * degree);
-      let low = 0n, high = 1n << 40n;
-      while (high - low > 1n) {
-        const middle = (low + high) >> 1n;
-        if (middle ** degree <= target) low = middle; else high = middle;
-      }
-      return Number(low & 0xffffffffn);
-    }
-  })();
+  // Constants of FIPS 180-4. crypto.subtle is absent from pages without a server in some browsers.
+  const words = text => Uint32Array.from(text.trim().split(/\s+/), word => parseInt(word, 16));
+  const INITIAL = words("6a09e667 bb67ae85 3c6ef372 a54ff53a 510e527f 9b05688c 1f83d9ab 5be0cd19");
+  const ROUNDS = words(`
+    428a2f98 71374491 b5c0fbcf e9b5dba5 3956c25b 59f111f1 923f82a4 ab1c5ed5
+    d807aa98 12835b01 243185be 550c7dc3 72be5d74 80deb1fe 9bdc06a7 c19bf174
+    e49b69c1 efbe4786 0fc19dc6 240ca1cc 2de92c6f 4a7484aa 5cb0a9dc 76f988da
+    983e5152 a831c66d b00327c8 bf597fc7 c6e00bf3 d5a79147 06ca6351 14292967
+    27b70a85 2e1b2138 4d2c6dfc 53380d13 650a7354 766a0abb 81c2c92e 92722c85
+    a2bfe8a1 a81a664b c24b8b70 c76c51a3 d192e819 d6990624 f40e3585 106aa070
+    19a4c116 1e376c08 2748774c 34b0bcb5 391c0cb3 4ed8aa4a 5b9cca4f 682e6ff3
+    748f82ee 78a5636f 84c87814 8cc70208 90befffa a4506ceb bef9a3f7 c67178f2`);
 
   // Return the SHA-256 of bytes in hexadecimal.
   function sha256(bytes) {
@@ -293,20 +281,20 @@ globalThis.pseudorigid = (() => {
     const view = new DataView(padded.buffer);
     view.setUint32(padded.length - 8, Math.floor(bytes.length / 0x20000000));
     view.setUint32(padded.length - 4, (bytes.length << 3) >>> 0);
-    const words = new Uint32Array(64), hash = rounds.initial.slice();
+    const schedule = new Uint32Array(64), hash = INITIAL.slice();
     const turned = (a, n) => (a >>> n) | (a << (32 - n));
     for (let block = 0; block < padded.length; block += 64) {
-      for (let i = 0; i < 16; i += 1) words[i] = view.getUint32(block + 4 * i);
+      for (let i = 0; i < 16; i += 1) schedule[i] = view.getUint32(block + 4 * i);
       for (let i = 16; i < 64; i += 1) {
-        const a = words[i - 15], b = words[i - 2];
+        const a = schedule[i - 15], b = schedule[i - 2];
         const low = turned(a, 7) ^ turned(a, 18) ^ (a >>> 3);
         const high = turned(b, 17) ^ turned(b, 19) ^ (b >>> 10);
-        words[i] = words[i - 16] + low + words[i - 7] + high;
+        schedule[i] = schedule[i - 16] + low + schedule[i - 7] + high;
       }
       let [a, b, c, d, e, f, g, h] = hash;
       for (let i = 0; i < 64; i += 1) {
         const sum = turned(e, 6) ^ turned(e, 11) ^ turned(e, 25);
-        const one = (h + sum + ((e & f) ^ (~e & g)) + rounds.constants[i] + words[i]) | 0;
+        const one = (h + sum + ((e & f) ^ (~e & g)) + ROUNDS[i] + schedule[i]) | 0;
         const other = (turned(a, 2) ^ turned(a, 13) ^ turned(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
         [h, g, f, e, d, c, b, a] = [g, f, e, (d + one) | 0, c, b, a, (one + other) | 0];
       }

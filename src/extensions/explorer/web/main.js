@@ -6,6 +6,7 @@
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
 const HUES = 7; // of the style sheet
 const SWEEP = 240; // energies from the least to the largest
+const GROWTH_STEP = 0.02; // of a branch in a frame
 const SLOW = 200; // impacts asked for at once, up to which one can watch
 
 class Explorer {
@@ -21,6 +22,7 @@ class Explorer {
     this.pool = new Pool();
     this.colouring = new Colouring(this);
     this.filling = new Filling(this);
+    this.families = new Families(this);
     this.generation = 0;
     this.round = 0; // of `run`, which a change of the ball ends
     this.at = window.history.state?.at ?? 0; // the place in the browser's history
@@ -35,12 +37,11 @@ class Explorer {
 
   /** What the section view draws. */
   scene() {
-    const symmetric = this.state.periods.flatMap((period) => this.periodic.get(period) ?? []);
-    const near = this.state.near.flatMap((spec) => this.found.get(writeNear(spec)) ?? []);
-    const marks = [...symmetric, ...near].map(({ points, type }) => ({
-      points,
-      colour: type === "elliptic" ? "regular" : "ink",
-      shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[type],
+    const marks = this.shownPeriodic().map(({ orbit, one }) => ({
+      orbit,
+      one,
+      colour: orbit.type === "elliptic" ? "regular" : "ink",
+      shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[orbit.type],
     }));
     const lines = [...this.branchLines, ...this.jumpLines];
     const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) => (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
@@ -49,6 +50,19 @@ class Explorer {
     return {
       state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursors,
     };
+  }
+
+  /** The periodic orbits on the section, each with what names it in the state. */
+  shownPeriodic() {
+    const near = this.state.near.map((spec, nth) => ({ orbit: this.found.get(writeNear(spec)), one: { period: 0, type: "near", nth } }));
+    const symmetric = this.state.periods.flatMap((period) => {
+      const seen = {};
+      return (this.periodic.get(period) ?? []).map((orbit) => {
+        const nth = (seen[orbit.type] = (seen[orbit.type] ?? -1) + 1);
+        return { orbit, one: { period, type: orbit.type, nth } };
+      });
+    });
+    return [...near, ...symmetric].filter(({ orbit }) => orbit);
   }
 
   /** What colours mean: {name, range}, without a range for verdicts; null if there is nothing to say. */
@@ -255,11 +269,12 @@ class Explorer {
     for (const orbit of running) Object.assign(orbit, { endless: false, impacts: orbit.count });
     const orbit = this.orbits[this.state.chosen];
     if (!running.length) {
-      this.controls.hint(orbit ? "The orbit goes on until you stop it." : "Choose an orbit first.");
+      if (!orbit) this.controls.hint("Choose an orbit first.");
       if (!orbit || orbit.refused || orbit.count >= MOST_FOLLOWED) return;
       this.mark();
       orbit.endless = true;
-    }
+      this.controls.hint("The orbit goes on until you stop it.");
+    } else this.controls.welcome();
     this.changedOrbits();
     this.run();
   }
@@ -360,11 +375,13 @@ class Explorer {
         this.section.drawLines();
       }
       this.controls.listPeriodic();
-      await this.traceBranches(generation);
-      if (this.state.jump && generation === this.generation && !this.jumpLines.length) {
+      this.families.update();
+      if (this.state.jump && !this.jumpLines.length) {
         const curve = await this.searcher.ask("jump", { k, g, energy });
-        if (generation === this.generation && this.state.jump) this.showJump(curve);
+        if (generation !== this.generation) return;
+        if (this.state.jump) this.showJump(curve);
       }
+      await this.traceBranches(generation);
     } catch (error) {
       if (generation === this.generation) setText("branch-note", error.message);
     }
@@ -404,17 +421,43 @@ class Explorer {
     }
     this.chooseMotion();
     this.controls.refresh();
-    const residue = orbit && shortNumber(0.25 * (2 - orbit.trace), 5);
     const none = `No periodic orbit of period ${period || `up to ${MOST_PERIOD}`} was found near that point.`;
-    this.controls.hint(orbit ? `The nearest orbit has period ${orbit.period}: ${orbit.type}, residue ${residue}.` : none);
+    this.controls.hint(orbit ? `The nearest orbit has ${orbitWords(orbit)}.` : none);
     this.search();
     this.saveSoon();
+  }
+
+  /** Say what a periodic orbit is and show it in time; the branches of a saddle grow. */
+  explain(one, orbit) {
+    this.mark();
+    Object.assign(this.state, { motion: one, time: 0, chosen: -1, preset: "" });
+    if (orbit.type !== "elliptic") {
+      this.state.branches = [{ ...one, saddle: -1, kind: "both", side: "both", length: 1.5 }];
+      this.branchLines = [];
+      this.searcher.restart();
+      this.search();
+    }
+    this.chooseMotion();
+    this.controls.refresh();
+    this.controls.hint(`This orbit has ${orbitWords(orbit)}.`);
+    this.saveSoon();
+  }
+
+  /** Let branches grow on the screen from their saddles. */
+  grow() {
+    const young = this.branchLines.filter((line) => line.share < 1);
+    for (const line of young) line.share = Math.min(1, line.share + GROWTH_STEP);
+    this.section.drawLines();
+    if (young.length) requestAnimationFrame(() => this.grow());
+    else this.growing = false;
   }
 
   async traceBranches(generation) {
     const { k, g, energy, view } = this.state;
     const specs = this.state.branches;
     if (!specs.length) return;
+    const key = JSON.stringify([generation, view, specs]);
+    if (this.traced === key && this.branchLines.length) return;
     const round = (this.tracing = (this.tracing ?? 0) + 1);
     this.section.project();
     const place = view.half < 0.5 && this.section.place(...this.section.middle);
@@ -438,14 +481,16 @@ class Explorer {
             const line = await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
             if (generation !== this.generation || round !== this.tracing) return;
             if (line.ended !== null) ended.push(line.ended);
-            lines.push({ line, colour: stable ? "stable" : "unstable", width: 1.3 });
-            if (lines.length > this.branchLines.length) this.branchLines = [...lines];
-            this.section.drawLines();
+            const again = lines.length < this.branchLines.length; // finer, in the place of one that is there
+            lines.push({ line, colour: stable ? "stable" : "unstable", width: 1.3, share: again || this.calm ? 1 : 0 });
+            if (!again) this.branchLines = [...lines];
+            if (!this.growing) this.grow(this.growing = true);
           }
         }
       }
     }
     this.branchLines = lines;
+    this.traced = key;
     this.section.drawLines();
     if (!lines.length) return;
     const points = lines.reduce((sum, { line }) => sum + line.x.length, 0);
@@ -523,7 +568,7 @@ class Explorer {
       const begin = performance.now();
       this.controls.takeBall({ k, g, E });
       element("E").value = String(E);
-      const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.shows(E));
+      const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
       while (this.sweeping && !(shown() && performance.now() - begin > 100)) {
         if (performance.now() - begin > 2000) break;
         await nextFrame();
@@ -629,13 +674,14 @@ class Explorer {
   // ---------------------------------------------------------------- charts and the address
 
   drawChart() {
-    this.controls.noteTwin();
-    if (this.state.chart === "distance") {
-      this.twin.draw(element("chart"));
-      return;
-    }
-    if (this.state.chart === "rotation") {
-      drawRotations(element("chart"), this.orbits);
+    setText("twin-note", this.twin.words);
+    const charts = {
+      distance: (canvas) => this.twin.draw(canvas),
+      families: (canvas) => this.families.draw(canvas),
+      rotation: (canvas) => drawRotations(canvas, this.orbits),
+    };
+    if (charts[this.state.chart]) {
+      charts[this.state.chart](element("chart"));
       return;
     }
     const { motion, state } = this;
@@ -653,6 +699,7 @@ class Explorer {
 
   /** Begin another entry of the browser's history with the change that follows. */
   mark() {
+    this.controls.welcome();
     this.save();
     this.marked = true;
   }
@@ -710,6 +757,7 @@ function begin() {
       if (!Object.hasOwn(data.scenes, state.preset)) state.preset = "";
       explorer.show(state);
       explorer.controls.welcome();
+      if (state.leftOut) explorer.controls.hint(`The last ${state.leftOut} orbits of the address are left out: the page shows at most ${MOST_ORBITS}.`);
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));
       explorer.controls.hint(error instanceof URIError ? "The address cannot be read." : `${error.message}.`);

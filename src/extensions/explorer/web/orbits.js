@@ -76,18 +76,12 @@ class Orbit {
   }
 
   /** The state before impact i; 0 is the start. */
-  stateAt(i) {
-    return i === 0 ? this.start : [this.x[i - 1], this.xdot[i - 1], this.udot[i - 1]];
-  }
+  stateAt(i) { return i === 0 ? this.start : [this.x[i - 1], this.xdot[i - 1], this.udot[i - 1]]; }
 
-  isSea() {
-    return Boolean(this.sea || this.facts?.verdict === "chaotic");
-  }
+  isSea() { return Boolean(this.sea || this.facts?.verdict === "chaotic"); }
 
   /** Whether it is the one that the time view shows, which stands out. */
-  get chosen() {
-    return this.page.orbits[this.page.state.chosen] === this;
-  }
+  get chosen() { return this.page.orbits[this.page.state.chosen] === this; }
 
   colour(colours) {
     const by = this.page.state.colour;
@@ -103,9 +97,7 @@ class Orbit {
   }
 
   /** Whether it is known well enough to get a colour. */
-  get settled() {
-    return Boolean(this.facts?.verdict || (this.count && this.done));
-  }
+  get settled() { return Boolean(this.facts?.verdict || (this.count && this.done)); }
 
   /** The least distance between the start of each of two orbits and the other's curve, squared. */
   distance(other, { radius, height }) {

@@ -8,14 +8,16 @@
 const SNAP = 4; // pixels from the symmetry line within which a start lies on it
 const ABOVE = { azimuth: 270, elevation: 90 };
 const LAYERS = ["ground", "map", "points", "lines", "cursors"];
+const SEEN = 5000; // impacts of an orbit among which the pointer looks
 const SOLID = 65535; // hits of a pixel that is drawn in full
 
 class SectionView {
-  constructor(box, read, { ratio = null, svg = null } = {}) {
+  constructor(box, read, { ratio = null, svg = null, light = null } = {}) {
     this.box = box;
     this.read = read; // returns {state, orbits, overlays, cursor} of the page
     this.given = ratio;
     this.svg = svg;
+    this.light = light; // an element with the light theme's colours, for a file
     this.layers = (svg ? [] : LAYERS).map((name) => {
       const canvas = document.createElement("canvas");
       canvas.className = name;
@@ -27,6 +29,7 @@ class SectionView {
     this.cross = null; // the keyboard's pointer on the screen
     this.fan = null; // [p, p] of the fan that is being drawn
     this.corners = null; // of the box that is being drawn, on the screen
+    this.touched = null; // the orbit under the pointer
     this.resize();
   }
 
@@ -53,7 +56,7 @@ class SectionView {
 
   /** Take over the colours and the view, and draw everything. */
   look() {
-    this.colours = readColours();
+    this.colours = readColours(this.light ?? document.documentElement);
     this.project();
     this.drawGround();
     this.drawMap();
@@ -76,10 +79,10 @@ class SectionView {
     this.framed = disk || (view.elevation === ABOVE.elevation && view.azimuth === ABOVE.azimuth);
     const margin = this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
     this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
-    const wide = this.width - this.frame.left - this.frame.right;
-    const tall = this.height - this.frame.top - this.frame.bottom;
-    this.middle = [this.frame.left + wide / 2, this.frame.top + tall / 2];
-    this.scale = Math.min(wide, tall) / 2 / view.half; // pixels in a section radius
+    this.wide = this.width - this.frame.left - this.frame.right;
+    this.tall = this.height - this.frame.top - this.frame.bottom;
+    this.middle = [this.frame.left + this.wide / 2, this.frame.top + this.tall / 2];
+    this.scale = Math.min(this.wide, this.tall) / 2 / view.half; // pixels in a section radius
     if (disk) {
       this.origin = [centre + view.x * radius, view.y * height];
       return;
@@ -209,9 +212,7 @@ class SectionView {
       this.drawBox();
       return;
     }
-    const { frame, origin, centre, radius, scale } = this;
-    const wide = this.width - frame.left - frame.right;
-    const tall = this.height - frame.top - frame.bottom;
+    const { frame, origin, centre, radius, scale, wide, tall } = this;
     ground.strokeStyle = colours.line;
     ground.strokeRect(frame.left, frame.top, wide, tall);
     const disk = this.kind === "disk";
@@ -224,10 +225,11 @@ class SectionView {
     const { lines, colours } = this;
     const { scale } = this.read();
     if (!scale) return;
-    const [left, top] = [this.width - this.frame.right - 176, this.frame.top + 8];
+    const wide = scale.range ? 176 : 96;
+    const [left, top] = [this.width - this.frame.right - wide, this.frame.top + 8];
     lines.font = `13px ${colours.font}`;
     lines.fillStyle = colours.page;
-    lines.fillRect(left - 8, top - 5, 178, 52);
+    lines.fillRect(left - 8, top - 5, wide + 2, 52);
     if (!scale.range) {
       ["regular", "chaotic"].forEach((name, i) => {
         lines.fillStyle = colours[name];
@@ -246,13 +248,9 @@ class SectionView {
   }
 
   drawDisk() {
-    const { ground, frame, middle, scale } = this;
-    const wide = this.width - frame.left - frame.right;
-    const tall = this.height - frame.top - frame.bottom;
+    const { ground, frame, middle, scale, wide, tall } = this;
     ground.save();
-    ground.beginPath();
-    ground.rect(frame.left, frame.top, wide, tall);
-    ground.clip();
+    this.clip(ground);
     const across = middle[0] - ((this.origin[0] - this.centre) / this.radius) * scale;
     const down = middle[1] + (this.origin[1] / this.sectionHeight) * scale;
     ground.beginPath();
@@ -457,19 +455,18 @@ class SectionView {
 
   /** The part of the section in sight, as ranges of p and q; null if there is none. */
   window() {
-    const { frame, width, height } = this;
-    const [left, right, top, bottom] = [frame.left, width - frame.right, frame.top, height - frame.bottom];
+    const { left, top } = this.frame;
     const clamped = (values) => values.map((value) => Math.min(1, Math.max(-1, value)));
     if (this.kind === "disk") {
       const [p, q] = [(this.origin[0] - this.centre) / this.radius, this.origin[1] / this.sectionHeight];
-      const [across, up] = [(right - left) / 2 / this.scale, (bottom - top) / 2 / this.scale];
+      const [across, up] = [this.wide, this.tall].map((length) => length / 2 / this.scale);
       const found = { p: clamped([p - across, p + across]), q: clamped([q - up, q + up]) };
       return found.p[0] < found.p[1] && found.q[0] < found.q[1] ? found : null;
     }
     const range = { p: [Infinity, -Infinity], q: [Infinity, -Infinity] };
     for (let i = 0; i <= 24; i++) {
       for (let j = 0; j <= 24; j++) {
-        const place = this.placeOf(left + ((right - left) * i) / 24, top + ((bottom - top) * j) / 24);
+        const place = this.placeOf(left + (this.wide * i) / 24, top + (this.tall * j) / 24);
         if (!place) continue;
         ["p", "q"].forEach((name, n) => {
           range[name] = [Math.min(range[name][0], place[n]), Math.max(range[name][1], place[n])];
@@ -545,25 +542,49 @@ class SectionView {
     lines.setLineDash([5, 4]);
     this.stroke(lines, { x: lx, xdot: lv, udot: lw }, colours.symmetry, 1);
     lines.setLineDash([]);
-    for (const { line, colour, width } of overlays.lines) {
-      this.stroke(lines, line, colours[colour], width);
+    for (const { line, colour, width, share = 1 } of overlays.lines) {
+      this.stroke(lines, line, colours[colour], width, Math.ceil(share * line.x.length));
     }
-    for (const { points, colour, shape } of overlays.marks) {
-      for (const [x, v, w] of points) this.mark(lines, this.screen(x, v, w), colours[colour], shape);
+    this.marks = []; // those that are drawn: no two in one place
+    for (const mark of overlays.marks) {
+      const places = mark.orbit.points.map(([x, v, w]) => this.screen(x, v, w)).filter((at) => at && this.inside(at));
+      const free = places.filter((at) => !this.markAt(at));
+      for (const at of free) this.mark(lines, at, colours[mark.colour], mark.shape);
+      const label = free.find(([left, top]) => !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
+      this.marks.push(...free.map((at) => ({ ...mark, at })));
+      lines.font = `13px ${colours.font}`;
+      if (label) write(lines, mark.orbit.period, label[0] + 7, label[1] - 16, colours.ink);
     }
     lines.restore();
     this.drawScale();
   }
 
   clip(pen) {
-    const { frame } = this;
     pen.beginPath();
-    const wide = this.width - frame.left - frame.right;
-    pen.rect(frame.left, frame.top, wide, this.height - frame.top - frame.bottom);
+    pen.rect(this.frame.left, this.frame.top, this.wide, this.tall);
     pen.clip();
   }
 
-  stroke(pen, { x, xdot, udot }, colour, width) {
+  /** The mark of a periodic orbit at a point of the screen. */
+  markAt([left, top]) {
+    return this.marks?.find(({ at }) => Math.hypot(at[0] - left, at[1] - top) < 9);
+  }
+
+  /** The orbit with an impact near a point of the screen, a regular one rather than the sea. */
+  orbitAt([left, top]) {
+    const { orbits, filling } = this.read();
+    const near = (orbit) => {
+      let least = 6;
+      const measure = (a, b) => (least = Math.min(least, Math.hypot(a - left, b - top)));
+      this.eachPoint(orbit, 0, Math.min(orbit.kept, SEEN), 1, 1, measure);
+      return least;
+    };
+    const found = [...orbits, ...filling].map((orbit) => [orbit, near(orbit) + (orbit.isSea() ? 4 : 0)]);
+    const [best] = found.sort((a, b) => a[1] - b[1]);
+    return best && best[1] < 6 ? best[0] : null;
+  }
+
+  stroke(pen, { x, xdot, udot }, colour, width, count = x.length) {
     pen.strokeStyle = colour;
     pen.lineWidth = width;
     pen.lineJoin = "bevel";
@@ -571,7 +592,7 @@ class SectionView {
     let down = false;
     let before = null;
     const far = 20 * (this.width + this.height);
-    for (let i = 0; i < x.length; i++) {
+    for (let i = 0; i < count; i++) {
       const at = Number.isNaN(x[i]) ? null : this.screen(x[i], xdot[i], udot[i]);
       // Far outside, a canvas would lose digits of what it draws.
       const drawn = at && Math.abs(at[0]) < far && Math.abs(at[1]) < far;
@@ -617,6 +638,11 @@ class SectionView {
     cursors.clearRect(0, 0, this.width, this.height);
     cursors.save();
     this.clip(cursors);
+    if (this.touched) {
+      cursors.fillStyle = colours.focus;
+      const dot = (left, top) => cursors.fillRect(left - 1, top - 1, 2.5, 2.5);
+      this.eachPoint(this.touched, 0, Math.min(this.touched.kept, SEEN), 1, 2, dot);
+    }
     for (const state of moments) { // where the balls in time are
       const now = this.screen(...state);
       if (now) drawRing(cursors, now, 8, colours.page, colours.ink);
@@ -675,9 +701,9 @@ function cut(near, away, far) {
   return [near[0] + share * (away[0] - near[0]), near[1] + share * (away[1] - near[1])];
 }
 
-/** The page's colours, from its style sheet. */
-function readColours() {
-  const style = getComputedStyle(document.documentElement);
+/** The colours of the style sheet in an element. */
+function readColours(node = document.documentElement) {
+  const style = getComputedStyle(node);
   const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea";
   const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());

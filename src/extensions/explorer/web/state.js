@@ -36,6 +36,7 @@ function freshState() {
     back: false, // direction and impacts of the next orbit
     impacts: 3000,
     preset: "",
+    tour: 0, // the step of the tour, 0 for none
   };
 }
 
@@ -112,6 +113,7 @@ function writeAddress(state) {
     ["twin", state.twin || ""],
     ["next", `${state.impacts}${state.back ? "<" : ""}`],
     ["preset", state.preset],
+    ["tour", state.tour || ""],
   ]);
   const parts = [...fields].filter(([, value]) => value !== "");
   return "#" + parts.map((part) => part.join("=")).join("&");
@@ -175,6 +177,7 @@ function readAddress(text) {
     map: (value) => (state.map = one("map", value, MAPS)),
     fill: (value) => (state.fill = value === "1"),
     orbits(value) {
+      state.leftOut = Math.max(0, value.split(";").length - MOST_ORBITS);
       state.orbits = value.split(";").slice(0, MOST_ORBITS).map((part) => {
         const match = /^(@?)([^:*]+)(?::([^*]+))?\*(\d+)(<?)(!?)$/.exec(part);
         if (!match) fail("orbits", part, "a start like 0.5*3000, 0.1:0.2*3000 or @x:y*3000 is needed");
@@ -209,7 +212,7 @@ function readAddress(text) {
       });
     },
     jump: (value) => (state.jump = value === "1"),
-    chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation", "distance"])),
+    chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation", "distance", "families"])),
     t: (value) => (state.time = number("t", value)),
     span: (value) => (state.span = number("span", value, "a time above 0", (v) => v > 0 && v <= 1000)),
     twin: (value) => (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
@@ -219,6 +222,7 @@ function readAddress(text) {
       state.impacts = number("next", count, `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
     },
     preset: (value) => (state.preset = value),
+    tour: (value) => (state.tour = number("tour", value, "a step from 1 to 6", whole(1, 6))),
   };
   for (const part of decodeURIComponent(text).replace(/^#/, "").split("&")) {
     const at = part.indexOf("=");

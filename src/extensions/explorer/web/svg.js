@@ -11,10 +11,7 @@ class SvgPen {
 
   setTransform() {}
   clearRect() {}
-
-  beginPath() {
-    this.path = "";
-  }
+  beginPath() { this.path = ""; }
 
   moveTo(left, top) {
     this.path += `M${this.number(left)} ${this.number(top)}`;
@@ -59,13 +56,8 @@ class SvgPen {
     this.stroke();
   }
 
-  setLineDash(lengths) {
-    this.dash = lengths.join(" ");
-  }
-
-  save() {
-    this.open.push(0);
-  }
+  setLineDash(lengths) { this.dash = lengths.join(" "); }
+  save() { this.open.push(0); }
 
   clip() {
     this.clips += 1;
@@ -73,9 +65,7 @@ class SvgPen {
     this.open[this.open.length - 1] += 1;
   }
 
-  restore() {
-    this.parts.push("</g>".repeat(this.open.pop()));
-  }
+  restore() { this.parts.push("</g>".repeat(this.open.pop())); }
 
   fillText(text, left, top) {
     const anchor = { left: "start", center: "middle", right: "end" }[this.textAlign];
@@ -98,9 +88,7 @@ class SvgPen {
     this.parts.push(`<path d="${path}" stroke="${colour}" stroke-width="${size}" stroke-linecap="round"/>`);
   }
 
-  number(value) {
-    return Math.round(100 * value) / 100;
-  }
+  number(value) { return Math.round(100 * value) / 100; }
 
   /** The file, with a text about it. */
   file(width, height, about) {

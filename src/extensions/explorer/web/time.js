@@ -44,9 +44,7 @@ class OrbitMotion {
   }
 
   /** The number of impacts from the start to that before flight j. */
-  impact(j) {
-    return this.orbit.back ? j - this.count : j;
-  }
+  impact(j) { return this.orbit.back ? j - this.count : j; }
 }
 
 /** The flights along a periodic orbit, whose own points are repeated without an end. */
@@ -60,13 +58,9 @@ class PeriodicMotion {
     this.total = this.begins.at(-1);
   }
 
-  get ends() {
-    return [-Infinity, Infinity];
-  }
+  get ends() { return [-Infinity, Infinity]; }
 
-  get count() {
-    return Infinity;
-  }
+  get count() { return Infinity; }
 
   flight(j) {
     const turn = Math.floor(j / this.period);
@@ -82,9 +76,7 @@ class PeriodicMotion {
     return turn * this.period + i;
   }
 
-  impact(j) {
-    return j;
-  }
+  impact(j) { return j; }
 }
 
 /** Position and strain at a time after the impact at a state. */
@@ -102,9 +94,7 @@ class TimeView {
   }
 
   /** Forget the range of the curves, because another motion is shown. */
-  reset() {
-    this.extent = [Infinity, -Infinity];
-  }
+  reset() { this.extent = [Infinity, -Infinity]; }
 
   /** The part of time that is shown. */
   window() {

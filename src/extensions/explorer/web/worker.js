@@ -16,10 +16,7 @@ const jobs = {
     }
   },
 
-  reset() {
-    followers.clear();
-  },
-
+  reset: () => followers.clear(),
   close({ keys }) {
     for (const key of keys) followers.delete(key);
   },
@@ -47,39 +44,17 @@ const jobs = {
     });
   },
 
-  periodic({ k, g, energy, period }) {
-    return analysis.periodicOrbits(k, g, energy, period);
-  },
-
-  near({ k, g, energy, p, q, period }) {
-    return analysis.nearestOrbit(k, g, energy, p, q, period);
-  },
-
-  branch({ k, g, energy, points, spec }) {
-    return analysis.traceBranch(k, g, energy, points, spec);
-  },
-
-  jump({ k, g, energy }) {
-    return analysis.jumpCurve(k, g, energy);
-  },
-
-  pixels(request) {
-    return request.rest ? crowd.further(request) : crowd.begin(request);
-  },
-
-  fill(request) {
-    return crowd.fill(request);
-  },
-
+  periodic: ({ k, g, energy, period }) => analysis.periodicOrbits(k, g, energy, period),
+  near: ({ k, g, energy, p, q, period }) => analysis.nearestOrbit(k, g, energy, p, q, period),
+  family: ({ k, g, energy, orbit }) => analysis.family(k, g, energy, orbit),
+  branch: ({ k, g, energy, points, spec }) => analysis.traceBranch(k, g, energy, points, spec),
+  jump: ({ k, g, energy }) => analysis.jumpCurve(k, g, energy),
+  pixels: (request) => request.rest ? crowd.further(request) : crowd.begin(request),
+  fill: (request) => crowd.fill(request),
   /** Further impacts of an orbit from a state, of which the page has kept only the first ones. */
-  replay({ k, g, state, impacts }) {
-    return pseudorigid.history(k, g, ...state, impacts);
-  },
-
+  replay: ({ k, g, state, impacts }) => pseudorigid.history(k, g, ...state, impacts),
   /** Compare the orbits of a figure with the committed dataset. */
-  check({ figure }) {
-    return pseudorigid.checkFigure(figure);
-  },
+  check: ({ figure }) => pseudorigid.checkFigure(figure),
 };
 
 /** The buffers of all typed arrays in a result, which are handed over instead of copied. */
