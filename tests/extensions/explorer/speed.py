@@ -1,9 +1,12 @@
-"""Speed of the page's kernel beside numba's: a table as in src/extensions/explorer/README.md.
+"""Speed of the page's kernel beside numba's: tables as in src/extensions/explorer/README.md.
 
     PYTHONPATH=tests .venv/bin/python tests/extensions/explorer/speed.py
+    PYTHONPATH=tests .venv/bin/python tests/extensions/explorer/speed.py colours
+    PYTHONPATH=tests .venv/bin/python tests/extensions/explorer/speed.py memory
 
 The rows are medians of alternating runs. For many orbits numba has two lanes as the page has, since
-it compiles for a processor without AVX, in a process of its own.
+it compiles for a processor without AVX, in a process of its own. `colours` measures the section in
+colour, and `memory` that of all the browser's processes while an orbit runs on for ten minutes.
 """
 
 import os
@@ -11,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import browsers
@@ -63,6 +67,22 @@ for (;;) {
   return [alone, drawn];
 }
 """
+# Seconds until a change of a selection or a slider has the coarse picture and the fine one.
+COLOURING = """
+const [id, value] = args, field = document.getElementById(id), begin = performance.now(), times = [];
+const note = () => document.getElementById("map-note").textContent, before = note();
+field.value = value;
+field.dispatchEvent(new Event(id === "map" ? "change" : "input", { bubbles: true }));
+while (times.length < 2) {
+  await new Promise(requestAnimationFrame);
+  const [coarse, fine] = [note().includes("finer"), note() !== before && !note().includes("finer")];
+  if (!times.length ? coarse || fine : fine) times.push((performance.now() - begin) / 1e3);
+}
+field.dispatchEvent(new Event("change", { bubbles: true }));
+return times;
+"""
+NOTE = "return document.getElementById('map-note').textContent"
+MINUTES = 10  # for which an orbit runs on
 SSE2 = {"NUMBA_CPU_NAME": "nehalem", "NUMBA_CPU_FEATURES": ""}
 
 
@@ -89,11 +109,8 @@ def many_orbits_for_sse2():
 
 def measure(name, folder):
     """Print a row of the table."""
-    (folder / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
-    address, seconds = (folder / "explorer.html").as_uri(), []
-    with browsers.started(name, folder / "profile") as browser:
-        browser.open(f"{address}#k=0.2")
-        wait_for(lambda: browser.run("return Boolean(globalThis.pseudorigid)"))
+    seconds = []
+    with opened(name, folder, "k=0.2") as browser:
         for _ in range(ROUNDS + 2):
             in_page = browser.run(KERNEL, IMPACTS, ORBITS, *states.chaotic())
             numba = one_orbit("last"), one_orbit("all"), many_orbits_for_sse2()
@@ -104,10 +121,61 @@ def measure(name, folder):
     print(f"| {' | '.join([name.capitalize(), *rates])} |")
 
 
+def measure_colours(name, folder):
+    """Print seconds until the coarse and the fine picture, for each colouring and a slider."""
+    with opened(name, folder, "view=disk,115,40,0,0,1.12") as browser:
+        rows = {"exponent": [], "verdict": [], "slider of E": []}
+        for _ in range(ROUNDS):
+            for by in ("exponent", "verdict"):
+                browser.run("location.hash = 'k=0.2&view=disk,115,40,0,0,1.12'")
+                time.sleep(1)
+                rows[by].append(browser.run(COLOURING, "map", by))
+            browser.run("location.hash = 'k=0.2&view=disk,115,40,0,0,1.12&map=exponent'")
+            wait_for(lambda: "300 ×" in browser.run(NOTE))
+            rows["slider of E"].append(browser.run(COLOURING, "E-slide", 0.4))
+        for what, times in rows.items():
+            coarse, fine = np.median(times, axis=0)
+            print(f"| {name.capitalize()} | {what} | {coarse:.2f} | {fine:.2f} |")
+
+
+def measure_memory(name, folder):
+    """Print how much memory the browser has more after an orbit has run on."""
+    with opened(name, folder, "view=disk,115,40,0,0,1.12&orbits=0.534522*1000&chosen=0") as browser:
+        time.sleep(5)
+        before = memory(os.getpid())
+        browser.run("document.getElementById('run-on').click()")
+        time.sleep(60 * MINUTES)
+        facts = browser.run("return document.querySelector('#orbits .facts').textContent")
+        more = memory(os.getpid()) - before
+        print(f"| {name.capitalize()} | {facts.split(' · ')[0]} | {more:.0f} MB |")
+
+
+def memory(process):
+    """Megabytes of a process's descendants, what they share counted once."""
+    total = 0.0
+    for child in Path(f"/proc/{process}/task/{process}/children").read_text().split():
+        with suppress(OSError):
+            rows = Path(f"/proc/{child}/smaps_rollup").read_text().splitlines()
+            total += sum(int(row.split()[1]) for row in rows if row.startswith("Pss:")) / 1000
+            total += memory(child)
+    return total
+
+
+@contextmanager
+def opened(name, folder, address):
+    """A browser on an address of the page."""
+    (folder / "explorer.html").write_text(page.render(config.load(SHIPPED)), "utf-8")
+    with browsers.started(name, folder / "profile") as browser:
+        browser.open(f"{(folder / 'explorer.html').as_uri()}#{address}")
+        wait_for(lambda: browser.run("return Boolean(globalThis.pseudorigid)"))
+        yield browser
+
+
 if __name__ == "__main__":
     if sys.argv[1:] == ["many"]:
         print(many_orbits(), many_orbits())
     else:
+        act = {"colours": measure_colours, "memory": measure_memory}.get(sys.argv[-1], measure)
         for browser in browsers.PROGRAMS:
             with tempfile.TemporaryDirectory() as scratch:
-                measure(browser, Path(scratch))
+                act(browser, Path(scratch))

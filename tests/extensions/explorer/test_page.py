@@ -247,9 +247,9 @@ def test_every_preset_draws_and_has_one_sentence(person):
     options = "return [...document.querySelectorAll('#preset option')].map(o => o.value)"
     own, *names = person.run(options)
     assert own == ""
-    assert set(names) == set(person.run("return Object.keys(JSON.parse(data.textContent).scenes)"))
+    scenes = person.run("return Object.keys(JSON.parse(data.textContent).scenes)")
+    assert set(names) == {name for name in scenes if "/" not in name}
     seen = []
-    names = [name for name in names if "/" not in name]
     for name in names:
         person.set("preset", name)
         wait_for(lambda: "…" not in person.text("branch-note") + person.text("periodic-note"))

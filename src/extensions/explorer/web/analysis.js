@@ -692,36 +692,54 @@ const analysis = (() => {
     };
   }
 
-  /** A periodic orbit at other energies: samples {energy, trace, places}, as far as Newton's method follows it. */
+  /** A periodic orbit at other energies, as far as it can be followed: samples {energy, trace, places}. */
   function family(k, g, energy, { points, period }) {
     const [least, most] = geometry.energyBounds(k, g);
     const longest = (most - least) / 200;
-    const from = { energy, x: points[0][0], y: points[0][1] - k * points[0][2] };
+    const chart = ([x, v, w]) => ({ x, y: v - k * w });
     const sides = [-1, 1].map((sign) => {
       const samples = [];
-      let before = from;
-      let last = from;
-      for (let step = longest / 4; step > 1e-9 * (most - least) && samples.length < 1000; ) {
+      let last = { energy, ...chart(points[0]) };
+      let before = last;
+      let search = false; // near a birth, where the trace is almost 2, on the symmetry lines only
+      for (let step = longest / 4; step > 1e-6 * (most - least); ) {
         const to = last.energy + sign * step;
         const ahead = last === before ? 0 : (to - last.energy) / (last.energy - before.energy);
-        const guess = ["x", "y"].map((name) => last[name] + ahead * (last[name] - before[name]));
-        const { radius, centre, height } = geometry.section(k, g, to);
-        const [x, y, across, up] = pseudorigid.newton(k, g, to, ...guess, period, 8);
-        const state = Math.hypot(across, up) < 1e-9 * radius && geometry.chartState(k, g, to, x, y);
-        const orbit = state && to > least && to < most && Math.hypot(x - guess[0], y - guess[1]) < 0.02 * radius && orbitFrom(k, g, state, period);
-        if (!orbit || orbit.slice(1).some((point) => Math.hypot(point[0] - x, point[1] - k * point[2] - y) < 1e-6 * radius)) {
+        const guess = { x: last.x + ahead * (last.x - before.x), y: last.y + ahead * (last.y - before.y) };
+        const state = to > least && to < most && (search ? found : solved)(to, guess);
+        if (!state) {
           step /= 2;
+          if (search || step > 1e-6 * (most - least) || !(Math.abs(samples.at(-1)?.trace - 2) < 1e-3)) continue;
+          [search, step] = [true, longest / 16];
           continue;
         }
+        [before, last] = [last, { energy: to, ...chart(state) }];
         const [a, , , d] = pseudorigid.tangent(k, g, ...state, period);
-        [before, last] = [last, { energy: to, x, y }];
-        const places = orbit.map(([px, v, w]) => [(px - centre) / radius, (v - k * w) / height]);
+        const { radius, centre, height } = geometry.section(k, g, to);
+        const places = orbitFrom(k, g, state, period).map(chart).map(({ x, y }) => [(x - centre) / radius, y / height]);
         samples.push({ energy: to, trace: a + d, places });
         step = Math.min(longest, 1.5 * step);
       }
       return samples;
     });
     return [...sides[0].reverse(), ...sides[1]];
+
+    function solved(to, guess) {
+      const { radius } = geometry.section(k, g, to);
+      const [x, y, across, up] = pseudorigid.newton(k, g, to, guess.x, guess.y, period, 8);
+      const apart = (one, other) => Math.hypot(one.x - other.x, one.y - other.y) / radius;
+      const state = Math.hypot(across, up) < 1e-9 * radius && apart({ x, y }, guess) < 0.02 && geometry.chartState(k, g, to, x, y);
+      const again = state && orbitFrom(k, g, state, period).slice(1).some((point) => apart(chart(point), { x, y }) < 1e-6);
+      return again ? null : state; // an orbit that closes earlier has another period
+    }
+
+    function found(to, guess) {
+      const { radius } = geometry.section(k, g, to);
+      const all = periodicOrbits(k, g, to, period).flatMap((orbit) => orbit.points.map((point) => point.slice(0, 3)));
+      const distances = all.map((point) => Math.hypot(chart(point).x - guess.x, chart(point).y - guess.y));
+      const nearest = distances.indexOf(Math.min(...distances));
+      return distances[nearest] < 0.1 * radius ? all[nearest] : null;
+    }
   }
 
   return { Follower, family, periodicOrbits, nearestOrbit, traceBranch, jumpCurve };

@@ -4,7 +4,7 @@
  * exponent and the rotation number after 200 impacts, and a verdict once its orbit is decided.
  */
 const GRIDS = { exponent: [60, 300], rotation: [60, 300], verdict: [60, 200] }; // cells along a side
-const CHUNK = 792; // orbits of a request, in full SIMD lanes
+const CHUNK = 528; // orbits of a request, in full SIMD lanes; a change waits for at most one
 const EXPONENTS = [0.005, 0.5]; // the ends of the scale
 const UNDECIDED_GROWTH = 2.2; // below which a rotation number is shown before the verdict
 
@@ -60,6 +60,7 @@ class Colouring {
     const { state, section } = this.page;
     clearTimeout(this.waits);
     if (state.map === "none") {
+      if (this.window) setText("map-note", "");
       Object.assign(this, { key: "", window: null });
       return;
     }
@@ -89,11 +90,8 @@ class Colouring {
       fine.take(result);
       this.left -= 1;
       if (map !== "exponent" && result.rest.index.length) {
-        // Longer orbits in smaller groups, so that a change need not wait for them.
-        for (const rest of split(result.rest, result.done < 1000 ? CHUNK : CHUNK / 3)) {
-          this.left += 1;
-          follow({ ...ball, rest, done: result.done });
-        }
+        this.left += 1;
+        follow({ ...ball, rest: result.rest, done: result.done });
       }
       this.drawSoon();
     };
@@ -127,10 +125,10 @@ class Colouring {
   draw() {
     clearTimeout(this.drawing);
     this.drawing = null;
-    const { section, controls } = this.page;
+    const { section } = this.page;
     section.drawMap();
     section.drawLines();
-    controls.noteMap();
+    setText("map-note", this.words);
   }
 
   get done() {
@@ -173,14 +171,4 @@ class Colouring {
     const shares = `regular ${percent(counts[1])}, chaotic ${percent(counts[2])}`;
     return `${grid}: ${shares}${this.done ? "" : `, not decided yet ${percent(counts[0])}`}.`;
   }
-}
-
-/** Undecided orbits in groups of at most so many. */
-function split({ index, orbits }, most) {
-  const groups = [];
-  for (let from = 0; from < index.length; from += most) {
-    const part = ([name, values]) => [name, values.slice(from, from + most)];
-    groups.push({ index: index.slice(from, from + most), orbits: Object.fromEntries(Object.entries(orbits).map(part)) });
-  }
-  return groups;
 }

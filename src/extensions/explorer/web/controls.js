@@ -454,10 +454,10 @@ class Controls {
   /** The ends of each family, which open the section there. */
   listFamilies() {
     const { families } = this.page;
-    const rows = families.shown.map(({ period, samples }) => {
-      const ends = [samples[0], samples.at(-1)].map((sample) =>
-        button(`E = ${shortNumber(sample.energy, 5)}`, `E = ${shortNumber(sample.energy, 5)}: open the end of this family`, () => families.open(period, sample)));
-      return node("li", {}, `Period ${period}: from `, ends[0], " to ", ends[1]);
+    const rows = families.shown.map((family) => {
+      const ends = [family.samples[0], family.samples.at(-1)].map((sample) =>
+        button(`E = ${shortNumber(sample.energy, 5)}`, `E = ${shortNumber(sample.energy, 5)}: open the end of this family`, () => families.open(family, sample)));
+      return node("li", {}, `Period ${family.period}: from `, ends[0], " to ", ends[1]);
     });
     if (!rows.length) rows.push(node("li", { textContent: "Find periodic orbits: the diagram follows them over the energy." }));
     element("families").replaceChildren(...(this.state.chart === "families" ? rows : []));
@@ -584,16 +584,10 @@ class Controls {
     const { orbits, rare } = this.page.filling;
     if (!orbits.length) return;
     const regular = COUNT.format(orbits.filter((orbit) => !orbit.isSea()).length);
-    const full = `The window is full: ${COUNT.format(orbits.length)} orbits began in it, ${regular} of them regular.`;
-    const few = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular. They return to it too rarely to draw curves.`;
-    setText("map-note", rare ? few : full);
+    const began = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular`;
+    setText("map-note", rare ? `${began}. They return to it too rarely to draw curves.` : `The window is full: ${began}.`);
   }
 
-  /** Say how much of what is in sight is regular. */
-  noteMap() {
-    const { words } = this.page.colouring;
-    setText("map-note", words);
-  }
 
   /** Let a box of the screen, given by two corners, fill the view. */
   zoomBox([a, b], [c, d]) {

@@ -12,18 +12,19 @@ class Families {
   }
 
   /** Follow the orbits on the section that are not followed yet, if the diagram is shown. */
-  async update() {
+  update() {
     const { k, g, energy, chart } = this.page.state;
     if (chart !== "families") return;
-    for (const { orbit, one } of this.page.shownPeriodic().filter(({ one }) => one.type !== "near")) {
+    this.page.controls.listFamilies();
+    this.page.shownPeriodic().forEach(async ({ orbit, one }) => {
       const key = [k, g, writeMotion(one)].join();
-      if (this.found.has(key)) continue;
-      const family = { k, g, period: orbit.period, samples: [] };
+      if (one.type === "near" || this.found.has(key)) return;
+      const family = { k, g, one, period: orbit.period, samples: [] };
       this.found.set(key, family);
       family.samples = await this.page.pool.ask("family", { k, g, energy, orbit });
       this.page.drawChart();
-    }
-    this.page.controls.listFamilies();
+      this.page.controls.listFamilies();
+    });
   }
 
   draw(canvas) {
@@ -45,23 +46,28 @@ class Families {
 
   /** Open the section at the orbit whose point in the diagram is nearest to a point of the screen. */
   openAt(left, top) {
-    const apart = ([a, b]) => Math.hypot(a - left, b - top);
     let best = { distance: 20 };
-    for (const { period, samples } of this.shown) {
-      for (const sample of samples) {
-        for (const place of sample.places) {
-          const distance = apart(this.plot.at([sample.energy, place[0]]));
-          if (distance < best.distance) best = { distance, period, sample, place };
+    for (const family of this.shown) {
+      for (const sample of family.samples) {
+        for (const [p] of sample.places) {
+          const [a, b] = this.plot.at([sample.energy, p]);
+          const distance = Math.hypot(a - left, b - top);
+          if (distance < best.distance) best = { distance, family, sample };
         }
       }
     }
-    if (best.sample) this.open(best.period, best.sample, best.place);
+    if (best.sample) this.open(best.family, best.sample);
   }
 
-  open(period, { energy, places }, place = places[0]) {
-    const { controls, state } = this.page;
-    controls.takeBall({ k: state.k, g: state.g, E: energy });
-    controls.refresh();
-    this.page.findNear(place, period, 1.5);
+  /** Go to the energy of a sample and show its orbit. */
+  open({ period, one }, { energy }) {
+    const { page } = this;
+    const { k, g, periods } = page.state;
+    page.mark();
+    Object.assign(page.state, { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
+    page.controls.editing = true; // one entry of the history
+    page.controls.takeBall({ k, g, E: energy });
+    page.controls.refresh();
+    page.controls.hint(`The orbit of period ${period} at E = ${shortNumber(energy, 6)} is shown in time.`);
   }
 }

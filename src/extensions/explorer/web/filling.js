@@ -50,6 +50,7 @@ class Filling {
     this.orbits = [];
     section.drawPoints();
     const window = key && section.window();
+    setText("map-note", page.colouring.words);
     if (!window) return;
     const { k, g, energy } = page.state;
     const low = geometry.pointAt(k, g, energy, window.p[0], window.q[0]);

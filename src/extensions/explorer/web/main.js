@@ -158,8 +158,8 @@ class Explorer {
   /** Draw the section and the time view anew. */
   look() {
     this.fresh = false;
-    this.section.look();
     this.colouring.update();
+    this.section.look();
     this.filling.update();
     this.replaySoon();
     this.time.draw();
@@ -430,17 +430,16 @@ class Explorer {
   /** Say what a periodic orbit is and show it in time; the branches of a saddle grow. */
   explain(one, orbit) {
     this.mark();
-    Object.assign(this.state, { motion: one, time: 0, chosen: -1, preset: "" });
+    this.state.preset = "";
     if (orbit.type !== "elliptic") {
       this.state.branches = [{ ...one, saddle: -1, kind: "both", side: "both", length: 1.5 }];
       this.branchLines = [];
       this.searcher.restart();
       this.search();
     }
-    this.chooseMotion();
+    this.showPeriodic(one);
     this.controls.refresh();
     this.controls.hint(`This orbit has ${orbitWords(orbit)}.`);
-    this.saveSoon();
   }
 
   /** Let branches grow on the screen from their saddles. */
@@ -675,18 +674,15 @@ class Explorer {
 
   drawChart() {
     setText("twin-note", this.twin.words);
+    const { motion, state } = this;
+    const shown = !state.motion && motion?.count ? motion.indexAt(state.time) : -1;
     const charts = {
       distance: (canvas) => this.twin.draw(canvas),
       families: (canvas) => this.families.draw(canvas),
       rotation: (canvas) => drawRotations(canvas, this.orbits),
+      exponent: (canvas) => drawExponents(canvas, this.orbits, shown),
     };
-    if (charts[this.state.chart]) {
-      charts[this.state.chart](element("chart"));
-      return;
-    }
-    const { motion, state } = this;
-    const shown = !state.motion && motion?.count ? motion.indexAt(state.time) : -1;
-    drawExponents(element("chart"), this.orbits, shown);
+    charts[state.chart](element("chart"));
   }
 
   drawChartSoon() {
