@@ -69,14 +69,14 @@ for (;;) {
 """
 # Seconds until a change of a selection or a slider has the coarse picture and the fine one.
 COLOURING = """
-const [id, value] = args, field = document.getElementById(id), begin = performance.now(), times = [];
-const note = () => document.getElementById("map-note").textContent, before = note();
+const [id, value] = args, field = document.getElementById(id), times = [];
+const finer = () => document.getElementById("map-note").textContent.includes("finer");
+const begin = performance.now();
 field.value = value;
 field.dispatchEvent(new Event(id === "map" ? "change" : "input", { bubbles: true }));
-while (times.length < 2) {
-  await new Promise(requestAnimationFrame);
-  const [coarse, fine] = [note().includes("finer"), note() !== before && !note().includes("finer")];
-  if (!times.length ? coarse || fine : fine) times.push((performance.now() - begin) / 1e3);
+for (const coarse of [true, false]) {
+  while (finer() !== coarse) await new Promise(requestAnimationFrame);
+  times.push((performance.now() - begin) / 1e3);
 }
 field.dispatchEvent(new Event("change", { bubbles: true }));
 return times;

@@ -256,7 +256,7 @@ class Controls {
   }
 
   /** Take over a field's value soon if it is allowed. */
-  applyBall(name, delay = 30) {
+  applyBall(name, delay) {
     clearTimeout(this.ballWaits);
     if (this.validate(name)) this.ballWaits = setTimeout(() => this.takeField(name), delay);
   }
@@ -325,7 +325,7 @@ class Controls {
       on(name, "input", () => this.applyBall(name, 250)); // more digits may follow
       on(`${name}-slide`, "input", () => {
         element(name).value = String(this.slid(name));
-        this.applyBall(name);
+        this.applyBall(name, 0);
       });
       for (const id of [name, `${name}-slide`]) on(id, "change", () => this.leave(name));
     }

@@ -114,17 +114,14 @@ const crowd = (() => {
         }
       };
       const follower = new analysis.Follower(k, g, energy, state);
-      let piece = follower.advance(DECISIVE);
-      collect(piece);
-      const facts = follower.facts();
-      let impacts = DECISIVE;
+      collect(follower.advance(DECISIVE));
+      let facts = follower.facts();
       const goesOn = () =>
         !brief && facts.verdict === "regular" && points.x.length < ENOUGH &&
-        impacts < (points.x.length > PROMISING ? LONGEST : TRIED);
+        follower.impacts < (points.x.length > PROMISING ? LONGEST : TRIED);
       while (goesOn()) {
-        piece = pseudorigid.history(k, g, piece.x.at(-1), piece.xdot.at(-1), piece.udot.at(-1), PIECE);
-        collect(piece);
-        impacts += PIECE;
+        collect(follower.advance(PIECE));
+        facts = follower.facts(); // it may turn out to be chaotic
       }
       const { verdict, rotation, exponent } = facts;
       return {

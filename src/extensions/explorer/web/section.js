@@ -225,11 +225,12 @@ class SectionView {
     const { lines, colours } = this;
     const { scale } = this.read();
     if (!scale) return;
-    const wide = scale.range ? 176 : 96;
+    const unit = this.width < 450 ? 1 : 2; // smaller on a phone
+    const wide = scale.range ? 80 * unit + 16 : 60 + 18 * unit;
     const [left, top] = [this.width - this.frame.right - wide, this.frame.top + 8];
-    lines.font = `13px ${colours.font}`;
+    lines.font = `${9 + 2 * unit}px ${colours.font}`;
     lines.fillStyle = colours.page;
-    lines.fillRect(left - 8, top - 5, wide + 2, 52);
+    lines.fillRect(left - 8, top - 5, wide + 2, scale.range ? 52 : 50);
     if (!scale.range) {
       ["regular", "chaotic"].forEach((name, i) => {
         lines.fillStyle = colours[name];
@@ -240,11 +241,11 @@ class SectionView {
     }
     for (let i = 0; i < 80; i++) {
       lines.fillStyle = mixed(colours.ramp, i / 79);
-      lines.fillRect(left + 2 * i, top + 18, 2.5, 9);
+      lines.fillRect(left + unit * i, top + 18, unit + 0.5, 9);
     }
-    write(lines, scale.name, left + 160, top, colours.ink, "right");
+    write(lines, unit === 1 ? scale.name.split(",")[0] : scale.name, left + 80 * unit, top, colours.ink, "right");
     write(lines, shortNumber(scale.range[0], 3), left, top + 30, colours.muted);
-    write(lines, shortNumber(scale.range[1], 3), left + 160, top + 30, colours.muted, "right");
+    write(lines, shortNumber(scale.range[1], 3), left + 80 * unit, top + 30, colours.muted, "right");
   }
 
   drawDisk() {
