@@ -151,9 +151,11 @@ class Colouring {
     const [coarse, fine] = this.grids.map((grid) => ({ size: grid.size, inks: grid.inks(this.by, this.range ?? [0, 1], colours) }));
     const ink = ({ size, inks }, across, up) =>
       inks[Math.min(size - 1, Math.floor(up * size)) * size + Math.min(size - 1, Math.floor(across * size))];
+    const { p, q } = this.window; // at the rim the middle of a cell may lie outside the section
+    const inwards = (share, [low, high]) => share + Math.sign(low / (low - high) - share) / fine.size;
     return (across, up) => {
       if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return 0;
-      return ink(fine, across, up) || ink(coarse, across, up);
+      return ink(fine, across, up) || ink(coarse, across, up) || ink(fine, inwards(across, p), inwards(up, q));
     };
   }
 
