@@ -33,7 +33,13 @@ return orbits.map(({{ x, facts }}) => [[...x], facts.verdict]);"""
 )
 def test_pixels_have_the_pipeline_s_exponents_rotation_numbers_and_verdicts(browser, k, g, energy):
     places = np.random.default_rng(5).uniform(-0.7, 0.7, (100, 2))
-    places[0] = [0.01, -0.999]  # along the rim, where a turn takes long
+    # Along the rim, where a turn takes long, and where the growth is near the threshold.
+    places[:4] = [
+        [0.9999999, 0],
+        [0.175555, -0.033553],
+        [-0.05841, 0.32319],
+        [-0.360426, -0.503227],
+    ]
     states, *found = browser.run(PIXELS, k, g, energy, places.ravel().tolist())
     ball, states = Ball(k, g), np.array(states).T
     exponents, rotations, verdicts = found
@@ -55,10 +61,14 @@ def test_an_orbit_that_fills_a_window_has_all_its_impacts_there(browser):
     ball, energy = Ball(0.2, 0.04), 0.01
     centre, radius = ball.section(energy)[:2]
     window = {"x": [centre - radius, centre], "y": [-0.05, 0.05]}
-    (island, verdict), (sea, other) = browser.run(
-        FILL, 0.2, 0.04, energy, [[-0.4, 0], [0.534522, 0]], window
-    )
-    assert (verdict, other) == ("regular", "chaotic")
+    places = [
+        [-0.4, 0],
+        [0.534522, 0],
+        [-0.326707, 0.552701],
+    ]  # the last one looks regular at first
+    found = browser.run(FILL, 0.2, 0.04, energy, places, window)
+    (island, sea, _), verdicts = zip(*found, strict=True)
+    assert verdicts == ("regular", "chaotic", "chaotic")
     for found, fraction, impacts in ((island, -0.4, 10_000), (sea, 0.534522, 2000)):
         start = ball.start(fraction, energy)
         x, xdot, udot, _ = ball.history(start, impacts)[0].T
