@@ -118,9 +118,7 @@ class Colouring {
     }));
   }
 
-  drawSoon() {
-    this.drawing ??= setTimeout(() => this.draw(), this.left ? 120 : 0);
-  }
+  drawSoon() { this.drawing ??= setTimeout(() => this.draw(), this.left ? 120 : 0); }
 
   draw() {
     clearTimeout(this.drawing);
@@ -131,9 +129,7 @@ class Colouring {
     setText("map-note", this.words);
   }
 
-  get done() {
-    return this.window !== null && this.left === 0;
-  }
+  get done() { return this.window !== null && this.left === 0; }
 
   /** The ends of the scale of colours; null for verdicts. */
   get range() {

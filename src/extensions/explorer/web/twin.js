@@ -4,9 +4,7 @@ const TWIN_IMPACTS = { regular: 1000, chaotic: 200 }; // that are shown
 const GROWN = 0.02; // section radii apart, up to which the distance's growth is measured
 
 class Twin {
-  constructor(page) {
-    this.page = page;
-  }
+  constructor(page) { this.page = page; }
 
   /** Compute both balls from the start of the one in time; `motion` is null without a second one. */
   update() {
