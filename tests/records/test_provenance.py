@@ -120,6 +120,16 @@ def test_an_upgrade_of_a_package_that_decides_bits_outdates_all(made, monkeypatc
     )
 
 
+def test_an_upgrade_of_what_encodes_a_gif_outdates_it_alone(made, monkeypatch):
+    root, specs = made
+    moving = "results/paper/figures/fig2.gif"
+    specs[moving] = specs[DRAWING]._replace(result=moving)
+    make(root, specs, moving)
+    installed = metadata.version
+    monkeypatch.setattr(metadata, "version", lambda n: "99" if n == "pillow" else installed(n))
+    assert [*Freshness(*made).outdated()] == [moving]
+
+
 def test_an_edit_of_the_further_sources_of_a_result_outdates_it(made):
     """A result that was made another way, as on a card, names what this way needs beside."""
     root, _ = made

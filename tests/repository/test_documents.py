@@ -70,11 +70,11 @@ def test_links_lead_to_files(document):
             assert place in anchors(file.read_text(encoding="utf-8")), link
 
 
-def test_readme_has_the_commands_of_parts():
-    rows = re.findall(r"\| `\./reproduce (\w+)` \| (.*) \|\n", text_of("README.md"))
+def test_the_page_of_commands_has_those_of_parts():
+    rows = re.findall(r"\| `\./reproduce (\w+)` \| (.*) \|\n", text_of("docs/commands.md"))
     for part in declaration.parts().values():
         for name, command in part.commands.items():
-            assert (name, command.line) in rows, "add a row to README.md"
+            assert (name, command.line) in rows, "add a row to docs/commands.md"
 
 
 @pytest.mark.parametrize("document", [name for name in DOCUMENTS if name != "CHANGELOG.md"])
@@ -91,8 +91,8 @@ def test_named_files_exist(document):
             assert any(fnmatch(f"/{file}", f"*/{name}") for file in FILES), word
 
 
-def test_the_variant_of_the_readme():
-    (block,) = (text for text in blocks("README.md") if text.startswith("variants:"))
+def test_the_variant_of_the_page_of_commands():
+    (block,) = (text for text in blocks("docs/commands.md") if text.startswith("variants:"))
     document = yaml.safe_load(text_of("config.yaml")) | yaml.safe_load(block)
     variant = config.check(document).variants["lower-energy"]
     assert variant["fig3"].duration == 30 and variant["fig2"].energy == 0.0098

@@ -138,7 +138,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     for path, meaning in spec.sources.items():
         if syntax_hash(path) != meaning:
             raise ChangedError(_changed(path))
-    installed = versions()
+    installed = versions(spec.result)
     for package, version in spec.environment.items():
         if installed[package] != version:
             words = f"{package} is {installed[package]} here, not {version}"
@@ -199,10 +199,14 @@ def require_loaded_unchanged() -> None:
             require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
-def versions() -> dict[str, str | None]:
-    """Return the installed version of each package that decides bits, None for a missing one."""
-    installed: dict[str, str | None] = dict.fromkeys(PACKAGES)
-    for package in PACKAGES:
+def versions(result: str = "") -> dict[str, str | None]:
+    """Return the installed version of each package that decides bits, None for a missing one.
+
+    Those are PACKAGES and, for a GIF, what encodes it.
+    """
+    packages = (*PACKAGES, "pillow") if result.endswith(".gif") else PACKAGES
+    installed: dict[str, str | None] = dict.fromkeys(packages)
+    for package in packages:
         with suppress(metadata.PackageNotFoundError):
             installed[package] = metadata.version(package)
     return installed
@@ -266,7 +270,7 @@ class Freshness:
         self.build_specs = {
             path: spec._replace(
                 sources={file: self.syntax_hash(file) for file in spec.sources},
-                environment=packages,
+                environment=versions(path) if path.endswith(".gif") else packages,
             )
             for path, spec in build_specs.items()
         }

@@ -6,7 +6,7 @@ from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 
 from . import DATA, by_verdict, checkable_count, read_json
-from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNCHECKED, UNDECIDED
+from .outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from .schema import Verdict
 
 FILE = "docs/verdicts.svg"
