@@ -18,7 +18,7 @@ _COLOURS = {
     UNDECIDED: "#8a8a8a",
 }
 _WORDS = {HOLDS: "hold", CORRECTED: "hold with a correction", FALSE: "do not hold"}
-_WIDE, _CHARACTER = 860, 7.5  # pixels: width of the bar, and of a letter with room to spare
+_WIDE, _CHARACTER = 860, 6.8  # pixels: width of the bar, and of a letter with room to spare
 
 
 def committed() -> dict[str, str]:
