@@ -37,5 +37,7 @@ def build(root: Path, config: Config, folder: Path) -> None:
     if result.returncode:
         raise ValueError(" ".join(result.stderr.split()) or "Sphinx failed")
     shutil.copyfile(folder / "README.html", folder / "index.html")
+    moving = "more_figures/publication"  # shown by an element of HTML, whose files Sphinx leaves
+    shutil.copytree(root / moving, folder / moving)
     for name in (".buildinfo", "objects.inv"):
         (folder / name).unlink(missing_ok=True)
