@@ -36,13 +36,10 @@ ONE_IMPACT = {"starts": [0.1], "impacts": 1, "sea": []}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("portrait", {"ball": PAPER, "energy": -0.003999} | ONE_IMPACT),
-        ("motion", {"duration": 1.0e-9}),
-        ("exponents", {"ball": PAPER, "energy": 0.001, "impacts": [2000, 50]}),
-    ],
-)
+@pytest.mark.parametrize(("name", "change"), [
+    ("portrait", {"ball": PAPER, "energy": -0.003999} | ONE_IMPACT),
+    ("motion", {"duration": 1.0e-9}),
+    ("exponents", {"ball": PAPER, "energy": 0.001, "impacts": [2000, 50]}),
+])  # fmt: skip
 def test_unusual_values_are_drawn_or_refused_in_one_line(name, change):
     assert_made_or_refused_in_one_line(checked(name, **change))

@@ -22,13 +22,10 @@ def test_the_config_and_the_example_of_each_kind_are_accepted(tmp_path):
     assert status == 0, output
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "named"),
-    [
-        ("elevation: 40", "elevatoin: 40", "elevatoin"),
-        ("elevation: 40", "elevation: 400", "400"),
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "named"), [
+    ("elevation: 40", "elevatoin: 40", "elevatoin"),
+    ("elevation: 40", "elevation: 400", "400"),
+])  # fmt: skip
 def test_a_mistake_is_refused_and_named(tmp_path, old, new, named):
     text = SHIPPED.read_text()
     assert old in text

@@ -29,24 +29,21 @@ def test_numbers_are_recorded_as_they_were_written():
     assert json.dumps(block["starts"]) == '[0, {"x": 0, "y": 0.0}]'
 
 
-@pytest.mark.parametrize(
-    ("start", "words"),
-    [
-        (0.1, None),
-        ({"x": 0.1, "xdot": 0.05}, None),
-        ({"x": 0.1, "y": 0.02}, None),
-        ({"x": 0.1, "y": -0.02}, None),
-        ({"x": 0.5739, "y": 0}, None),  # the section ends at 0.2 + sqrt(0.14) = 0.57417
-        ({"x": 0.5742, "y": 0}, "starts[0]: {'x': 0.5742, 'y': 0} is not allowed"),
-        ({"x": 0.2, "xdot": 0.17}, "xdot^2 < 2E + 2gx - kx^2"),  # sqrt(0.028) = 0.1673
-        ({"x": 0.2, "xdot": -0.16}, "xdot + udot > 0"),
-        ({"x": 0.2, "y": 0.19}, "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"),  # sqrt(0.0336) = 0.1833
-        ({"x": 0.1}, "a point {x, xdot} or {x, y}"),
-        ({"x": 0.1, "y": 0, "xdot": 0}, "a point {x, xdot} or {x, y}"),
-        ({"x": 0.1, "z": 0}, "starts[0].z: unknown key: allowed here: x, xdot, y"),
-        ({"y": 0.1}, "starts[0].x: missing: expected a number"),
-    ],
-)
+@pytest.mark.parametrize(("start", "words"), [
+    (0.1, None),
+    ({"x": 0.1, "xdot": 0.05}, None),
+    ({"x": 0.1, "y": 0.02}, None),
+    ({"x": 0.1, "y": -0.02}, None),
+    ({"x": 0.5739, "y": 0}, None),  # the section ends at 0.2 + sqrt(0.14) = 0.57417
+    ({"x": 0.5742, "y": 0}, "starts[0]: {'x': 0.5742, 'y': 0} is not allowed"),
+    ({"x": 0.2, "xdot": 0.17}, "xdot^2 < 2E + 2gx - kx^2"),  # sqrt(0.028) = 0.1673
+    ({"x": 0.2, "xdot": -0.16}, "xdot + udot > 0"),
+    ({"x": 0.2, "y": 0.19}, "y^2/(1+k) + k (x - g/k)^2 < 2E + g^2/k"),  # sqrt(0.0336) = 0.1833
+    ({"x": 0.1}, "a point {x, xdot} or {x, y}"),
+    ({"x": 0.1, "y": 0, "xdot": 0}, "a point {x, xdot} or {x, y}"),
+    ({"x": 0.1, "z": 0}, "starts[0].z: unknown key: allowed here: x, xdot, y"),
+    ({"y": 0.1}, "starts[0].x: missing: expected a number"),
+])  # fmt: skip
 def test_a_start_is_a_fraction_or_a_point_on_the_section(start, words):
     document = changed("scenes.a_portrait.starts", [start, 0.5])
     if words is None:

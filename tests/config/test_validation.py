@@ -21,26 +21,23 @@ def test_something_else_than_a_config_is_refused(document):
     assert complaints(document)
 
 
-@pytest.mark.parametrize(
-    ("text", "part"),
-    [
-        (b"", "is empty"),
-        (b"\n# only a comment\n", "is empty"),
-        (b"---\n", "nothing is not allowed"),
-        (b"ball:\n\tk: 0.2", "config.yaml: line 2: begins with a tab: indent it with spaces"),
-        (b"ball: {k: 0.2\nscenes: [", "line 2, column"),
-        (b"ball: {k: 0.2}\nball: {k: 0.3}", "line 2, column 1: not valid YAML: the key ball"),
-        (b"ball: \xff", "not UTF-8"),
-        (b"ball: !!python/object:os.system x", "not valid YAML"),
-        (b"ball: 2001-99-99", "not valid YAML"),
-        (b"--- 1\n--- 2\n", "not valid YAML"),
-        (b"ball: &a [*a]\nscenes: {}", "ball: "),
-        (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
-        (b"#" * 500_001, "config.yaml: has 500001 bytes: expected at most 500000"),
-        (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
-        (None, "config.yaml: cannot be read: No such file"),
-    ],
-)
+@pytest.mark.parametrize(("text", "part"), [
+    (b"", "is empty"),
+    (b"\n# only a comment\n", "is empty"),
+    (b"---\n", "nothing is not allowed"),
+    (b"ball:\n\tk: 0.2", "config.yaml: line 2: begins with a tab: indent it with spaces"),
+    (b"ball: {k: 0.2\nscenes: [", "line 2, column"),
+    (b"ball: {k: 0.2}\nball: {k: 0.3}", "line 2, column 1: not valid YAML: the key ball"),
+    (b"ball: \xff", "not UTF-8"),
+    (b"ball: !!python/object:os.system x", "not valid YAML"),
+    (b"ball: 2001-99-99", "not valid YAML"),
+    (b"--- 1\n--- 2\n", "not valid YAML"),
+    (b"ball: &a [*a]\nscenes: {}", "ball: "),
+    (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
+    (b"#" * 500_001, "config.yaml: has 500001 bytes: expected at most 500000"),
+    (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
+    (None, "config.yaml: cannot be read: No such file"),
+])  # fmt: skip
 def test_a_file_that_is_no_config_is_refused(tmp_path, text, part):
     path = tmp_path / "config.yaml"
     if text is not None:
@@ -160,23 +157,20 @@ VALUES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("mark", "value", "words"),
-    [
-        ("STARTS", 3, "line 8: scenes.fig2.starts[2]: 3 is not allowed"),
-        ("AZIMUTH", "x", "line 11: scenes.fig2.view.azimuth: 'x' is not allowed"),
-        ("IMPACTS", "-1", "line 14: scenes.again.impacts: -1 is not allowed"),
-        ("    energy: 0.01\n", "", "line 3: scenes.fig2.energy: missing"),
-        ("fig2: &fig2", "a b: &fig2", "line 3: scenes: 'a b' is not allowed"),
-        ("  again:", "  list:", "line 12: scenes: 'list' is not allowed"),
-        ("ENERGY", 9, "line 17: variants.low.energy: 9 is not allowed"),
-        ("VARIED", 0, "line 20: variants.low.scenes.fig2.impacts: 0 is not allowed"),
-        ("SCENE", "fog2", "line 21: variants.low.scenes.fog2: no scene fog2"),
-        ("  low:", "  paper:", "line 16: variants: 'paper' is not allowed"),
-        ("KEY", "scnes", "line 22: scnes: unknown key: did you mean scenes?"),
-        ("ball: {k: 0.2, g: 0.04}", "", "ball: missing"),
-    ],
-)
+@pytest.mark.parametrize(("mark", "value", "words"), [
+    ("STARTS", 3, "line 8: scenes.fig2.starts[2]: 3 is not allowed"),
+    ("AZIMUTH", "x", "line 11: scenes.fig2.view.azimuth: 'x' is not allowed"),
+    ("IMPACTS", "-1", "line 14: scenes.again.impacts: -1 is not allowed"),
+    ("    energy: 0.01\n", "", "line 3: scenes.fig2.energy: missing"),
+    ("fig2: &fig2", "a b: &fig2", "line 3: scenes: 'a b' is not allowed"),
+    ("  again:", "  list:", "line 12: scenes: 'list' is not allowed"),
+    ("ENERGY", 9, "line 17: variants.low.energy: 9 is not allowed"),
+    ("VARIED", 0, "line 20: variants.low.scenes.fig2.impacts: 0 is not allowed"),
+    ("SCENE", "fog2", "line 21: variants.low.scenes.fog2: no scene fog2"),
+    ("  low:", "  paper:", "line 16: variants: 'paper' is not allowed"),
+    ("KEY", "scnes", "line 22: scnes: unknown key: did you mean scenes?"),
+    ("ball: {k: 0.2, g: 0.04}", "", "ball: missing"),
+])  # fmt: skip
 def test_a_mistake_names_the_line_of_its_key(tmp_path, mark, value, words):
     """In mappings, lists, variants and what `<<` repeats."""
     text = DOCUMENT.replace(mark, str(value))

@@ -26,64 +26,55 @@ def with_variants(**variants):
 AXES = {"t": {"limits": [0, 8], "ticks": [0, 8]}}
 
 
-@pytest.mark.parametrize(
-    ("variant", "scene", "expected"),
-    [
-        # Mappings merge, and lists are replaced.
-        ({"scenes": {"fig5": {"resolution": {"bend": 20}, "starts": [0.1], "impacts": [5]}}},
-         "fig5", {"resolution": {"distance": 0.01, "bend": 20}, "starts": [0.1]}),
-        ({"ball": {"k": 0.3}}, "fig2", {"ball": {"k": 0.3, "g": 0.04}}),
-        ({"scenes": {"fig5": {"ball": {"k": 0.3}}}}, "fig5", {"ball": {"k": 0.3, "g": 0.04}}),
-        # A scene's own values take precedence.
-        ({"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}}, "fig2", {"energy": 0.002}),
-        ({"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}}, "fig8", {"energy": 0.003}),
-        ({"energy": 0.002, "scenes": {"fig3": {"axes": AXES}}}, "fig3", {"axes": AXES}),
-        # A scale is exact: as floats, 9.0 * 0.01 is more than 0.09.
-        ({"scale": 3}, "fig2", {"energy": 0.09}),
-        ({"scale": 2}, "fig8", {"energy": 0.004, "ball": {"k": 0.2, "g": 0.08}}),
-        ({"scale": 2, "scenes": {"fig5": {"starts": [{"x": 0.1, "y": 0.02}, 0.5], "impacts": 9}}},
-         "fig5", {"starts": [{"x": 0.2, "y": 0.04}, 0.5]}),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("variant", "scene", "expected"), [
+    # Mappings merge, and lists are replaced.
+    ({"scenes": {"fig5": {"resolution": {"bend": 20}, "starts": [0.1], "impacts": [5]}}}, "fig5",
+     {"resolution": {"distance": 0.01, "bend": 20}, "starts": [0.1]}),
+    ({"ball": {"k": 0.3}}, "fig2", {"ball": {"k": 0.3, "g": 0.04}}),
+    ({"scenes": {"fig5": {"ball": {"k": 0.3}}}}, "fig5", {"ball": {"k": 0.3, "g": 0.04}}),
+    # A scene's own values take precedence.
+    ({"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}}, "fig2", {"energy": 0.002}),
+    ({"energy": 0.002, "scenes": {"fig8": {"energy": 0.003}}}, "fig8", {"energy": 0.003}),
+    ({"energy": 0.002, "scenes": {"fig3": {"axes": AXES}}}, "fig3", {"axes": AXES}),
+    # A scale is exact: as floats, 9.0 * 0.01 is more than 0.09.
+    ({"scale": 3}, "fig2", {"energy": 0.09}),
+    ({"scale": 2}, "fig8", {"energy": 0.004, "ball": {"k": 0.2, "g": 0.08}}),
+    ({"scale": 2, "scenes": {"fig5": {"starts": [{"x": 0.1, "y": 0.02}, 0.5], "impacts": 9}}},
+     "fig5", {"starts": [{"x": 0.2, "y": 0.04}, 0.5]}),
+])  # fmt: skip
 def test_what_a_variant_gives_replaces_the_papers_values(variant, scene, expected):
     assert expected.items() <= with_variants(v=variant)["v"][scene].as_mapping().items()
 
 
-@pytest.mark.parametrize(
-    ("change", "scene", "kept"),
-    [
-        ({"energy": 0.002}, "fig2", False),
-        ({"ball": {"k": 0.3}}, "fig7", False),
-        ({"scale": 2}, "fig8", False),
-        ({"scenes": {"fig3": {"duration": 30}}}, "fig3", False),
-        ({"scenes": {"fig7": {"impacts": 1000}}}, "fig7", False),
-        ({"scenes": {"fig6": {"window": {"x": [-0.1, 0.1]}}}}, "fig6", False),
-        ({"scenes": {"fig2": {"impacts": [9] * 8}}}, "fig2", True),
-        ({"scenes": {"fig6": {"length": 0.5}}}, "fig6", True),
-        ({"energy": 0.01}, "fig2", True),
-    ],
-)
+@pytest.mark.parametrize(("change", "scene", "kept"), [
+    ({"energy": 0.002}, "fig2", False),
+    ({"ball": {"k": 0.3}}, "fig7", False),
+    ({"scale": 2}, "fig8", False),
+    ({"scenes": {"fig3": {"duration": 30}}}, "fig3", False),
+    ({"scenes": {"fig7": {"impacts": 1000}}}, "fig7", False),
+    ({"scenes": {"fig6": {"window": {"x": [-0.1, 0.1]}}}}, "fig6", False),
+    ({"scenes": {"fig2": {"impacts": [9] * 8}}}, "fig2", True),
+    ({"scenes": {"fig6": {"length": 0.5}}}, "fig6", True),
+    ({"energy": 0.01}, "fig2", True),
+])  # fmt: skip
 def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kept):
     assert ("axes" in with_variants(v=change)["v"][scene].as_mapping()) == kept
 
 
-@pytest.mark.parametrize(
-    ("name", "block", "parts"),
-    [
-        ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
-        ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper"]),
-        ("v", {}, ["variants.v: {}"]),
-        ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
-        ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
-        ("v", {"energy": 0.06}, ["variants.v.energy: 0.06", "below k/2 - g = 0.06"]),
-        ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.0005"]),
-        ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
-        ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
-        ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),
-        ("v", {"energy": 0.009, "scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 "]),
-        ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
-    ],
-)
+@pytest.mark.parametrize(("name", "block", "parts"), [
+    ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
+    ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper"]),
+    ("v", {}, ["variants.v: {}"]),
+    ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
+    ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
+    ("v", {"energy": 0.06}, ["variants.v.energy: 0.06", "below k/2 - g = 0.06"]),
+    ("v", NO_SCENE_FITS, ["variants.v.scenes.fig2.energy: 0.01", "k/2 - g = 0.0005"]),
+    ("v", {"scenes": {"figg2": {}}}, ["variants.v.scenes.figg2: no scene", "mean fig2?"]),
+    ("v", {"scenes": {"fig2": {"energie": 1}}}, ["v.scenes.fig2.energie: unknown", "energy?"]),
+    ("v", {"scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 ", "k/2 - g"]),
+    ("v", {"energy": 0.009, "scenes": {"fig2": {"energy": 1}}}, ["v.scenes.fig2.energy: 1 "]),
+    ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
+])  # fmt: skip
 def test_a_bad_variant_is_refused_a_line_a_mistake(name, block, parts):
     lines = complaints(shipped() | {"variants": {name: block}})
     assert len(lines) == (7 if block == NO_SCENE_FITS else 1)
@@ -137,21 +128,18 @@ def test_a_method_that_manifolds_cannot_have_leaves_them_out():
     assert "method.tolerance: 1e-09" in left_out["fig5"]
 
 
-@pytest.mark.parametrize(
-    ("variant", "line"),
-    [
-        # What is written for the scene in the variant is a mistake.
-        ({"scenes": {"small": {"energy": 0.01}}}, "variants.v.scenes.small.energy: 0.01 "),
-        ({"scenes": {"point": {"starts": [{"x": 9, "y": 0}]}}}, "v.scenes.point.starts[0]: {'x'"),
-        ({"energy": 0.002, "scenes": {"point": {"starts": [{"x": 9, "y": 0}]}}}, "point.starts[0]"),
-        ({"scenes": {"fig3": {"ball": {"k": 0.09}}}}, "variants.v.scenes.fig3.energy: 0.01 "),
-        ({"energy": 0.009, "scenes": {"fig3": {"ball": {"k": 0.09}}}},
-         "variants.v.energy: 0.009 is not allowed: expected a number below k/2 - g = 0.005, "
-         "where the ball could flatten to nothing, for fig3"),
-        # What suits no scene at all is one.
-        ({"energy": 7}, "to nothing, for fig2, fig3, fig4, fig5, fig6, fig7, fig8, point"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("variant", "line"), [
+    # What is written for the scene in the variant is a mistake.
+    ({"scenes": {"small": {"energy": 0.01}}}, "variants.v.scenes.small.energy: 0.01 "),
+    ({"scenes": {"point": {"starts": [{"x": 9, "y": 0}]}}}, "v.scenes.point.starts[0]: {'x'"),
+    ({"energy": 0.002, "scenes": {"point": {"starts": [{"x": 9, "y": 0}]}}}, "point.starts[0]"),
+    ({"scenes": {"fig3": {"ball": {"k": 0.09}}}}, "variants.v.scenes.fig3.energy: 0.01 "),
+    ({"energy": 0.009, "scenes": {"fig3": {"ball": {"k": 0.09}}}},
+     "variants.v.energy: 0.009 is not allowed: expected a number below k/2 - g = 0.005, "
+     "where the ball could flatten to nothing, for fig3"),
+    # What suits no scene at all is one.
+    ({"energy": 7}, "to nothing, for fig2, fig3, fig4, fig5, fig6, fig7, fig8, point"),
+])  # fmt: skip
 def test_what_a_variant_says_of_a_scene_is_a_mistake_that_names_it(variant, line):
     document = shipped()
     document["scenes"] |= {"small": SMALL, "point": POINT}

@@ -216,26 +216,23 @@ OF_A_BALL = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "function", "allowed", "values"),
-    [
-        ("keep", partial(orbit, BALL, START, 3), "'all' or 'last'", ("some", None, ["all"])),
-        ("side", lambda side: trace(side=side), "'inner' or 'outer'", ("left", np.ones(2))),
-        ("stable", lambda stable: trace(stable=stable), "True or False", ("no", 1, np.ones(2))),
-        ("window", lambda window: trace(window=window), r"\(x_low, ",
-         (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1]))),
-        ("orbit", partial(trace_manifold, BALL, 0.01), "a Dataset with x",
-         (None, "orbit", SADDLE.drop_vars("udot"))),
-        ("orbits", residue, "a Dataset with trace", (None, 3, SADDLE.drop_vars("trace"))),
-        ("start", partial(motion, BALL, duration=1.0), "one state or one orbit",
-         (SADDLE.drop_vars("x"), SADDLE.isel(point=[]), SADDLE.expand_dims("orbit"),
-          SADDLE.drop_vars("multiplier"))),
-        ("state", partial(BALL.after, impacts=3), r"\(x, xdot, udot\)", (None, 3, (1, 2), "ab")),
-        ("scan", ImpactMap, r"None, or \(step", (3, (0.1,))),
-        ("map", partial(Ball, 0.2, 0.04), "an ImpactMap", (None, (0.1, 1e-6))),
-        *(("ball", call, "a Ball", (None, (0.2, 0.04), 0.2, Ball, SADDLE)) for call in OF_A_BALL),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("name", "function", "allowed", "values"), [
+    ("keep", partial(orbit, BALL, START, 3), "'all' or 'last'", ("some", None, ["all"])),
+    ("side", lambda side: trace(side=side), "'inner' or 'outer'", ("left", np.ones(2))),
+    ("stable", lambda stable: trace(stable=stable), "True or False", ("no", 1, np.ones(2))),
+    ("window", lambda window: trace(window=window), r"\(x_low, ",
+     (3, (0, 1, 2), (1, 0, 0, 1), (0, 1, 0, np.nan), "abcd", (0, 1, 0, [1]))),
+    ("orbit", partial(trace_manifold, BALL, 0.01), "a Dataset with x",
+     (None, "orbit", SADDLE.drop_vars("udot"))),
+    ("orbits", residue, "a Dataset with trace", (None, 3, SADDLE.drop_vars("trace"))),
+    ("start", partial(motion, BALL, duration=1.0), "one state or one orbit",
+     (SADDLE.drop_vars("x"), SADDLE.isel(point=[]), SADDLE.expand_dims("orbit"),
+      SADDLE.drop_vars("multiplier"))),
+    ("state", partial(BALL.after, impacts=3), r"\(x, xdot, udot\)", (None, 3, (1, 2), "ab")),
+    ("scan", ImpactMap, r"None, or \(step", (3, (0.1,))),
+    ("map", partial(Ball, 0.2, 0.04), "an ImpactMap", (None, (0.1, 1e-6))),
+    *(("ball", call, "a Ball", (None, (0.2, 0.04), 0.2, Ball, SADDLE)) for call in OF_A_BALL),
+])  # fmt: skip
 def test_other_words_and_objects_are_rejected(name, function, allowed, values):
     for value in values:
         with pytest.raises(ValueError, match=rf"^{name} = .* is not allowed: {allowed}"):

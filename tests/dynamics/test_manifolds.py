@@ -75,14 +75,11 @@ def test_sides_and_bends_are_within_their_limits(side):
     assert branch.attrs["start_error"] < 1e-10
 
 
-@pytest.mark.parametrize(
-    ("orbit", "energy", "side", "length", "mapped_length", "limit"),
-    [
-        (SADDLE, ENERGY, "inner", 1.0, 0.1, 3e-5),
-        (SADDLE, ENERGY, "outer", 1.0, 0.1, 3e-5),
-        (WEAK, WEAK_ENERGY, "outer", 0.5, 0.35, 5e-5),  # beyond the next saddle
-    ],
-)
+@pytest.mark.parametrize(("orbit", "energy", "side", "length", "mapped_length", "limit"), [
+    (SADDLE, ENERGY, "inner", 1.0, 0.1, 3e-5),
+    (SADDLE, ENERGY, "outer", 1.0, 0.1, 3e-5),
+    (WEAK, WEAK_ENERGY, "outer", 0.5, 0.35, 5e-5),  # beyond the next saddle
+])  # fmt: skip
 def test_a_branch_is_mapped_into_itself(orbit, energy, side, length, mapped_length, limit):
     radius = BALL.section(energy)[1]
     branch = line(orbit, energy=energy, side=side, length=length, bend=2.0)

@@ -20,19 +20,16 @@ def disk(ball, energy, orbits):
     return np.stack([part.values for part in points], axis=-1)
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "period", "count"),
-    [
-        (1 / 3, 0.03, 0.02, 3, 4),
-        *slowly(
-            (0.2, 0.04, 0.0599, 5, 4),
-            (0.2, 0.04, 0.01, 20, 24),
-            (1 / 3, 0.03, 0.02, 5, 6),
-            (0.7, 0.2, 0.1, 11, 8),
-            (1.0, 0.1, 0.05, 8, 8),
-        ),
-    ],
-)
+@pytest.mark.parametrize(("k", "g", "energy", "period", "count"), [
+    (1 / 3, 0.03, 0.02, 3, 4),
+    *slowly(
+        (0.2, 0.04, 0.0599, 5, 4),
+        (0.2, 0.04, 0.01, 20, 24),
+        (1 / 3, 0.03, 0.02, 5, 6),
+        (0.7, 0.2, 0.1, 11, 8),
+        (1.0, 0.1, 0.05, 8, 8),
+    ),
+])  # fmt: skip
 def test_brute_force_finds_no_orbit_that_is_missing(k, g, energy, period, count):
     ball = Ball(k, g)
     orbits = periodic_orbits(ball, energy, period)
@@ -41,13 +38,10 @@ def test_brute_force_finds_no_orbit_that_is_missing(k, g, energy, period, count)
     assert compare_with_brute_force(ball, energy, orbits, symmetric=False) > 0
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "periods"),
-    [
-        (1 / 3, 0.03, 0.02, (1, 2, 3)),
-        *slowly((0.2, 0.02, 0.03, (7,)), *((*one, PERIODS) for one in SETTINGS)),
-    ],
-)
+@pytest.mark.parametrize(("k", "g", "energy", "periods"), [
+    (1 / 3, 0.03, 0.02, (1, 2, 3)),
+    *slowly((0.2, 0.02, 0.03, (7,)), *((*one, PERIODS) for one in SETTINGS)),
+])  # fmt: skip
 def test_the_symmetric_orbits_are_among_them_with_the_same_bits(k, g, energy, periods):
     ball = Ball(k, g)
     for period in periods:

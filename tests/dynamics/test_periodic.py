@@ -36,15 +36,12 @@ def test_orbits_of_periods_to_twelve(k, g, energy):
         assert orbits.attrs["unsolved"] == 0, period
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "period", "trace"),
-    [
-        (0.33, 0.1, 0.06, 5, -204.586359),
-        (1.0, 0.1, 0.05, 4, -3181.3),
-        (0.2, 0.02, 0.03, 12, -2529.7),
-        (0.8381357920683287, 0.1085487373774775, 0.024725646514105436, 7, -54.6626),
-    ],
-)
+@pytest.mark.parametrize(("k", "g", "energy", "period", "trace"), [
+    (0.33, 0.1, 0.06, 5, -204.586359),
+    (1.0, 0.1, 0.05, 4, -3181.3),
+    (0.2, 0.02, 0.03, 12, -2529.7),
+    (0.8381357920683287, 0.1085487373774775, 0.024725646514105436, 7, -54.6626),
+])  # fmt: skip
 def test_orbits_that_are_hard_to_close_are_found(k, g, energy, period, trace):
     orbits = symmetric_orbits(Ball(k, g), energy, period)
     assert np.min(np.abs(orbits["trace"].values / trace - 1)) < 1e-4
@@ -58,17 +55,14 @@ def test_of_type_returns_one_orbit_or_names_the_available_types():
             of_type(symmetric_orbits(BALL, 0.01, period), "elliptic")
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "period", "trace"),
-    [
-        (1.0, 0.1, 0.05, 11, -17209118.451),
-        *slowly(
-            (0.2, 0.04, 0.01, 40, 11673055535.405409),
-            (0.2, 0.04, 0.01, 28, 342748911.0),
-            (0.2, 0.04, 0.01, 17, 2.0000011627399514),
-        ),
-    ],
-)
+@pytest.mark.parametrize(("k", "g", "energy", "period", "trace"), [
+    (1.0, 0.1, 0.05, 11, -17209118.451),
+    *slowly(
+        (0.2, 0.04, 0.01, 40, 11673055535.405409),
+        (0.2, 0.04, 0.01, 28, 342748911.0),
+        (0.2, 0.04, 0.01, 17, 2.0000011627399514),
+    ),
+])  # fmt: skip
 def test_unstable_and_almost_parabolic_orbits_are_right_to_the_last_bit(
     k, g, energy, period, trace
 ):
@@ -144,15 +138,12 @@ def test_fixed_points_against_the_closed_form(k, g, energy):
                 assert abs(float(found[name][i, 0]) - value) < limit * stretch * radius
 
 
-@pytest.mark.parametrize(
-    ("k", "g", "energy", "periods"),
-    [
-        (0.2, 0.04, 0.01, (1, 2, 6)),
-        (1.0, 0.1, 0.05, (3, 9)),
-        (0.03, 0.0005, 0.01, (2,)),
-        *slowly(*((*one, PERIODS) for one in SETTINGS)),
-    ],
-)
+@pytest.mark.parametrize(("k", "g", "energy", "periods"), [
+    (0.2, 0.04, 0.01, (1, 2, 6)),
+    (1.0, 0.1, 0.05, (3, 9)),
+    (0.03, 0.0005, 0.01, (2,)),
+    *slowly(*((*one, PERIODS) for one in SETTINGS)),
+])  # fmt: skip
 def test_brute_force_finds_no_orbit_that_the_search_misses(k, g, energy, periods):
     found, ball = 0, Ball(k, g)
     for period in periods:

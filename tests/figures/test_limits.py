@@ -79,16 +79,13 @@ def test_axes_that_show_nothing_are_refused_by_name_and_limits(kind, name, limit
 LINE = {"t": np.array([0.0, 1.0, 2.0]), "y": np.array([0.0, 1.0, 0.0])}
 
 
-@pytest.mark.parametrize(
-    ("t", "y", "joined", "message"),
-    [
-        ([0.4, 0.6], [0.3, 0.7], True, None),  # between the samples
-        ([0.4, 0.6], [0.3, 0.7], False, "nothing lies within"),
-        ([0.0, 0.2], [-0.9, -0.1], True, r"^axes\.y\.limits .*lie from 0 to 1$"),
-        ([0, 2], [-1e4, 1e4], True, None),  # flat
-        ([0, 2], [-1e4, 1e4], False, "too wide"),
-    ],
-)
+@pytest.mark.parametrize(("t", "y", "joined", "message"), [
+    ([0.4, 0.6], [0.3, 0.7], True, None),  # between the samples
+    ([0.4, 0.6], [0.3, 0.7], False, "nothing lies within"),
+    ([0.0, 0.2], [-0.9, -0.1], True, r"^axes\.y\.limits .*lie from 0 to 1$"),
+    ([0, 2], [-1e4, 1e4], True, None),  # flat
+    ([0, 2], [-1e4, 1e4], False, "too wide"),
+])  # fmt: skip
 def test_a_line_between_samples_and_flat_data_are_drawn(t, y, joined, message):
     axes = {"t": {"limits": t}, "y": {"limits": y}}
     with pytest.raises(ValueError, match=message) if message else nullcontext():

@@ -111,14 +111,11 @@ def faults(box, renderer):
         yield "a name", "is missing"
 
 
-@pytest.mark.parametrize(
-    "which, views",
-    [
-        ("corners", [*product(ELEVATIONS, AZIMUTHS)]),
-        *((which, SOME_VIEWS) for which in BOXES if which != "corners"),
-        *slowly(*((which, [*product(ELEVATIONS + MORE, AZIMUTHS)]) for which in BOXES)),
-    ],
-)
+@pytest.mark.parametrize("which, views", [
+    ("corners", [*product(ELEVATIONS, AZIMUTHS)]),
+    *((which, SOME_VIEWS) for which in BOXES if which != "corners"),
+    *slowly(*((which, [*product(ELEVATIONS + MORE, AZIMUTHS)]) for which in BOXES)),
+])  # fmt: skip
 def test_labels_of_a_box_are_whole_apart_and_at_their_axes(which, views, monkeypatch):
     monkeypatch.setattr(box_module, "width", cache(box_module.width))
     renderer = FigureCanvasAgg(Figure(dpi=style.DPI)).get_renderer()

@@ -72,19 +72,16 @@ SCANNED = Ball(0.2, 0.04, ImpactMap((0.1, 1e-12)))
 STATE = BALL.start(REGULAR, 0.01)
 
 
-@pytest.mark.parametrize(
-    ("name", "arguments", "words"),
-    [
-        ("rotation_number", (BALL, 1), "state = 1 "),
-        ("rotation_number", (BALL, STATE, 99), "impacts = 99 "),
-        ("rotation_number", (3, STATE), "ball = 3 "),
-        ("rotation_number", (SCANNED, STATE), "ball.map = ImpactMap(scan="),
-        ("classify_orbits", (BALL, (0.1, -1.0, 0.0)), "a state just before an impact"),
-        ("residue", (3,), "orbits = 3 "),
-        ("motion", (BALL, BALL.start([REGULAR, CHAOTIC], 0.01), 1.0), "start = "),
-        ("motion", (BALL, STATE, -1.0), "duration = -1.0 "),
-    ],
-)
+@pytest.mark.parametrize(("name", "arguments", "words"), [
+    ("rotation_number", (BALL, 1), "state = 1 "),
+    ("rotation_number", (BALL, STATE, 99), "impacts = 99 "),
+    ("rotation_number", (3, STATE), "ball = 3 "),
+    ("rotation_number", (SCANNED, STATE), "ball.map = ImpactMap(scan="),
+    ("classify_orbits", (BALL, (0.1, -1.0, 0.0)), "a state just before an impact"),
+    ("residue", (3,), "orbits = 3 "),
+    ("motion", (BALL, BALL.start([REGULAR, CHAOTIC], 0.01), 1.0), "start = "),
+    ("motion", (BALL, STATE, -1.0), "duration = -1.0 "),
+])  # fmt: skip
 def test_bad_input_is_one_line(name, arguments, words):
     with pytest.raises(ValueError) as raised:
         getattr(pseudorigid, name)(*arguments)

@@ -30,23 +30,15 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     assert not (tree.path / "results").exists()
 
 
-@pytest.mark.parametrize(
-    ("words", "text", "status", "line"),
-    [
-        (
-            "verify fig3",
-            "",
-            2,
-            "reproduce verify: no argument fig3: usage: ./reproduce verify [-h]",
-        ),
-        ("fig2 --cores x", "", 2, "reproduce: argument -c/--cores: 'x' is not allowed"),
-        ("fig2", None, 1, "reproduce: config.yaml: cannot be read: No such file or directory"),
-        ("fig2", "ball:\n\tk: 0.2\n", 1, "reproduce: config.yaml: line 2: begins with a tab"),
-        ("fig2", "# nothing\n", 1, "reproduce: config.yaml: is empty"),
-        ("fig2", "\udcff", 1, "reproduce: config.yaml: is not UTF-8 text: byte 0"),
-        ("--version", None, 0, "pseudorigid "),
-    ],
-)
+@pytest.mark.parametrize(("words", "text", "status", "line"), [
+    ("verify fig3", "", 2, "reproduce verify: no argument fig3: usage: ./reproduce verify [-h]"),
+    ("fig2 --cores x", "", 2, "reproduce: argument -c/--cores: 'x' is not allowed"),
+    ("fig2", None, 1, "reproduce: config.yaml: cannot be read: No such file or directory"),
+    ("fig2", "ball:\n\tk: 0.2\n", 1, "reproduce: config.yaml: line 2: begins with a tab"),
+    ("fig2", "# nothing\n", 1, "reproduce: config.yaml: is empty"),
+    ("fig2", "\udcff", 1, "reproduce: config.yaml: is not UTF-8 text: byte 0"),
+    ("--version", None, 0, "pseudorigid "),
+])  # fmt: skip
 def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_installed(
     tree, words, text, status, line
 ):
@@ -103,24 +95,21 @@ def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
     assert not (tree.path / "results").exists()
 
 
-@pytest.mark.parametrize(
-    ("pretend", "line"),
-    [
-        (None, "no python3 found: please install Python 3.11 or newer"),
-        ("sys.version_info = (3, 9, 2)", "needs Python 3.11 or newer, but python3 is 3.9.2"),
-        (
-            "sys.modules['ensurepip'] = None",
-            "python3 lacks the venv module: "
-            "please install it (Debian, Ubuntu: apt install python3-venv)",
-        ),
-        (
-            "sys.version_info = (3, 14, 0)",
-            "python3 is 3.14.0, for which one package has to be compiled: please install a C "
-            "compiler and the headers of Python (Debian, Ubuntu: apt install gcc python3-dev), or "
-            "Python 3.11 to 3.13",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("pretend", "line"), [
+    (None, "no python3 found: please install Python 3.11 or newer"),
+    ("sys.version_info = (3, 9, 2)", "needs Python 3.11 or newer, but python3 is 3.9.2"),
+    (
+        "sys.modules['ensurepip'] = None",
+        "python3 lacks the venv module: "
+        "please install it (Debian, Ubuntu: apt install python3-venv)",
+    ),
+    (
+        "sys.version_info = (3, 14, 0)",
+        "python3 is 3.14.0, for which one package has to be compiled: please install a C "
+        "compiler and the headers of Python (Debian, Ubuntu: apt install gcc python3-dev), or "
+        "Python 3.11 to 3.13",
+    ),
+])  # fmt: skip
 def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
     path = tmp_path / "bin"
     path.mkdir()

@@ -118,15 +118,12 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     assert_legible(figure)  # names of resonances that would touch are moved apart
 
 
-@pytest.mark.parametrize(
-    ("sweep", "k", "energy"),
-    [
-        ({"k": [0.03, 0.2, 0.3], "energy": [0.2, 1.0, 2.0]}, (0, 1 / 3), (-0.2, 2.5)),
-        ({"k": [0.02, 0.3], "energy": [-1.5, 4.0]}, (0, 1 / 3), (-0.5 / 0.3, 6.75)),
-        ({"k": [0.1, 0.11], "g": 0.01, "energy": [1.0, 395.0]}, (0.095, 0.115), (None, 400)),
-        ({"k": [0.2, 0.9], "energy": [1.0, 2.0]}, (0, 1), (0.5, 2.5)),
-    ],
-)
+@pytest.mark.parametrize(("sweep", "k", "energy"), [
+    ({"k": [0.03, 0.2, 0.3], "energy": [0.2, 1.0, 2.0]}, (0, 1 / 3), (-0.2, 2.5)),
+    ({"k": [0.02, 0.3], "energy": [-1.5, 4.0]}, (0, 1 / 3), (-0.5 / 0.3, 6.75)),
+    ({"k": [0.1, 0.11], "g": 0.01, "energy": [1.0, 395.0]}, (0.095, 0.115), (None, 400)),
+    ({"k": [0.2, 0.9], "energy": [1.0, 2.0]}, (0, 1), (0.5, 2.5)),
+])  # fmt: skip
 def test_cells_end_halfway_between_values_and_where_no_ball_is(sweep, k, energy):
     figure = atlas.sheet_above(LOWER, sweep)
     values = np.full((len(sweep["k"]), len(sweep["energy"])), 0.5)
@@ -151,29 +148,17 @@ def test_the_key_of_a_plane_has_what_is_drawn():
     assert any("no chaotic" in text for text in words) and "the paper's Figure 8" in words
 
 
-@pytest.mark.parametrize(
-    ("sweep", "given", "said", "unsaid"),
-    [
-        (
-            LINE,
-            {"regular_low": 0.4, "regular_high": 0.6},
-            ["Dotted lines", "is 1/5 to 1/8.", "The dashed line", "Circles are the paper's two"],
-            ["rises with", "grey", "1/10"],
-        ),
-        (
-            {"k": [0.1, 0.2, 0.3], "energy": [4.0, 5.0]},
-            {"regular_low": [0.1, 0.8], "regular_high": [0.2, 0.9]},
-            ["in places the regular share (a) rises", "Solid curves"],
-            ["grey", "ircle", "begins to jump"],
-        ),
-        (
-            {"k": [0.15, 0.25], "energy": [0.5, 0.8]},
-            {"exponent": np.nan},
-            ["A grey cell", "The circle is one of"],
-            ["Circles", "rises with"],
-        ),
-    ],
-)
+@pytest.mark.parametrize(("sweep", "given", "said", "unsaid"), [
+    (LINE, {"regular_low": 0.4, "regular_high": 0.6},
+     ["Dotted lines", "is 1/5 to 1/8.", "The dashed line", "Circles are the paper's two"],
+     ["rises with", "grey", "1/10"]),
+    ({"k": [0.1, 0.2, 0.3], "energy": [4.0, 5.0]},
+     {"regular_low": [0.1, 0.8], "regular_high": [0.2, 0.9]},
+     ["in places the regular share (a) rises", "Solid curves"],
+     ["grey", "ircle", "begins to jump"]),
+    ({"k": [0.15, 0.25], "energy": [0.5, 0.8]}, {"exponent": np.nan},
+     ["A grey cell", "The circle is one of"], ["Circles", "rises with"]),
+])  # fmt: skip
 def test_the_caption_has_what_is_drawn(sweep, given, said, unsaid):
     block = sweep | {"picture": "atlas", "starts": 9, "impacts": 100}
     caption = caption_of("a", block, facts(block, {"sweep": dataset(sweep, **given)}))

@@ -85,14 +85,11 @@ def test_a_noble_number_between_two_numbers():
         assert min(ends) < last_curve.value(noble) < max(ends)
 
 
-@pytest.mark.parametrize(
-    ("between", "nobles", "message"),
-    [
-        ((0.55, 0.65), None, "^between = .* is not allowed: begin among curves"),
-        ((-0.4, -0.3), None, "^between = .* is not allowed: begin among curves"),
-        ((-0.2, -0.1), [[0, 4, 1]], "no symmetric orbit of rotation number 1/5 = 0.2"),
-    ],
-)
+@pytest.mark.parametrize(("between", "nobles", "message"), [
+    ((0.55, 0.65), None, "^between = .* is not allowed: begin among curves"),
+    ((-0.4, -0.3), None, "^between = .* is not allowed: begin among curves"),
+    ((-0.2, -0.1), [[0, 4, 1]], "no symmetric orbit of rotation number 1/5 = 0.2"),
+])  # fmt: skip
 def test_parts_without_the_last_curve_or_an_orbit_are_refused(between, nobles, message):
     with pytest.raises(ValueError, match=message):
         last_curve.last_curve(BALL, ENERGY, 2, between, 100, 10, nobles)

@@ -22,15 +22,12 @@ def checked(**sweeps):
     return config.check(of_scenes("fig3", sweeps=sweeps))
 
 
-@pytest.mark.parametrize(
-    ("name", "sweeps", "options", "line"),
-    [
-        (["lime"], {"plane": SMALL, "line": SMALL}, "", "no sweep lime: did you mean line"),
-        ([], {}, "", "sweeps: empty"),
-        ([], {"small": SMALL}, "slurm", "--slurm: there is no sbatch on this machine"),
-        ([], {"small": SMALL}, "slurm gpu", "--slurm on others: choose one"),
-    ],
-)
+@pytest.mark.parametrize(("name", "sweeps", "options", "line"), [
+    (["lime"], {"plane": SMALL, "line": SMALL}, "", "no sweep lime: did you mean line"),
+    ([], {}, "", "sweeps: empty"),
+    ([], {"small": SMALL}, "slurm", "--slurm: there is no sbatch on this machine"),
+    ([], {"small": SMALL}, "slurm gpu", "--slurm on others: choose one"),
+])  # fmt: skip
 def test_a_sweep_that_cannot_run_is_refused_in_one_line(monkeypatch, name, sweeps, options, line):
     monkeypatch.setenv("PATH", "/nowhere")
     given = {option: option in options for option in ("slurm", "gpu")}

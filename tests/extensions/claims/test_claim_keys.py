@@ -49,13 +49,10 @@ def test_the_critical_residue_lies_within_its_axis():
     assert critical.get_ydata()[0] < 1575 / style.DPI - 0.05
 
 
-@pytest.mark.parametrize(
-    ("last", "said", "unsaid"),
-    [
-        (1e-9, ["a curve exists", "0.170000, and with 0.180000"], ["none with", "grey", "A last"]),
-        (0.3, ["a curve exists", "none with 0.180000", "A last curve", "The orbit that is"], []),
-    ],
-)
+@pytest.mark.parametrize(("last", "said", "unsaid"), [
+    (1e-9, ["a curve exists", "0.170000, and with 0.180000"], ["none with", "grey", "A last"]),
+    (0.3, ["a curve exists", "none with 0.180000", "A last curve", "The orbit that is"], []),
+])  # fmt: skip
 def test_the_caption_says_which_numbers_have_a_curve(last, said, unsaid):
     block = checked("last_curve")
     known = facts(block, {"last_curve": residues([[1e-3, 1e-5], [1e-6, last]])})

@@ -26,45 +26,38 @@ LAST_CURVE = (
 LONG_CUT = ("clusters", {"ball": PAPER, "energy": 0.01, "cuts": [4, 8]})
 
 
-@pytest.mark.parametrize(
-    ("scene", "beyond", "line"),
-    [
-        (CLUSTERS, {"impacts": 1_000_001}, "impacts: 1000001 ... here 1000000"),
-        (CLUSTERS, {"orbits": 101, "impacts": 100}, "resamples: 100000 ... here 99009"),
-        (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "energy:  ... flights up to 1000000/omega"),
-        (CLUSTERS, {"lags": 99, "impacts": 100, "orbits": 2}, "lags: 99 ... impacts - 2 = 98"),
-        (LONG_CUT, {"cuts": [4, 10]},
-         "cuts[1]: 10 ... below 8.367, which no flight at this energy"),
-        (CONTROL, {"shown": 0.02}, "shown: 0.02 ... one of strengths: 0.01, 0.05"),
-        (CONTROL, {"drawn": 3_333_334}, "drawn: 3333334 ... at most impacts = 3333333"),
-        (FLUX, {"period": 5}, "period: 5 ... a multiple of 2"),
-        (JUMPS, {"energies": [0.001, 9]}, "energies[1]: 9 ... k/2 - g = 0.1466"),
-        (LAST_CURVE, {"nobles": [[0, 1000, 1000, 1000]], "convergents": 6},
-         "nobles[0]:  ... to 10000000, not 8005016005"),
-        (LAST_CURVE, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
-        (LAST_CURVE, {"between": [0.2, 0.2]}, "between: [0.2, 0.2] ... two fractions that differ"),
-        (SPREAD, {"blocks": 30}, "blocks: 30 ... a divisor of length = 2000"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("scene", "beyond", "line"), [
+    (CLUSTERS, {"impacts": 1_000_001}, "impacts: 1000001 ... here 1000000"),
+    (CLUSTERS, {"orbits": 101, "impacts": 100}, "resamples: 100000 ... here 99009"),
+    (CLUSTERS, {"ball": {"k": 0.2, "g": 1e-9}}, "energy:  ... flights up to 1000000/omega"),
+    (CLUSTERS, {"lags": 99, "impacts": 100, "orbits": 2}, "lags: 99 ... impacts - 2 = 98"),
+    (LONG_CUT, {"cuts": [4, 10]}, "cuts[1]: 10 ... below 8.367, which no flight at this energy"),
+    (CONTROL, {"shown": 0.02}, "shown: 0.02 ... one of strengths: 0.01, 0.05"),
+    (CONTROL, {"drawn": 3_333_334}, "drawn: 3333334 ... at most impacts = 3333333"),
+    (FLUX, {"period": 5}, "period: 5 ... a multiple of 2"),
+    (JUMPS, {"energies": [0.001, 9]}, "energies[1]: 9 ... k/2 - g = 0.1466"),
+    (LAST_CURVE, {"nobles": [[0, 1000, 1000, 1000]], "convergents": 6},
+     "nobles[0]:  ... to 10000000, not 8005016005"),
+    (LAST_CURVE, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
+    (LAST_CURVE, {"between": [0.2, 0.2]}, "between: [0.2, 0.2] ... two fractions that differ"),
+    (SPREAD, {"blocks": 30}, "blocks: 30 ... a divisor of length = 2000"),
+])  # fmt: skip
 def test_beyond_its_bound(scene, beyond, line):
     assert_bounded("claims", *scene, beyond, line)
 
 
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("rotation", {"ball": OTHER, "energy": 0.008, "energies": [0.002, 0.012]}),
-        ("clusters", {"ball": {"k": 0.3, "g": 0.005}, "energy": 0.01, "lags": 20,
-                      "cuts": [10, 20, 30, 35, 40, 45, 50]}),
-        ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0005]}),
-        ("last_curve", {"ball": PAPER, "energy": 0.01, "between": [-0.2, -0.0325639],
-                        "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
-        ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
-        *slowly(
-            ("control", {"ball": OTHER, "energy": 0.008, "strengths": [0.02], "shown": 0.02}),
-        ),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("name", "change"), [
+    ("rotation", {"ball": OTHER, "energy": 0.008, "energies": [0.002, 0.012]}),
+    ("clusters", {"ball": {"k": 0.3, "g": 0.005}, "energy": 0.01, "lags": 20,
+                  "cuts": [10, 20, 30, 35, 40, 45, 50]}),
+    ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0005]}),
+    ("last_curve", {"ball": PAPER, "energy": 0.01, "between": [-0.2, -0.0325639],
+                    "nobles": [[0, 5, 1, 10 + i] for i in range(8)]}),
+    ("spread", {"ball": PAPER, "energy": 0.005, "orbits": 4, "blocks": 2, "length": 100_000}),
+    *slowly(
+        ("control", {"ball": OTHER, "energy": 0.008, "strengths": [0.02], "shown": 0.02}),
+    ),
+])  # fmt: skip
 def test_no_data_are_clipped_to_the_frame(name, change):
     with no_clipping():
         made(checked(name, **change))

@@ -59,15 +59,12 @@ def test_every_theorem_is_cited_by_a_claim():
     assert claims.required_theorems() == CERTIFIED
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"defect": lambda v: v + 1e-6},  # no map has the reversor
-        {"defect": lambda v: 0.0 * v},  # the maps without it have it too
-        {"class_high": lambda v: v + 0.2},  # regular orbits may remain with neither
-        {"class_low": np.zeros_like, "wander": np.zeros_like},  # the reversor may keep an area
-    ],
-)
+@pytest.mark.parametrize("change", [
+    {"defect": lambda v: v + 1e-6},  # no map has the reversor
+    {"defect": lambda v: 0.0 * v},  # the maps without it have it too
+    {"class_high": lambda v: v + 0.2},  # regular orbits may remain with neither
+    {"class_low": np.zeros_like, "wander": np.zeros_like},  # the reversor may keep an area
+])  # fmt: skip
 @pytest.mark.parametrize("energy", ["control", "control_low"])
 def test_the_control_separates_the_properties_at_both_energies(datasets, energy, change):
     claim = claims.CLAIMS[50]
@@ -212,13 +209,10 @@ def test_a_mistake_in_the_data_of_a_claim_is_one_line(text, other, line):
     assert error.value.lines[0].startswith(f"claims.toml: claims.{line}")
 
 
-@pytest.mark.parametrize(
-    ("value", "wrong"),
-    [
-        ("{shel}", "no number 'shel'"),
-        ("{shell:y}", "Unknown format"),
-    ],
-)
+@pytest.mark.parametrize(("value", "wrong"), [
+    ("{shel}", "no number 'shel'"),
+    ("{shell:y}", "Unknown format"),
+])  # fmt: skip
 def test_a_sentence_that_its_check_cannot_fill_is_one_line(datasets, value, wrong):
     claim = claims.CLAIMS[3].model_copy(update={"value": value})
     with pytest.raises(ConfigError, match=f"^claims.toml: claims.3: {wrong}"):

@@ -84,16 +84,13 @@ def test_the_flux_through_both_turnstiles():
     assert outer["area_error"].item() < 1e-30
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ((BALL, "low", 6), "energy = 'low' "),
-        ((BALL, -1, 6), "energy = -1.0 "),
-        ((BALL, 0.01, 5), "period = 5 "),
-        ((BALL, 0.01, 6, "left"), "side = 'left' "),
-        ((BALL, 0.001, 2), "no hyperbolic orbit of period 2 "),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "words"), [
+    ((BALL, "low", 6), "energy = 'low' "),
+    ((BALL, -1, 6), "energy = -1.0 "),
+    ((BALL, 0.01, 5), "period = 5 "),
+    ((BALL, 0.01, 6, "left"), "side = 'left' "),
+    ((BALL, 0.001, 2), "no hyperbolic orbit of period 2 "),
+])  # fmt: skip
 def test_bad_input_of_the_flux_is_one_line(arguments, words):
     with pytest.raises(ValueError) as raised:
         turnstile_flux(*arguments)

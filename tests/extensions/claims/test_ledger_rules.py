@@ -55,17 +55,14 @@ def word(outcome):
 COUNTS = [0, 90, 100, 20, 5, 30, 50, 14, 14]  # flights; the valley is at 4
 
 
-@pytest.mark.parametrize(
-    ("change", "verdict", "valley"),
-    [
-        ({}, HOLDS, 4.0),
-        ({4: 12}, HOLDS, 4.0),
-        ({4: 13}, FALSE, 4.0),  # above a quarter of the lower peak
-        ({1: 20, 2: 20, 4: 6}, FALSE, 4.0),  # which may be the first one
-        ({1: 0}, HOLDS, 4.0),  # short flights are no valley
-        ({8: 0}, HOLDS, 4.0),  # nor is the last bin, which may be cut short
-    ],
-)
+@pytest.mark.parametrize(("change", "verdict", "valley"), [
+    ({}, HOLDS, 4.0),
+    ({4: 12}, HOLDS, 4.0),
+    ({4: 13}, FALSE, 4.0),  # above a quarter of the lower peak
+    ({1: 20, 2: 20, 4: 6}, FALSE, 4.0),  # which may be the first one
+    ({1: 0}, HOLDS, 4.0),  # short flights are no valley
+    ({8: 0}, HOLDS, 4.0),  # nor is the last bin, which may be cut short
+])  # fmt: skip
 def test_a_valley_is_deep_beside_the_lower_peak(change, verdict, valley):
     flights = [change.get(i, n) for i, n in enumerate(COUNTS)]
     cuts = xr.Dataset({name: ("cut", [4.0, 6.0]) for name in ("cluster_impacts", "period")})
@@ -76,14 +73,11 @@ def test_a_valley_is_deep_beside_the_lower_peak(change, verdict, valley):
     assert found.numbers["period_error"] == 0.3 and len(found.numbers["clusters"]) == 2
 
 
-@pytest.mark.parametrize(
-    ("low", "verdict"),
-    [
-        ([[[0.005, 0.004]], [[0.0, 0.009]]], HOLDS),
-        ([[[0.005, 0.011]], [[0.0, 0.009]]], CORRECTED),  # one coordinate, at one cut
-        ([[[0.011, 0.0]], [[0.0, 0.02]]], FALSE),  # at each cut
-    ],
-)
+@pytest.mark.parametrize(("low", "verdict"), [
+    ([[[0.005, 0.004]], [[0.0, 0.009]]], HOLDS),
+    ([[[0.005, 0.011]], [[0.0, 0.009]]], CORRECTED),  # one coordinate, at one cut
+    ([[[0.011, 0.0]], [[0.0, 0.02]]], FALSE),  # at each cut
+])  # fmt: skip
 def test_clusters_remember_if_the_interval_of_a_coordinate_lies_above(low, verdict):
     low = np.array(low)
     clusters = xr.Dataset({"cut": ("cut", [4.0, 6.0])})

@@ -30,14 +30,11 @@ def made(monkeypatch):
     return runs
 
 
-@pytest.mark.parametrize(
-    ("other", "lacking"),
-    [
-        ({"claims": MINE}, "clusters/clusters"),
-        ({"sweeps": {}}, "atlas/line"),
-        ({"variants": {}}, "as_published/fig7/lyapunov"),
-    ],
-)
+@pytest.mark.parametrize(("other", "lacking"), [
+    ({"claims": MINE}, "clusters/clusters"),
+    ({"sweeps": {}}, "atlas/line"),
+    ({"variants": {}}, "as_published/fig7/lyapunov"),
+])  # fmt: skip
 def test_pictures_are_drawn_where_the_verdicts_lack_data(made, capsys, other, lacking):
     document = shipped() | other
     args = SimpleNamespace(config=config.check(document), makes_nothing=False)

@@ -10,29 +10,23 @@ PLANE = {"k": [0.19, 0.21], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts":
 CHAINS = {"picture": "chains", "over": "a", "chains": [6]}
 
 
-@pytest.mark.parametrize(
-    ("beyond", "line"),
-    [
-        ({"step": 0.03}, "step: 0.03 ... two multiples or more in the span"),
-        ({"span": [-0.004, 0.01]}, "span[0]: -0.004 ... above -g^2/(2k)"),
-        ({"parameter": "k", "span": [0, 0.3]}, "span: [0, 0.3] ... 0 < k <= 1"),
-        ({"step": 1e-6}, "step: 1e-06 ... 2000 values in the span"),
-        ({"drawn": 7}, "drawn: 7 ... at most period = 6"),
-    ],
-)
+@pytest.mark.parametrize(("beyond", "line"), [
+    ({"step": 0.03}, "step: 0.03 ... two multiples or more in the span"),
+    ({"span": [-0.004, 0.01]}, "span[0]: -0.004 ... above -g^2/(2k)"),
+    ({"parameter": "k", "span": [0, 0.3]}, "span: [0, 0.3] ... 0 < k <= 1"),
+    ({"step": 1e-6}, "step: 1e-06 ... 2000 values in the span"),
+    ({"drawn": 7}, "drawn: 7 ... at most period = 6"),
+])  # fmt: skip
 def test_beyond_its_bound(beyond, line):
     assert_bounded("families", "families", {"ball": PAPER}, beyond, line)
 
 
-@pytest.mark.parametrize(
-    ("plane", "chains", "start", "allowed"),
-    [
-        ({}, {"chains": [5, 5]}, "chains: [5, 5]", "none of them twice"),
-        ({}, {"over": "b"}, "over: 'b'", "a scene of kind atlas"),
-        ({"k": [0.2]}, {}, "over: 'a'", "several k"),
-        ({"energy": [-0.1, 1]}, {}, "over: 'a'", "above 0"),
-    ],
-)
+@pytest.mark.parametrize(("plane", "chains", "start", "allowed"), [
+    ({}, {"chains": [5, 5]}, "chains: [5, 5]", "none of them twice"),
+    ({}, {"over": "b"}, "over: 'b'", "a scene of kind atlas"),
+    ({"k": [0.2]}, {}, "over: 'a'", "several k"),
+    ({"energy": [-0.1, 1]}, {}, "over: 'a'", "above 0"),
+])  # fmt: skip
 def test_chains_that_cannot_be_are_refused_in_one_line(plane, chains, start, allowed):
     line = complaint(good() | {"sweeps": {"a": PLANE | plane, "over_it": CHAINS | chains}})
     assert line.startswith(f"sweeps.over_it.{start}") and allowed in line

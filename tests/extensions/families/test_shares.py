@@ -91,17 +91,13 @@ def test_only_elliptic_orbits_have_islands():
             assert np.allclose(found, [x[i], y[i]], atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("beyond", "above", "expected"),
-    [
-        ([0.1, 0.1, 0.0, 0.0], [1, 1, 1, 1], [("last", "breaks", 0, 3)]),
-        ([0.0, 0.002, 0.003, 0.1], [1, 1, 1, 1], [("first", "forms", 3, 0)]),
-        ([0.1, 0.1, 0.0, 0.1], [1, 1, 0, 0], [("first", "forms", 3, 2)]),  # a chain is born between
-        ([0.1, 0.0, 0.1, 0.1], [0, 0, 0, 0],
-         [("last", "breaks", 0, 2), ("first", "forms", 3, 0)]),
-        ([0.1, 0.1, 0.1, 0.1], [1, 1, 1, 1], []),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("beyond", "above", "expected"), [
+    ([0.1, 0.1, 0.0, 0.0], [1, 1, 1, 1], [("last", "breaks", 0, 3)]),
+    ([0.0, 0.002, 0.003, 0.1], [1, 1, 1, 1], [("first", "forms", 3, 0)]),
+    ([0.1, 0.1, 0.0, 0.1], [1, 1, 0, 0], [("first", "forms", 3, 2)]),  # a chain is born between
+    ([0.1, 0.0, 0.1, 0.1], [0, 0, 0, 0], [("last", "breaks", 0, 2), ("first", "forms", 3, 0)]),
+    ([0.1, 0.1, 0.1, 0.1], [1, 1, 1, 1], []),
+])  # fmt: skip
 def test_curves_break_or_form_where_the_share_beyond_vanishes(monkeypatch, beyond, above, expected):
     asked = []
     monkeypatch.setattr(shares_module, "breakup", lambda *given: asked.append(given[1:]) or 0.5)

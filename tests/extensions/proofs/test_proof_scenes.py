@@ -29,19 +29,15 @@ from pseudorigid.figures.canvas import style
 MARKS = {"marks": []}
 
 
-@pytest.mark.parametrize(
-    ("kind", "at_bound", "beyond", "line"),
-    [
-        ("graph", {}, {"energy": 0.006},
-         "energy: 0.006 ... k = 0.2 and this g, one of 0.005, 0.01"),
-        ("graph", {}, {"ball": {"k": 0.3, "g": 0.04}}, "energy: 0.005 ... with k = 0.2"),
-        ("curves", {}, {"rotation_numbers": [0.104, 0.25]},
-         "rotation_numbers[1]: 0.25 ... "
-         "too close to a fraction of small integers: the nearest that are not are 0.2499 and 0.25"),
-        ("curves", {}, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
-        ("twist", MARKS, {"ball": SHELL, "energies": [0.01, 0.016]}, "energies[1] ... 0.0138241"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("kind", "at_bound", "beyond", "line"), [
+    ("graph", {}, {"energy": 0.006}, "energy: 0.006 ... k = 0.2 and this g, one of 0.005, 0.01"),
+    ("graph", {}, {"ball": {"k": 0.3, "g": 0.04}}, "energy: 0.005 ... with k = 0.2"),
+    ("curves", {}, {"rotation_numbers": [0.104, 0.25]},
+     "rotation_numbers[1]: 0.25 ... "
+     "too close to a fraction of small integers: the nearest that are not are 0.2499 and 0.25"),
+    ("curves", {}, {"ball": SHELL, "energy": 0.015}, "energy: 0.015 ... below 0.0138241"),
+    ("twist", MARKS, {"ball": SHELL, "energies": [0.01, 0.016]}, "energies[1] ... 0.0138241"),
+])  # fmt: skip
 def test_beyond_its_bound(kind, at_bound, beyond, line):
     assert_bounded("proofs", kind, at_bound, beyond, line)
 

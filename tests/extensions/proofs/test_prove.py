@@ -37,14 +37,11 @@ def fail(error):
     raise error
 
 
-@pytest.mark.parametrize(
-    ("second", "error"),
-    [
-        (lambda: "not a certificate", UsageError),
-        (lambda: fail(NotProvedError("no margin")), UsageError),
-        (lambda: fail(KeyboardInterrupt()), KeyboardInterrupt),
-    ],
-)
+@pytest.mark.parametrize(("second", "error"), [
+    (lambda: "not a certificate", UsageError),
+    (lambda: fail(NotProvedError("no margin")), UsageError),
+    (lambda: fail(KeyboardInterrupt()), KeyboardInterrupt),
+])  # fmt: skip
 def test_a_search_that_fails_leaves_all_certificates(folder, monkeypatch, second, error):
     with pytest.raises(error):
         search(monkeypatch, second)

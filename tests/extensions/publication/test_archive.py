@@ -92,20 +92,12 @@ def test_each_difference_from_an_archive_is_named(moved, packed):
     assert lines[-1].endswith("2 differs, 1 missing here, 1 not in the archive")
 
 
-@pytest.mark.parametrize(
-    ("name", "data", "problem", "command"),
-    [
-        ("results/paper/motion_fig3.nc", None, "is missing", "./reproduce"),
-        ("paper_figures/fig3.png", "x", "is not results/paper/figures/fig3.png", "./reproduce"),
-        (
-            "paper_figures/SHA256SUMS",
-            f"{'0' * 64}  ../../x\n",
-            "is not as",
-            "./reproduce accept",
-        ),
-        ("paper_figures/MANIFEST.json", "{}", "was edited", "./reproduce accept"),
-    ],
-)
+@pytest.mark.parametrize(("name", "data", "problem", "command"), [
+    ("results/paper/motion_fig3.nc", None, "is missing", "./reproduce"),
+    ("paper_figures/fig3.png", "x", "is not results/paper/figures/fig3.png", "./reproduce"),
+    ("paper_figures/SHA256SUMS", f"{'0' * 64}  ../../x\n", "is not as", "./reproduce accept"),
+    ("paper_figures/MANIFEST.json", "{}", "was edited", "./reproduce accept"),
+])  # fmt: skip
 def test_nothing_stale_or_missing_is_archived(moved, tmp_path, name, data, problem, command):
     (moved.path / name).unlink()
     if data is not None:
@@ -141,15 +133,12 @@ def test_a_damaged_archive_is_refused_in_one_line(packed, tmp_path):
             archive.read(path)
 
 
-@pytest.mark.parametrize(
-    ("argument", "status", "words"),
-    [
-        ("text.tar", 1, "no archive, or damaged"),
-        ("empty", 1, "no tree of this project"),
-        ("", 2, "no archive or folder ''"),
-        ("x" * 300, 2, "no archive or folder"),
-    ],
-)
+@pytest.mark.parametrize(("argument", "status", "words"), [
+    ("text.tar", 1, "no archive, or damaged"),
+    ("empty", 1, "no tree of this project"),
+    ("", 2, "no archive or folder ''"),
+    ("x" * 300, 2, "no archive or folder"),
+])  # fmt: skip
 def test_what_is_no_archive_is_refused_in_one_line(accepted, tmp_path, argument, status, words):
     (tmp_path / "text.tar").write_text("text")
     (tmp_path / "empty").mkdir()

@@ -142,15 +142,12 @@ def test_each_formula_is_valid_and_is_described(page):
             assert not (element.tag in tokens and len(element))
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "problem"),
-    [
-        ('"rotation number")', '"rotation nunber")', "rotation nunber"),
-        ("@greene", "@green", "green"),
-        ("#findings(42)", "#findings(4242)", "none"),
-        ('"families/energy"', '"energy"', "energy"),  # a bare name
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "problem"), [
+    ('"rotation number")', '"rotation nunber")', "rotation nunber"),
+    ("@greene", "@green", "green"),
+    ("#findings(42)", "#findings(4242)", "none"),
+    ('"families/energy"', '"energy"', "energy"),  # a bare name
+])  # fmt: skip
 def test_a_number_or_reference_that_does_not_exist_is_one_line(compiled, old, new, problem):
     with pytest.raises(ValueError, match=rf"^[^\n]*{problem}[^\n]*$"):
         compiled(old=old, new=new)

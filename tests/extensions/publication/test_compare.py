@@ -30,23 +30,17 @@ SAME = {"same": [5.0]}
 MANY = SAME | {"x": [3.0, 4.0], "y": [1.0], "n": [1], "z": [1.0, 2.0]}
 
 
-@pytest.mark.parametrize(
-    ("first", "second", "line"),
-    [
-        (MANY, MANY, "the same data"),
-        (
-            SAME | {"x": [1.0, np.nan]},
-            SAME | {"x": [2.0, np.nan]},
-            "1 of 2 variables differ, x the most: by 1 of its norm",
-        ),
-        (
-            MANY,
-            SAME | {"x": [3.0, 4.5], "y": [1.01], "n": [9], "z": [1.0]},
-            "4 of 5 variables differ, x the most: by 0.1 of its norm; "
-            "1 of other lengths or in one only",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("first", "second", "line"), [
+    (MANY, MANY, "the same data"),
+    (SAME | {"x": [1.0, np.nan]}, SAME | {"x": [2.0, np.nan]},
+     "1 of 2 variables differ, x the most: by 1 of its norm"),
+    (
+        MANY,
+        SAME | {"x": [3.0, 4.5], "y": [1.01], "n": [9], "z": [1.0]},
+        "4 of 5 variables differ, x the most: by 0.1 of its norm; "
+        "1 of other lengths or in one only",
+    ),
+])  # fmt: skip
 def test_variables_that_differ_are_counted_and_the_most_different_is_named(first, second, line):
     assert datasets.norms(dataset(first), dataset(second)) == line
 

@@ -105,13 +105,10 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
 # ---- results that were changed together with their records ----
 
 
-@pytest.mark.parametrize(
-    ("path", "like", "wrong", "words"),
-    [
-        (DATA, None, {"fig3.png", "fig3.svg"}, "data: {}: variable strain differs from value 0 "),
-        (DRAWING, "paper_figures/fig4.png", {"fig3.png"}, "drawing: {}: "),
-    ],
-)
+@pytest.mark.parametrize(("path", "like", "wrong", "words"), [
+    (DATA, None, {"fig3.png", "fig3.svg"}, "data: {}: variable strain differs from value 0 "),
+    (DRAWING, "paper_figures/fig4.png", {"fig3.png"}, "drawing: {}: "),
+])  # fmt: skip
 def test_a_result_with_a_fitting_record_differs_in_its_layer(moved, path, like, wrong, words):
     forge(moved, path, like and (moved.path / like).read_bytes())
     specs = config.load(moved.config).build_specs(["paper"])

@@ -9,15 +9,12 @@ from extensions.publication.figures import model
 from pseudorigid.figures.canvas import style
 
 
-@pytest.mark.parametrize(
-    "fields",
-    [
-        {"ball": PAPER, "energy": 0.025, "period": 4, "duration": 9.77},  # as committed
-        {"ball": PAPER, "energy": 0.055, "period": 1, "duration": 2.0},  # fast and high
-        {"ball": PAPER, "energy": 1e-8, "period": 1, "duration": 1.0},  # hardly moves
-        {},  # the example
-    ],
-)
+@pytest.mark.parametrize("fields", [
+    {"ball": PAPER, "energy": 0.025, "period": 4, "duration": 9.77},  # as committed
+    {"ball": PAPER, "energy": 0.055, "period": 1, "duration": 2.0},  # fast and high
+    {"ball": PAPER, "energy": 1e-8, "period": 1, "duration": 1.0},  # hardly moves
+    {},  # the example
+])  # fmt: skip
 def test_each_ball_is_stretched_and_placed_as_its_state_says(fields):
     block = checked("model", **fields)
     motion = computed(block)["motion"]
