@@ -7,14 +7,7 @@ no symmetric orbit that the search misses.
 import mpmath
 import numpy as np
 import pytest
-from cycles import (
-    NAMES,
-    PERIODS,
-    SETTINGS,
-    check,
-    check_last_bits,
-    compare_with_brute_force,
-)
+from cycles import NAMES, PERIODS, SETTINGS, check, check_last_bits, compare_with_brute_force
 from independent_solver import judge
 from mpmath import mpf
 from sections import BALL

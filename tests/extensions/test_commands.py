@@ -17,9 +17,7 @@ MISTAKES = {
         "prove horsshoe-outer": ": no theorem horsshoe-outer: did you mean horseshoe-outer?",
         "prove --impact": " prove: no argument --impact: did you mean --impacts?",
     },
-    "publication": {
-        "article --against": " article: no argument --against: verify has it",
-    },
+    "publication": {"article --against": " article: no argument --against: verify has it"},
 }
 
 

@@ -81,10 +81,7 @@ def test_every_kind_of_numbers_and_text_is_drawn(picture, tmp_path):
     picture.bars(ENDS, 0, [np.nan, 1.0], label="bars", color="0.5")
     picture.colorbar(np.eye(3), 0, Fraction(1, 3), "a third")
     picture.estimates(ENDS, [0.5, np.nan], 0, 1, "tab:red")
-    (
-        picture.note(1e9, 0.5, "beyond the axes"),
-        picture.note(Fraction(1, 2), 0.5, "half", (1, 2)),
-    )
+    (picture.note(1e9, 0.5, "beyond the axes"), picture.note(Fraction(1, 2), 0.5, "half", (1, 2)))
     for extension in ("png", "svg", "pdf"):
         assert picture.render(extension)
     for x in ([1e300, -1e300], 5e-324, [1e15, 1e15 + 1], Fraction(1, 3), [np.nan, 2.0], many):

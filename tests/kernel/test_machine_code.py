@@ -55,10 +55,7 @@ def test_loops_over_lanes_are_vectorised_and_strict():
         (lanes._march, (row, n, 0.04)),
         (lanes._choose, (row, n)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
-        (
-            tangents._observe,
-            (np.ones(tangents._ROWS), 64, 0.2, 1.0, h, states, flights, 0),
-        ),
+        (tangents._observe, (np.ones(tangents._ROWS), 64, 0.2, 1.0, h, states, flights, 0)),
         (spectrum._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
     ):
         fresh = compiled(loop, *arguments)

@@ -26,13 +26,7 @@ from pseudorigid.kernel.formulas import impact_coefficients, rebound
 from study import measured, stages, states
 from study.measured import machine
 from study.methods import Method, libraries
-from study.methods.counted_methods import (
-    BEST_SCAN,
-    CAREFUL_SCANS,
-    INFLECTIONS,
-    METHODS,
-    OURS,
-)
+from study.methods.counted_methods import BEST_SCAN, CAREFUL_SCANS, INFLECTIONS, METHODS, OURS
 from study.states import BALL
 
 SEARCHED = OURS, INFLECTIONS, BEST_SCAN, *CAREFUL_SCANS[:3], CAREFUL_SCANS[4]

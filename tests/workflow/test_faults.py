@@ -148,11 +148,7 @@ def test_a_signal_to_the_run_alone_ends_its_jobs(done):
     body = f"open({str(begun)!r}, 'w').write(str(os.getpid())), time.sleep(60)"
     motion = f"\n\ndef scene_motion(*_, **__):\n    import os, time\n    {body}\n"
     done.append("pseudorigid/dynamics/motion.py", motion)
-    run = done.start(
-        "paper_figures/fig3.png",
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+    run = done.start("paper_figures/fig3.png", stderr=subprocess.PIPE, text=True)
     wait_for(lambda: begun.exists() and begun.read_text())
     run.terminate()
     _, output = run.communicate(timeout=30)
@@ -212,17 +208,11 @@ def test_a_run_goes_on_without_locks(done, tmp_path):
 # File of src/ -> text with a mistake, or None for no file; and the line about it.
 BROKEN = {
     "paper/figures/portrait.py": (None, "no module paper.figures.portrait"),
-    "paper/figures/motion.py": (
-        b"\ndef draw(:\n",
-        "invalid syntax (motion.py, line 2)",
-    ),
+    "paper/figures/motion.py": (b"\ndef draw(:\n", "invalid syntax (motion.py, line 2)"),
     "pseudorigid/dynamics/orbits.py": (None, "no module pseudorigid.dynamics.orbits"),
     "paper/kinds.py": (b"\n\nx\n", "line 3: name 'x' is not defined"),
     "pipeline/cli/commands/list.py": (None, "No module named 'pipeline.cli.commands.list'"),
-    "extensions/atlas/part.py": (
-        b"",
-        "module 'extensions.atlas.part' has no attribute 'PART'",
-    ),
+    "extensions/atlas/part.py": (b"", "module 'extensions.atlas.part' has no attribute 'PART'"),
     "extensions/atlas/kinds.py": (
         b"x = '\xe4'\n",
         "(unicode error) 'utf-8' codec can't decode byte 0xe4 in position 0: unexpected end of "

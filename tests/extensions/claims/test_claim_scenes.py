@@ -1,15 +1,7 @@
 """Scenes of claims away from the committed ones: bounds, variants, names and unusual sizes."""
 
 import pytest
-from examples import (
-    OTHER,
-    PAPER,
-    SHELL,
-    assert_bounded,
-    checked,
-    made,
-    no_clipping,
-)
+from examples import OTHER, PAPER, SHELL, assert_bounded, checked, made, no_clipping
 from project import shipped
 from slowly import slowly
 

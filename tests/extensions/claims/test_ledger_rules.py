@@ -238,8 +238,7 @@ def test_shares_differ_over_the_material_if_their_intervals_are_apart(least, ver
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [(0.02, 0.98, HOLDS), (0.009, 0.98, FALSE), (0.02, 0.991, FALSE)],
+    ("low", "high", "verdict"), [(0.02, 0.98, HOLDS), (0.009, 0.98, FALSE), (0.02, 0.991, FALSE)]
 )
 def test_a_share_is_mixed_if_its_interval_is_off_both_ends(low, high, verdict):
     plane = line([[0.5, 0.5, 0.5, 0.5]], 0.1, (1.0, 2.0, 3.0, 4.0))

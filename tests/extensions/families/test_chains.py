@@ -11,11 +11,7 @@ from extensions.families import chains
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import rows
 
-PLANE = {
-    "k": [0.14, 0.2, 0.26, 0.33],
-    "energy": [0.1, 1.0, 10.0, 40.0],
-    "chains": [4, 7],
-}
+PLANE = {"k": [0.14, 0.2, 0.26, 0.33], "energy": [0.1, 1.0, 10.0, 40.0], "chains": [4, 7]}
 
 
 @pytest.fixture(scope="module")
@@ -69,8 +65,7 @@ def place_of(order, kind, k):
 
 
 @pytest.mark.parametrize(
-    ("order", "kind", "near"),
-    [(4, "fold", 0.26), (4, "doubling", 0.2), *slowly((7, "rim", 0.3))],
+    ("order", "kind", "near"), [(4, "fold", 0.26), (4, "doubling", 0.2), *slowly((7, "rim", 0.3))]
 )
 def test_folds_doublings_and_lost_impacts_are_right_to_12_digits(curves, order, kind, near):
     k, energy = at(curves, order, kind, near)

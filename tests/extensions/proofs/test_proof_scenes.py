@@ -3,14 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from examples import (
-    OTHER,
-    SHELL,
-    assert_bounded,
-    checked,
-    made,
-    no_clipping,
-)
+from examples import OTHER, SHELL, assert_bounded, checked, made, no_clipping
 from keys import SCENE, texts
 from legible import assert_legible, frames_of, pixels_in_frames
 from project import shipped

@@ -125,8 +125,7 @@ OTHERS = {"a FIFO": os.mkfifo, "a folder": os.mkdir}
 
 
 @pytest.mark.parametrize(
-    ("file", "what"),
-    [(DATA, "a FIFO"), (FIG3, "a folder"), *slowly((MANIFEST, "a FIFO"))],
+    ("file", "what"), [(DATA, "a FIFO"), (FIG3, "a folder"), *slowly((MANIFEST, "a FIFO"))]
 )
 def test_a_special_file_hangs_nothing(moved, tmp_path, file, what):
     (moved.path / file).unlink()
