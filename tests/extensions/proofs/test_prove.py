@@ -130,9 +130,9 @@ def test_a_theorem_that_is_not_proved_is_the_exit_status(tmp_path, monkeypatch, 
     made = dict(zip(datasets.values(), verdicts, strict=True))
     about = {tmp_path / file: {"line": file, "verdict": word} for file, word in made.items()}
     monkeypatch.setattr(artifacts, "load", lambda file: SimpleNamespace(attrs=about[file]))
-    monkeypatch.setattr(prove.figures, "make", lambda *given: 0)
+    monkeypatch.setattr(prove.publishing, "make", lambda *given: 0)
     args = SimpleNamespace(search=False, again=False, makes_nothing=False, config=None)
     args.config = SimpleNamespace(datasets=datasets)
     assert prove._check(args, NAMES) == prove._check(args, NAMES[::-1]) == status
-    monkeypatch.setattr(prove.figures, "make", lambda *given: 3)
+    monkeypatch.setattr(prove.publishing, "make", lambda *given: 3)
     assert prove._check(args, NAMES) == 3
