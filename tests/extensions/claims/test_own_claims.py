@@ -24,7 +24,7 @@ def made(monkeypatch):
         runs.append((group, list(drawings), list(data)))
         return 0
 
-    monkeypatch.setattr(command.figures, "make", make)
+    monkeypatch.setattr(command.publishing, "make", make)
     monkeypatch.setattr(command, "locked", nullcontext)
     monkeypatch.setattr(command, "write", lambda config: [SimpleNamespace(verdict="holds")])
     return runs
