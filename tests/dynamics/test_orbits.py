@@ -4,10 +4,9 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from cycles import SETTINGS, motion_of
 from sections import BALL
 
-from pseudorigid import Ball, classify_orbits, lyapunov_spectrum, motion, orbit, symmetric_orbits
+from pseudorigid import classify_orbits, lyapunov_spectrum, motion, orbit
 from pseudorigid.dynamics.orbits import scene_orbits
 
 NAMES = ("x", "xdot", "udot", "tau")
@@ -75,38 +74,6 @@ def test_a_scene_is_a_ragged_array():
         at += count
     energy = BALL.energy(*values(found)[:3])
     assert np.max(np.abs(energy - 0.01)) < 1e-16 * 20
-
-
-@pytest.mark.parametrize(("k", "g", "energy", "period"), [
-    *((*each, 1) for each in SETTINGS), (0.2, 0.04, 0.01, 6), (0.2, 0.04, 0.001, 12),
-    (0.2, 0.04, 0.055, 4), (1.0, 0.1, 0.05, 3),
-])  # fmt: skip
-def test_motion_touches_the_floor_at_impacts_only(k, g, energy, period):
-    ball = Ball(k, g)
-    radius = ball.section(energy)[1]
-    orbits = symmetric_orbits(ball, energy, period)
-    assert orbits.sizes["orbit"] > 0
-    for i in range(orbits.sizes["orbit"]):
-        one = orbits.isel(orbit=i)
-        total = float(one["total_time"])
-        for duration in (2.37 * total, total, 0.4 * float(one["tau"][0])):
-            found = motion_of(ball, one, duration)
-            t, position, strain = (found[n].values for n in ("t", "position", "strain"))
-            impact_t, impact_position = found["impact_t"].values, found["impact_position"].values
-            assert (t[0], t[-1]) == (0.0, duration)
-            assert np.all(np.diff(t) >= 0.0)
-            assert np.max(position + strain) <= 1e-15 * max(1.0, radius)
-            assert np.all(impact_t <= duration)
-            assert np.all(np.isin(impact_t, t))
-            for when, where in zip(impact_t, impact_position, strict=True):
-                assert np.all(position[t == when] == where)
-                assert np.all(strain[t == when] == -where)
-            between = ~np.isin(t, impact_t) & (t < duration)
-            assert np.all((position + strain)[between] < 0.0)
-            expected = np.resize(one["tau"].values, impact_t.size - 1)
-            assert np.allclose(np.diff(impact_t), expected, rtol=0, atol=1e-13 * max(1, duration))
-            for curve in (position, strain):  # without gaps
-                assert np.max(np.abs(np.diff(curve))) < 0.2 * np.ptp(curve)
 
 
 def test_a_motion_of_impacts_whose_times_lie_before_them_is_refused():

@@ -7,7 +7,7 @@ no symmetric orbit that the search misses.
 import mpmath
 import numpy as np
 import pytest
-from cycles import NAMES, PERIODS, SETTINGS, check, check_last_bits, compare_with_brute_force
+from cycles import NAMES, PERIODS, SETTINGS, check, compare_with_brute_force
 from independent_solver import judge
 from mpmath import mpf
 from sections import BALL
@@ -46,22 +46,6 @@ def test_of_type_returns_one_orbit_or_names_the_available_types():
     for period, found in ((7, "inverse hyperbolic"), (2, "none at all")):
         with pytest.raises(ValueError, match=rf"no elliptic orbit of period {period}.*{found}"):
             of_type(symmetric_orbits(BALL, 0.01, period), "elliptic")
-
-
-@pytest.mark.parametrize(("k", "g", "energy", "period", "trace"), [
-    (1.0, 0.1, 0.05, 11, -17209118.451),
-    *slowly(
-        (0.2, 0.04, 0.01, 40, 11673055535.405409),
-        (0.2, 0.04, 0.01, 28, 342748911.0),
-        (0.2, 0.04, 0.01, 17, 2.0000011627399514),
-    ),
-])  # fmt: skip
-def test_unstable_and_almost_parabolic_orbits_are_right_to_the_last_bit(
-    k, g, energy, period, trace
-):
-    orbits = symmetric_orbits(Ball(k, g), energy, period)
-    i = int(np.argmin(np.abs(orbits["trace"].values - trace)))
-    check_last_bits(Ball(k, g), energy, period, orbits, i)
 
 
 def test_orbits_on_a_chain_alternate_in_type_although_their_traces_are_2_to_rounding():

@@ -38,6 +38,7 @@ pwd.getpwuid = getpwuid
 """
 
 
+@pytest.mark.slow
 def test_a_run_needs_neither_linux_nor_a_user_with_a_name_and_a_home(tmp_path):
     """The name is what snakemake asks for, and the home is where it would have its cache."""
     tree = fresh_tree(tmp_path / "tree", of_scenes("fig3"))

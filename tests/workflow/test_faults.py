@@ -2,7 +2,6 @@
 
 import contextlib
 import errno
-import os
 import re
 import resource
 import shutil
@@ -15,7 +14,7 @@ import netCDF4
 import psutil
 import pytest
 from project import SHIPPED, wait_for
-from runs import contents, rows
+from runs import contents
 
 from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
@@ -94,28 +93,6 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
     assert sorted(tmp_path.iterdir()) == [drawing, published]
     assert publishing._publish({"published.png": "drawing.png"})[0] == {}
     assert published.read_text() == "after"
-
-
-def test_a_killed_run_leaves_whole_files_and_no_lock(done):
-    before = contents(done)
-    figures_folder = done.path / "results/paper/figures"
-    for file in figures_folder.iterdir():
-        file.unlink()
-    targets = [f"paper_figures/fig3.{extension}" for extension in ("png", "svg")]
-    run = done.start(*targets, start_new_session=True)
-    try:
-        wait_for(lambda: list(figures_folder.iterdir()))
-        assert run.poll() is None
-        run.kill()
-        run.wait()
-        assert contents(done) == before
-        again = done.run(*targets)
-        assert again.returncode == 0, again.stdout
-        assert set(rows(again.stdout)) == set(targets)
-    finally:
-        if run.poll() is None:
-            os.killpg(run.pid, signal.SIGKILL)
-    assert contents(done) == before
 
 
 @pytest.mark.parametrize("file", ["src/pipeline/config/__init__.py", "src/snakemake/cli.py"])

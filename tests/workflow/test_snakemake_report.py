@@ -6,7 +6,6 @@ import re
 import zipfile
 
 import pytest
-from slowly import slowly
 
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, measured
@@ -15,7 +14,8 @@ from pipeline.config import load
 NOWHERE = "http://127.0.0.1:9"
 
 
-@pytest.mark.parametrize("extension", ["html", *slowly("zip")])
+@pytest.mark.slow
+@pytest.mark.parametrize("extension", ["html", "zip"])
 def test_the_report_has_each_figure_with_its_caption(extension, done):
     file = done.path / f"report.{extension}"
     proxies = {"http_proxy": NOWHERE, "https_proxy": NOWHERE, "no_proxy": ""}

@@ -29,7 +29,7 @@ def enclosed(surface, points):
 
 
 @pytest.mark.parametrize(("k", "g", "energy", "periods", "step"), [
-    (0.2, 0.04, 0.01, (17, 40), 30),
+    (0.2, 0.04, 0.01, (17, 40), 30), (1.0, 0.1, 0.05, (11,), 1),
     *slowly(
         (0.2, 0.04, 0.01, range(1, 41), 1),
         (0.2, 0.04, 0.001, range(1, 41), 1),
