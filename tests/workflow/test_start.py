@@ -297,52 +297,6 @@ def test_a_signal_to_the_set_up_ends_its_installer(set_up):
     assert not Path(f"/proc/{installer}").exists()
 
 
-INTERRUPTED = """
-_Popen = subprocess.Popen
-
-
-class _Interrupted(_Popen):
-    def __init__(self, command, **how):
-        super().__init__(command, **how)
-        self.interrupts = "install" in command
-        if self.interrupts:
-            Path(".installer").write_text(str(self.pid))
-        self.interrupt("start")
-
-    def _wait(self, timeout):
-        if self.interrupts:
-            self._waitpid_lock.acquire()
-            self.interrupt("wait")
-        return super()._wait(timeout)
-
-    def interrupt(self, when):
-        if self.interrupts and when == WHEN:
-            self.interrupts = False
-            signal.raise_signal(signal.SIGTERM)
-
-
-subprocess.Popen = _Interrupted
-"""
-
-
-@pytest.mark.parametrize("when", ["start", "wait"])
-def test_a_signal_inside_popen_leaves_no_installer(set_up, when):
-    """Popen has then started a process that nobody knows, or keeps a lock without which it hangs.
-
-    The installer is reaped too: not every first process of a machine or container does that.
-    """
-    with (set_up.tree / "src/pipeline/cli/packages.py").open("a") as module:
-        module.write(INTERRUPTED.replace("WHEN", repr(when)))
-    (set_up.folder / "bin" / "uv").write_text("#!/bin/sh\nexec sleep 60\n")
-    (set_up.folder / "bin" / "uv").chmod(0o755)
-    process = set_up.start()
-    _, output = process.communicate(timeout=30)
-    assert process.returncode == 130
-    assert without_waits(output).endswith("reproduce: interrupted: run it again to go on\n")
-    installer = (set_up.tree / ".installer").read_text()
-    assert not Path(f"/proc/{installer}").exists()
-
-
 @pytest.mark.slow
 def test_the_installer_of_a_killed_set_up_is_waited_for(set_up):
     process, installer = start_slowly(set_up)
