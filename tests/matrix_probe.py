@@ -2,6 +2,7 @@
 
     python tests/matrix_probe.py         everything
     python tests/matrix_probe.py short   a short table and orbit, for plain Python
+    python tests/matrix_probe.py analyses
 
 Arguments come from a generator that is the same everywhere, never from a library's functions.
 """
@@ -102,6 +103,34 @@ def everything():
     # What the settings change, so that a test can tell that they were honoured.
     yield "library", library()
     yield "simd", [name for name, there in __cpu_features__.items() if there]
+
+
+def analyses():
+    """Yield the hashes of small datasets of analyses of claims, and of a block of a sweep."""
+    from dataset_hash import content_hash
+
+    from extensions.atlas import cell, last_curve
+    from extensions.claims.analyses import (
+        clusters,
+        control,
+        exclusion,
+        flux,
+        jumps,
+        rotation,
+        spread,
+    )  # fmt: skip
+
+    for name, function, *given in (
+        ("spread", spread.spread, 13, 2000, 4, [-0.44], 256, 8, 256),
+        ("clusters", clusters.clusters, 16, 400, [4.0, 6.0], 2, 20, 1),
+        ("control", control.control, [0.03], 20, 400, 6, [0.1], 0.03, 20, 20, 1),
+        ("rotation", rotation.rotation, [0.026], 15, 600, (-0.8344, -0.8341), 600),
+        ("jumps", jumps.jumps, [0.0018], 60), ("flux", flux.flux, 6, 5e-3, 60, 16, 300),
+        ("exclusion", exclusion.exclusion, 20, 50),
+        ("last", last_curve.last_curve, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
+    ):  # fmt: skip
+        yield name, content_hash(function(BALL, ENERGY, *given))
+    yield "cells", content_hash(cell.block_of_cells_of_a_sweep([[0.2, 6.25], [0.1, 0.3]], 20, 2000))
 
 
 def short():

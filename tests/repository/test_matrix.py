@@ -15,6 +15,8 @@ from fontTools.ttLib import TTFont
 from matplotlib import get_data_path
 from project import ROOT, run
 
+from pipeline.declaration import parts
+
 PROBE = ROOT / "tests" / "matrix_probe.py"
 CONTROLS = {"library", "simd"}  # the probe's answers that the settings may change
 
@@ -72,6 +74,13 @@ def test_the_same_bytes_under_other_settings(tmp_path):
     if "X86_V3" in expected["simd"]:  # AVX2 and FMA: numpy and the C library honour the settings
         assert "X86_V3" not in found["simd"]
         assert found["library"] != expected["library"] or platform.libc_ver()[0] != "glibc"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not {"claims", "atlas"} <= parts().keys(), reason="no analyses here")
+def test_analyses_have_the_same_bits_on_another_processor(tmp_path):
+    others = OTHERS | {"NUMBA_CPU_NAME": "generic", "NUMBA_CACHE_DIR": "FOLDER"}
+    assert probe(tmp_path / "other", "analyses", others) == dict(matrix_probe.analyses())
 
 
 def test_plain_python_finds_the_compiled_bits(tmp_path):

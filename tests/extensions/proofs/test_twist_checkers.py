@@ -271,27 +271,6 @@ def test_functions_of_angles_above_five_are_not_enclosed():
             one_zero._even_function("sine", value, 2)
 
 
-@pytest.mark.parametrize("theta", ["0.9", "2.2"])
-def test_the_scaled_map_is_the_impact_map(theta):
-    """Each coefficient of V to third order, and its derivatives in theta by differences."""
-    series = one_zero._series(ball_of(K), ball_of(G), arb(theta), 2)
-    step = arb(2) ** -30
-    around = [one_zero._series(ball_of(K), ball_of(G), arb(theta) + a, 0) for a in (-step, step)]
-    t = arb(theta)
-    energy = energy_at(ball_of(K), ball_of(G), t)
-    band, _ = fixed_point._prove_over(*BALL, energy, t)
-    x0 = ball_of(G / K) * t * t.cot()
-    image = band.impact(*Jet.plane(3, x0, arb(0)))[:2]
-    for r, (i, j) in product((0, 1), algebra(2, 3).monomials):
-        if i + j:
-            true = image[r][i, j] * t ** (i + j) / t - ((i, j) == ((1, 0), (0, 1))[r])
-            assert abs(series[r][i, j, 0] - true / t) < 1e-15
-        before, after = (other[r][i, j, 0] for other in around)
-        assert abs(series[r][i, j, 1] - (after - before) / (2 * step)) < 1e-14
-        assert abs(2 * series[r][i, j, 2] - (after + before - 2 * series[r][i, j, 0])
-                   / step**2) < 1e-11  # fmt: skip
-
-
 @pytest.mark.parametrize(("low", "high"), [("0", "0.05"), ("1.2", "1.22"), ("2.2", "2.21")])
 def test_fields_over_a_wide_band_enclose_those_inside(low, high, monkeypatch):
     """Also with polynomials of low degree, so that Lagrange's remainder is large."""

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from commands import mistake
-from sections import BALL
 
 from extensions.publication.compare import datasets
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
 
 NAMES = ("one", "two")
@@ -115,12 +113,3 @@ def test_both_figures_are_side_by_side_on_the_same_axes(variants):
     assert (both[:75, :wide] < 128).any()
     drawn = figure("paper/figures", "fig4")  # the other one cannot exist
     assert np.array_equal(figure("compare/paper..low", "fig4")[75:, : drawn.shape[1]], drawn)
-
-
-def test_the_largest_exponent_is_the_largest_by_value():
-    """After 100 impacts at this energy the exponents are not sorted by the order of the frame."""
-    found = scene_exponents(BALL, 0.001, np.linspace(-0.99, 0.99, 40).tolist(), 100, 4)
-    last = found["exponent"].values[-1]
-    assert np.any(last[:, 0] < last.max(axis=1))
-    line = datasets.exponents(found, found, NAMES)[1]
-    assert line.split()[2] == f"{last.max(axis=1).mean():.4f}"
