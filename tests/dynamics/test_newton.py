@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from cycles import PERIODS, SETTINGS, check, check_last_bits, compare_with_brute_force
+from cycles import PERIODS, SETTINGS, check, compare_with_brute_force
 from sections import BALL
 from slowly import slowly
 
-from pseudorigid import Ball, periodic_orbits, symmetric_orbits, trace_manifold
+from pseudorigid import Ball, periodic_orbits, symmetric_orbits
 from pseudorigid.dynamics import ensemble, newton
 
 
@@ -56,16 +56,6 @@ def test_the_symmetric_orbits_are_among_them_with_the_same_bits(k, g, energy, pe
         alone = every.isel(orbit=~every["symmetric"].values)
         mirrored = disk(ball, energy, alone)[:, :, None] - disk(ball, energy, alone)[:, 0] * (1, -1)
         assert np.all(np.max(np.abs(mirrored), axis=-1).min(axis=1).min(axis=0, initial=1.0) < 1e-9)
-
-
-@pytest.mark.slow
-def test_orbits_without_symmetry_are_right_to_the_last_bit():
-    orbits = periodic_orbits(BALL, 0.01, 20)
-    assert (orbits.sizes["orbit"], int(orbits["symmetric"].sum())) == (24, 14)
-    (alone,) = np.nonzero(~orbits["symmetric"].values)
-    check_last_bits(BALL, 0.01, 20, orbits, int(alone[-1]))
-    branch = trace_manifold(BALL, 0.01, orbits.isel(orbit=int(alone[-1])), length=0.1)
-    assert branch.sizes["vertex"] > 10
 
 
 @pytest.mark.slow

@@ -18,11 +18,8 @@ def values(dataset):
 
 
 @pytest.mark.parametrize(("fractions", "dims"), [
-    (0.534522, ()),
-    (FRACTIONS[0], ("orbit",)),
-    (FRACTIONS[0][:1], ("orbit",)),
-    (FRACTIONS[:0, 0], ("orbit",)),
-    (FRACTIONS, ("orbit_0", "orbit_1")),
+    (0.534522, ()), (FRACTIONS[0], ("orbit",)), (FRACTIONS[0][:1], ("orbit",)),
+    (FRACTIONS[:0, 0], ("orbit",)), (FRACTIONS, ("orbit_0", "orbit_1")),
 ])  # fmt: skip
 @pytest.mark.parametrize("impacts", [1, 7, np.int64(17), 200.0])
 def test_dims_follow_the_state_and_keep_last_returns_the_last_impact(fractions, dims, impacts):

@@ -11,14 +11,12 @@ import math
 import os
 import sys
 
-import mpmath
 import numpy as np
 import pytest
-from flights import FAMILIES, TAU, before, draw, error
+from flights import FAMILIES, TAU, draw, error
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from independent_solver import judge
-from mpmath import mpf
 from project import ROOT, run
 from sections import BALL
 from slowly import slowly
@@ -89,31 +87,6 @@ def test_towards_grazing(decade, g):
             tau = Ball(0.2, g).time_to_impact(*state[2:])
             off = abs(tau - float(judge(*state).tau)) / 1e-40 * TAU
         assert off <= TAU, [a.hex() for a in state]
-
-
-def touching(x, t, g=0.04, k=0.2):
-    """Return (v, w), rounded, of a flight whose gap has a maximum of height 0 at t."""
-    x, t, g, k = (mpf(a) for a in (x, t, g, k))
-    cosine, sine = mpmath.cos_sin(t)
-    c = (g * t * t / 2 - x * (1 - cosine - t * sine)) / (sine - t * cosine)
-    b = -g * t - x * sine - c * cosine
-    assert b + c < 0  # the ball leaves the floor
-    assert g + x * cosine - c * sine < 0
-    return tuple(float(a) for a in before(k, b, c))
-
-
-# (x, t) of touches without an earlier impact
-TOUCHES = ((0.4, 0.5), (0.4, 1.5), (0.1, 3.0), (0.02, 5.0), (-0.0399999, 5.0), (-0.05, 5.0),
-           (-0.2, 7.0), (-0.2, 25.0))  # fmt: skip
-
-
-@pytest.mark.parametrize(("x", "t"), TOUCHES)
-def test_a_touch_to_the_last_bit(x, t):
-    """tau is t to the root of a rounding, or the next impact, but nothing in between."""
-    v, w = touching(x, t)
-    tau = BALL.time_to_impact(x, v, w)
-    assert abs(tau - t) < 3e-7 * t or tau > t + 0.01
-    assert error((0.2, 0.04, x, v, w)) <= TAU
 
 
 @pytest.mark.parametrize("ball", [BALL, Ball(1 / 3, 1e-3), Ball(1.0, 1e-4), Ball(0.01, 0.009)])

@@ -148,21 +148,6 @@ def test_near_misses_have_their_height(height):
         assert np.abs(gap[top] - height).min() < 1e-9 + 1e-3 * abs(height)
 
 
-@pytest.mark.parametrize("side", [1, -1])
-def test_states_at_a_distance_from_grazing(side):
-    x, v, w = states.grazing_at(7, side, 50)
-    assert np.all(np.abs((v + w) / 1e-7 - 1) < 1e-8)
-    assert np.all(side * (x + BALL.g) >= 0)
-
-
-@pytest.mark.parametrize("solver", libraries.RTOLS)
-def test_solve_ivp_sees_short_flights(solver):
-    columns = states.grazing_at(6, 1, 20)
-    truth = OURS.solve(BALL, *columns)[0]
-    tau, _ = libraries.ivp_method(solver, 1e-9, False).solve(BALL, *columns)
-    assert np.abs(tau / truth - 1).max() < 0.1
-
-
 def test_the_figures_of_the_paper_need_nothing_of_the_study():
     specs = check(shipped()).build_specs(["paper"])
     assert not any(
@@ -174,16 +159,3 @@ def test_the_figures_of_the_paper_need_nothing_of_the_study():
 def test_a_comparison_loads_no_drawing(module):
     """Otherwise seconds would be measured again after a change of a drawing."""
     assert not any("figures" in file for file in source_files(module))
-
-
-def test_recorded_trials_are_worse_than_the_methods(monkeypatch):
-    """Care that was tried in another form fails at grazing states, as recorded."""
-    data = stages.recorded("trials")
-    wrong = dict(zip(data["trial"].values.tolist(), data["wrong_states"].values, strict=True))
-    assert {n for text, n in wrong.items() if "its own" in text or "a first call" in text} == {0}
-    columns = states.grazing(500)[:, :60]
-    method = libraries.ivp_method("LSODA", 1e-3)
-    assert not stages.wrong_roots([method], columns).any()
-    monkeypatch.setattr(libraries, "_CHOOSES_FIRST_STEP", ())
-    share = wrong["LSODA with care, 1e-03, our first step"] / 500
-    assert stages.wrong_roots([method], columns).mean() == pytest.approx(share, abs=0.2)

@@ -25,12 +25,9 @@ from pipeline.records.provenance import Freshness
 DRAWING = "results/paper/figures/fig3.png"
 # Settings in a user's shell do not reach a run; numba would refuse its ones.
 HOSTILE = {
-    "MPLBACKEND": "no such backend",
-    "SNAKEMAKE_PROFILE": "none such",
-    "NUMBA_NUM_THREADS": "0",
-    "NUMBA_OPT": "none",
-    "NUMBA_THREADING_LAYER": "none",
-}
+    "MPLBACKEND": "no such backend", "SNAKEMAKE_PROFILE": "none such", "NUMBA_NUM_THREADS": "0",
+    "NUMBA_OPT": "none", "NUMBA_THREADING_LAYER": "none",
+}  # fmt: skip
 
 
 @pytest.mark.slow

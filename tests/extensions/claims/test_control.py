@@ -140,21 +140,6 @@ def test_a_perturbed_map_is_t_after_p_after_its_mirror(name):
     assert np.quantile(np.abs(image[0] + 1j * image[1] - z), 0.95) < 1e-11
 
 
-@pytest.mark.parametrize("name", MAPS)
-def test_jacobians_are_those_of_differences_and_areas_their_determinants(name):
-    perturbed = perturbed_map.perturbed_map(BALL, ENERGY, name, EPS)
-    step, at = 1e-6, np.array([[-0.5], [0.3]])
-    _, jacobian = perturbed.jacobian(at, 2)
-    moved = at + step * np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
-    image = perturbed.images(moved, 2)
-    assert np.max(np.abs((image[:, ::2] - image[:, 1::2]) / (2 * step) - jacobian)) < 1e-7
-    out = np.empty((2, 1, 2))
-    windows, sums = np.array([[1, 1]]), np.zeros((2, 1, 1))
-    perturbed_map.propagate(perturbed_map.orbit_rows(at), *perturbed, 2, windows, sums, out)
-    assert sums[1, 0, 0] == pytest.approx(math.log(determinant(jacobian)), abs=1e-12)
-    assert np.array_equal(out[:, :, -1], perturbed.images(at, 2))
-
-
 def test_an_orbit_is_chaotic_or_a_spiral_or_regular():
     low, high = 0.9 * GROWTH_THRESHOLD, 1.1 * GROWTH_THRESHOLD
     grown = np.array([low, -5.0, low, low, high, high, math.nan])
