@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from pseudorigid import orbit
-from pseudorigid.dynamics.motion import scene_motion
 
 NAMES = ("x", "xdot", "udot", "tau")
 # (k, g, energy); orbits of the last four stretch the ball strongly.
@@ -21,13 +20,6 @@ PERIODS = range(1, 13)
 def points_of(orbits, i):
     """The points and flights of the i-th orbit, (4, period)."""
     return np.stack([orbits[name].values[i] for name in NAMES])
-
-
-def motion_of(ball, one, duration):
-    """The motion along one of the orbits that `symmetric_orbits` finds."""
-    kind, orbits = one["type"].item(), one.expand_dims("orbit")
-    period, energy = one.sizes["point"], one.attrs["energy"]
-    return scene_motion(ball, energy, orbits, period, kind, duration)
 
 
 def check(ball, energy, period, orbits):

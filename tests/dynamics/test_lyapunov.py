@@ -9,7 +9,7 @@ from cycles import SETTINGS
 from sections import BALL
 
 from paper.figures import reports
-from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.kernel import spectrum
@@ -113,14 +113,6 @@ def test_the_time_is_the_sum_of_the_times_of_flight():
         assert np.array_equal(found, np.cumsum(flights)[found["impact"].values - 1])
         exact = math.fsum(flights)
         assert abs(float(found[-1]) - exact) < 2e-14 * exact
-
-
-def test_the_time_of_a_periodic_orbit_is_a_multiple_of_its_period():
-    elliptic = symmetric_orbits(BALL, 0.01, 6).isel(orbit=0)
-    state = [float(elliptic[name][0]) for name in ("x", "xdot", "udot")]
-    found = lyapunov_spectrum(BALL, state, 60_000, 10)["time"]
-    expected = float(elliptic["total_time"]) * found["impact"] / 6
-    assert np.allclose(found, expected, rtol=1e-12)
 
 
 def test_exponents_per_time_are_those_per_impact_over_the_mean_flight():

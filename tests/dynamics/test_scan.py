@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from cycles import motion_of
 from sections import BALL
 
-from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits
+from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.dynamics.variables import of_type
 from pseudorigid.kernel.impact import scan
 
 SEA = BALL.start(0.534522, 0.01)
@@ -56,19 +54,6 @@ def test_exponents_belong_to_the_scanned_orbit():
     assert np.array_equal(many.exponent.values[-1], [found] * 40)
     exact = lyapunov_spectrum(BALL, SEA, 2000, records=1).exponent.values[-1]
     assert 1e-6 < np.max(np.abs(found - exact)) < 0.1  # chaotic orbits part after 100 impacts
-
-
-def test_a_motion_follows_the_scanned_impacts():
-    one = of_type(symmetric_orbits(BALL, 0.01, 6), "elliptic")
-    exact = motion_of(BALL, one, 60)
-    for tolerance in (1e-12, 1e-4):
-        ball = scanned(tolerance=tolerance)
-        found = motion_of(ball, one, 60)
-        assert ball.map.impacts >= found.sizes["impact"]
-        at = found["impact_t"].values
-        off = np.max(np.abs(at - exact["impact_t"].values))
-        assert 0 < off < 1e3 * tolerance
-        assert np.all(np.diff(at) > 0)
 
 
 @pytest.mark.slow

@@ -1,7 +1,6 @@
 """Pictures have the same bytes for everyone, and hold what was drawn: only lines are simplified."""
 
 import re
-import shutil
 from io import BytesIO
 
 import numpy as np
@@ -38,24 +37,6 @@ def test_png_holds_exactly_the_pixels():
         assert round(image.info["dpi"][0]) == style.DPI
         assert set(image.info) == {"dpi", "srgb"}
         assert np.array_equal(np.asarray(image), pixels(figure))
-
-
-def test_fonts_of_the_system_are_not_used(tmp_path):
-    from matplotlib import font_manager
-
-    manager = font_manager.fontManager
-    own = font_manager.findfont("DejaVu Serif")
-    copy = shutil.copy(own, tmp_path)
-    manager.addfont(copy)
-    manager.ttflist.insert(0, manager.ttflist.pop())
-    try:
-        assert font_manager.findfont("DejaVu Serif") == copy
-        with style.pinned():
-            assert font_manager.findfont("DejaVu Serif") == own
-    finally:
-        del manager.ttflist[0]
-        manager.addfont(own)  # clears the cached path of the copy
-        manager.ttflist.pop()
 
 
 def test_thousands_of_dots_in_an_svg_are_one_path_of_the_same_dots():

@@ -4,9 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from project import ROOT, shipped
+from project import ROOT
 
-from pipeline.config import check
 from pipeline.records.sources import source_files
 from study import stages, states
 from study.methods import libraries
@@ -146,13 +145,6 @@ def test_near_misses_have_their_height(height):
         gap = x + t * (b + BALL.g / 2 * t) - x * np.cos(t) + c * np.sin(t)
         top = np.flatnonzero((gap[1:-1] > gap[:-2]) & (gap[1:-1] >= gap[2:])) + 1
         assert np.abs(gap[top] - height).min() < 1e-9 + 1e-3 * abs(height)
-
-
-def test_the_figures_of_the_paper_need_nothing_of_the_study():
-    specs = check(shipped()).build_specs(["paper"])
-    assert not any(
-        file.startswith("src/study/") for spec in specs.values() for file in spec.sources
-    )
 
 
 @pytest.mark.parametrize("module", ["study.stages", "study.measured"])

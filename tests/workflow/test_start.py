@@ -53,8 +53,8 @@ def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_install
     assert not (tree.path / ".venv").exists()
 
 
-def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path, monkeypatch):
-    """In a folder of another user; the .venv that is there is used as it is."""
+def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path):
+    """In a folder of another user."""
     tree = finished.copy(tmp_path / "tree")
     tree.warm()
     site = "import os\nmay, opens = os.access, os.open\n"
@@ -65,25 +65,11 @@ def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path,
     site += "    return opens(path, flags, *how, **more)\n"
     site += "os.open = refuse\n"
     (tree.path / "src/sitecustomize.py").write_text(site)
-    for words in ("list", "verify", "help", "-n", "fig3 -n", "--version"):
+    for words in ("list", "verify", "-n"):
         result = tree.run(*words.split())
         assert "annot" not in result.stdout and "Traceback" not in result.stdout, result.stdout
         assert result.returncode == int(words == "verify")  # nothing is committed here
     assert "cannot write in" in tree.run("fig3").stdout
-    # A .venv that is complete, but of another folder or machine.
-    venv = tree.path / ".venv"
-    (venv / "bin").mkdir(parents=True)
-    (venv / "stamp").write_text("another")
-    program = "#!/bin/sh\nexec " + sys.executable + ' "$@"\n'
-    (venv / "bin/python").write_text(program)
-    (venv / "bin/python").chmod(0o755)
-    monkeypatch.setenv("PYTHONPATH", str(tree.path / "src"))
-    set_up = "import os; os.access = lambda path, mode: mode != os.W_OK; import pipeline; "
-    set_up += "from pipeline.cli import packages; packages.set_up('this', 'list')"
-    result = run(sys.executable, "-c", set_up)
-    assert result.stdout == tree.run("list").stdout, result.stderr
-    line = f"reproduce: nothing can be written in {tree.path}: .venv is used as it is\n"
-    assert result.stderr == line
 
 
 @pytest.mark.slow

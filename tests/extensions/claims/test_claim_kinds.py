@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from legible import assert_legible, frames_of
+from legible import assert_legible
 from samples import module
 from sections import BALL
 from small_curve import SMALL
@@ -154,36 +154,3 @@ def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):
     low, high = FAMILIES["span"]
     leaves = np.interp(1.6, residue[span], energy[span])
     assert x == pytest.approx(125 + 875 * (leaves - low) / (high - low), abs=0.1)
-
-
-def test_families_have_marks_at_their_ends_and_names_at_all_resonances(data):
-    held, regular = data("families")
-    near = held["event_energy"].where(held["event_family"] > 0, 0.01 + 1e-6 * held["event_order"])
-    held = held.assign(event_x=held["event_x"] + 0.1, event_energy=near)
-    figure = draw("families", [held, regular])
-    _, middle = frames_of(figure)
-    hollow = [a for a in figure.artists if a.get_markersize() == 2.6]
-    assert {a.get_color() for a in hollow} <= {*style.ordered(len(np.unique(held["period"])))}
-    marks = np.concatenate([a.get_xydata() * style.DPI for a in hollow])
-    apart = np.abs(marks[:, None] - marks).max(axis=2) + 99 * np.eye(len(marks))
-    assert apart.min() > 13  # none covers another
-    labels = [(*text.get_position(), text.get_text().replace("−", "-")) for text in figure.texts]
-    labels = [(y * style.DPI, label) for x, y, label in labels if x * style.DPI < middle.x0]
-    inside = [(y, label) for y, label in labels if middle.y0 <= y <= middle.y1 and "(" not in label]
-    (y0, first), *_, (y1, last) = inside
-    slope = (y1 - y0) / (float(last) - float(first))
-    low, high = FAMILIES["span"]
-    marked = 0
-    for index, span in enumerate(rows(held)):
-        for side, end in ((0, span.start), (1, span.stop - 1)):
-            if held["end_kind"].values[index, side] not in ("range", "closed", "unresolved"):
-                energy, x = (float(held[name].values[end]) for name in ("energy", "x"))
-                across = middle.x0 + (energy - low) / (high - low) * middle.width
-                place = across, y0 + slope * (x - float(first))
-                assert np.abs(marks - place).max(axis=1).min() < 15
-                marked += 1
-    assert marked > 3
-    order = held["event_order"].values[held["event_family"].values == 0]
-    names = [text for text in figure.texts if len(text.get_text()) == 3 and "/" in text.get_text()]
-    assert len(names) == np.sum((order > 2) & (order <= 8)) > 1
-    assert_legible(figure, slack=5)

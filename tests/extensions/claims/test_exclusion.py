@@ -72,15 +72,3 @@ def test_curves_are_not_excluded_and_everything_else_is(excluded):
 def test_the_error_of_a_share_counts_a_point_and_its_mirror_image_once(excluded):
     share, count = excluded["share"].values, (excluded["excluded"].values >= 0).sum() // 2
     np.testing.assert_allclose(excluded["share_error"] ** 2, share * (1.0 - share) / count)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("energy", "shares"),
-    [(0.01, {20: 0.7689, 80: 0.8416, 320: 0.8418}), (0.001, {80: 0.3571, 320: 0.4354})],
-)
-def test_shares_at_the_paper_s_energies(energy, shares):
-    data = exclusion(BALL, energy, 200, 320).swap_dims(count="impacts")
-    for impacts, share in shares.items():
-        chosen = data.sel(impacts=impacts)
-        assert abs(float(chosen["share"]) - share) < 3.0 * float(chosen["share_error"])

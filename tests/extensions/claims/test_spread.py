@@ -127,17 +127,6 @@ def test_the_table_of_runs_is_that_of_a_second_implementation(orbits, length):
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
 
 
-def test_independent_blocks_have_the_spread_of_independent_runs():
-    rng = np.random.default_rng(1)
-    block = np.sort(rng.normal(0.2, 0.01, (1000, 100, 3)))[..., ::-1]
-    data = spread_of_runs(block, 10)
-    length, deviation, error, skewness, skewness_error = (data[name][1] for name in data)
-    scaled = deviation * np.sqrt(length / length[0]) / deviation[0]
-    assert np.all(np.abs(scaled - 1.0) < 4.0 * error / deviation)
-    assert np.all(np.abs(skewness[3:]) < 4.0 * skewness_error[3:])
-    assert error[0] / deviation[0] == pytest.approx(math.sqrt(0.5 / 1e5), rel=0.3)
-
-
 def test_one_orbit_and_one_run_have_no_error():
     data = spread_of_runs(np.ones((2, 1, 3)), 10)
     assert data["run"][1].tolist() == [10, 20]

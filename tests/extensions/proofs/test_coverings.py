@@ -171,12 +171,6 @@ def test_a_covering_needs_both_edges_on_opposite_sides_and_room(p, q, reason):
         assert 2 - 1e-6 < beyond <= 2 and 0.5 - 1e-6 < room <= 0.5
 
 
-@pytest.mark.parametrize(("p", "margin"), [((0.5, 3), 1.5), ((-0.5, 3), 1.5), ((0.5, -3), 1.5)])
-def test_the_margin_is_that_of_the_nearer_edge(p, margin):
-    its = local((*p, 0, 0, 0, 0))
-    assert hsets.covering_margins(its, ONE, ONE) == (pytest.approx(margin), 1.0)
-
-
 @pytest.mark.parametrize(("rows", "margin"), [
     (((3, 0), (0, 0.5)), 0.6), (((-3, 0), (0, -0.5)), 0.6), (((1, 0), (0, 0.5)), None),
     (((3, 0), (0, 1)), None),

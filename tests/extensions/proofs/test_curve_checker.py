@@ -591,21 +591,6 @@ def test_a_curve_lies_beyond_a_line_by_more_than_all_remainders(x, y, a, b, beyo
     assert curve._lies_beyond(*cells, 0, *line) == beyond
 
 
-def test_a_turn_is_a_determinant_and_a_scalar_product():
-    a, b = (arb(3), arb(1)), (arb(2), arb(5))
-    assert [float(v) for v in curve._turn((arb(1), arb(2)), a, b)] == [2 * 3 + 1, 2 - 3]
-
-
-def test_the_area_of_an_ellipse():
-    one = ellipse(0.3, 0.2)
-    other = [w[:2] for w in one]
-    assert float(curve._area(other)) == pytest.approx(pi * 0.06, rel=1e-12)
-    with ctx.workprec(60):  # by Green's theorem on a fine polygon
-        x, y = np.array([[float(a) for a in z] for z in curve._points(one, 4000)]).T
-    shoelace = -np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2
-    assert float(curve._area(one)) == pytest.approx(shoelace, rel=1e-5)
-
-
 def test_the_whole_disc_is_covered(monkeypatch):
     """Where flights are decided on narrow boxes only."""
     one, boxes, centre = circle_cells(128)

@@ -146,11 +146,6 @@ def sets(six):
     return scenes.scene_horseshoe(BALL, 0.01, six, 6, "hyperbolic", "outer")
 
 
-@pytest.fixture(scope="module")
-def twists():
-    return scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])
-
-
 def test_the_data_of_the_horseshoe_show_the_committed_certificate(sets):
     assert sets.sizes["set"] == 6 + 2 * 59 + 1
     assert np.isnan(sets["chain"].values).sum() == 6
@@ -163,14 +158,6 @@ def test_the_data_of_the_horseshoe_show_the_committed_certificate(sets):
     middle = sets.isel(set=int(np.flatnonzero(sets["chain"].values == 0)[0]))
     assert middle["y"].item() == 0
     assert middle["corner_x"].mean().item() == pytest.approx(middle["x"].item(), abs=1e-12)
-
-
-def test_the_data_of_the_twist_fall_through_the_zero(twists):
-    assert np.all(np.diff(twists["twist"].values) < 0)
-    assert twists["twist"].values[2] > 0 > twists["twist"].values[3]
-    assert 0.029 < twists["zero"].item() < 0.03
-    stated = THEOREMS["twist-fixed-point"].check().digits["twist"]
-    assert twists["twist"].values[1] == float(stated[1:].split()[0])
 
 
 def test_the_twist_of_another_ball_and_its_proved_zero():
