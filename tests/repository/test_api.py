@@ -36,17 +36,6 @@ def test_the_rotation_number_keeps_shape_and_knows_several_energies():
         assert isinstance(alone, float) and alone == numbers[row, 0]
 
 
-@pytest.mark.parametrize("scale", [1.0, 2.0])
-def test_orbits_are_regular_or_chaotic_in_any_unit_of_length(scale):
-    ball = Ball(BALL.k, scale * BALL.g)
-    states = ball.start([REGULAR, CHAOTIC, math.nan], 0.01 * scale**2)
-    verdicts = pseudorigid.classify_orbits(ball, states)
-    assert verdicts["type"].values.tolist() == ["regular", "chaotic", "undefined"]
-    assert verdicts["followed"].values[2] == 0 < verdicts["followed"].values[0]
-    numbers = pseudorigid.rotation_number(ball, states)
-    assert verdicts["rotation_number"].values[0] == pytest.approx(numbers[0], abs=1e-6)
-
-
 def test_the_residue_tells_the_types_apart():
     six = symmetric_orbits(BALL, 0.01, 6)
     elliptic, hyperbolic, inverse = pseudorigid.residue(six).values
