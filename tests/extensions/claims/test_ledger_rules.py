@@ -455,7 +455,7 @@ def test_points_alternate_around_their_middle():
 @pytest.mark.parametrize("tau", [0.5, 2.0, 3.5, 7.0, 12.0, 30.0])
 def test_extrema_of_the_strain_are_those_of_a_fine_grid(tau):
     t = np.linspace(0.0, tau, 400_001)
-    for angle in np.linspace(0.05, 6.2, 23):
+    for angle in np.linspace(0.05, 6.2, 9):
         x, c = 0.3 * math.cos(angle), 0.3 * math.sin(angle)
         strain = c * np.sin(t) - x * np.cos(t)
         assert flight_strains(x, c, tau) == pytest.approx((strain.min(), strain.max()), abs=1e-9)

@@ -81,22 +81,6 @@ def test_the_points_stated_are_those_of_touching_flights():
                 assert abs(value - arb(mpmath.nstr(number, 38))) < 1e-34, name
 
 
-def test_the_polygon_has_its_corners_evenly_from_end_to_end():
-    with ctx.workprec(96):
-        corners, fastest = jump.curve(PAPER, 8), jump.fastest_touch(PAPER)
-        inner, *middle, outer = corners
-        ends = jump.stated_points(PAPER, arb("0.02"))
-        assert all(a.overlaps(b) for a, b in zip(inner, ends["inner end"], strict=True))
-        assert all(a.overlaps(b) for a, b in zip(outer, ends["outer end"], strict=True))
-        assert len(middle) == 7
-        for share, corner in zip((-0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75), middle, strict=True):
-            point = jump.stated_points(PAPER, fastest * share)["point"]
-            assert all(a.overlaps(b) for a, b in zip(corner, point, strict=True))
-        length = sum(np.hypot(*(float(a - b) for a, b in zip(*side, strict=True)))
-                     for side in pairwise(corners))  # fmt: skip
-        assert float(jump._polygon_length(PAPER, 8)) == pytest.approx(length, abs=1e-12)
-
-
 # ---- premises of the jump set
 
 

@@ -196,7 +196,7 @@ def at(theta, ball=BALL):
     return [value for value, _ in pairs]
 
 
-@pytest.mark.parametrize("theta", ["0.4", "1.5", "2.05", "2.3"])
+@pytest.mark.parametrize("theta", ["0.4", "2.05"])
 def test_the_twist_is_that_of_birkhoffs_normal_form(theta):
     """The normal form takes flights and the fixed point from the map over a ball instead."""
     with ctx.workprec(periodic.BITS):
