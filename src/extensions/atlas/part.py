@@ -34,10 +34,10 @@ PART = Part(
     },
     commands={
         "sweep": SnakemakeCommand(
-            "compute grids over k and E/g^2, in results/atlas/", *_ARGUMENTS, module=_MODULE
+            "compute sweeps over k and E/g^2, in results/atlas/", *_ARGUMENTS, module=_MODULE
         ),
         "atlas": SnakemakeCommand(
-            "draw these grids, in more_figures/atlas/", *_ARGUMENTS, module=_MODULE
+            "draw the sweeps, in more_figures/atlas/", *_ARGUMENTS, module=_MODULE
         ),
     },
     benchmark="extensions.atlas.bench",

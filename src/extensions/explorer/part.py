@@ -6,7 +6,7 @@ PART = Part(
     needs=("processors",),
     commands={
         "explore": Command(
-            "write and open a page that computes orbits, with the same bits",
+            "open the interactive explorer in a browser",
             switch("--no-open", "only write results/explorer.html"),
             module="extensions.explorer.command",
         ),

@@ -13,7 +13,7 @@ PART = Part(
     },
     commands={
         "archive": Command(
-            "write one tar of the figures, the data and what made them",
+            "write one tar of the figures, their data and provenance",
             ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
             switch("--with-packages", "add the sources and the locked packages: runs offline"),
             (
@@ -24,7 +24,7 @@ PART = Part(
             details="The same results give the same bytes. All results must be current.",
         ),
         "article": Command(
-            "set the article, results/article.pdf, from current results",
+            "make the article, results/article.pdf",
             module=f"{_COMMANDS}.article",
             details="Installs the typesetter first (once).",
             needs=_TEXT,
