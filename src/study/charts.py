@@ -20,7 +20,7 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 # Colour and mark of each family of methods. The five that matter most have a colour and a label
 # beside their marks, others are grey, and captions name them. A method has one mark in all charts,
-# hollow where it is used as it is usually written.
+# open where it is as commonly written.
 _GREY, _DARK, _USUAL = "#9a9a9a", "#5c5c5c", True
 _SCANS = "scan 0.5 + bisection", "scan 0.1 + bisection", "scan 0.01 + bisection", "scan 0.5 to 0.01"
 STYLES: dict[str, tuple[Any, ...]] = {
@@ -338,7 +338,7 @@ def _kinds(entries: Sequence[Entry]) -> list[Entry]:
 
 
 def _dashes(entry: Entry) -> str:
-    """Return the dashes of a line without marks: none for a method used with care."""
+    """Return the dashes of a line without marks: none for a tuned method."""
     text, _, _, hollow = entry
     return ":" if text.startswith("time stepping") else "--" if hollow else "-"
 

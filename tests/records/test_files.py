@@ -20,7 +20,7 @@ def test_only_regular_files_are_opened(tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)  # a socket's name is short
         other.bind("a socket")
     for what in ("a FIFO", "a folder", "a device", "a socket"):
-        words = f"{what} stands in its place, move it away"
+        words = f"{what} is in its place: move it away"
         assert files.why_not_a_file(tmp_path / what) == words
         assert files.file_hash(tmp_path / what) is None
         with pytest.raises(files.FileError, match=f"/{what}: {words}$"):

@@ -26,7 +26,7 @@ from pipeline.records.sources import ROOT
 BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 ATLAS = "explorer_map.json"  # a file of the part that has the sweeps
-# The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING stands for no value.
+# The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING means no value.
 STEPS, MISSING = 250, 255
 
 

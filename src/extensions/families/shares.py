@@ -165,7 +165,7 @@ def shares(
 ) -> xr.Dataset:  # fmt: skip
     """Compute the regular share along E or k, the chains in it, and causes of its extrema.
 
-    A regular share has the bits of the sweep's cell with the same k, E/g^2, starts and impacts.
+    A regular share equals the sweep's cell with the same k, E/g^2, starts, impacts bit for bit.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class FileError(ValueError):
 
 
 def why_not_a_file(path: _Path) -> str | None:
-    """Say what stands in the place of a regular file; None for a regular file or nothing."""
+    """Say what is in the place of a regular file; None for a regular file or nothing."""
     try:
         kind = stat.S_IFMT(os.stat(path).st_mode)
     except ABSENT:
@@ -45,7 +45,7 @@ def why_not_a_file(path: _Path) -> str | None:
         return f"cannot be read: {error.strerror}"
     if kind == stat.S_IFREG:
         return None
-    return f"{_KINDS.get(kind, 'no file')} stands in its place, move it away"
+    return f"{_KINDS.get(kind, 'no file')} is in its place: move it away"
 
 
 def open_regular(path: _Path) -> BufferedReader:

@@ -27,11 +27,11 @@ class Ball:
     A state (x, xdot, udot) is taken just before an impact, where u = -x; x points downwards. States
     lie on the section xdot + udot >= 0, eq. (22). Energies are in m omega^2 R^2, eqs. (15)-(20).
     Methods take scalars or arrays that broadcast. They return floats for scalars, and otherwise
-    arrays of the broadcast shape. Each element has the bits of the scalar call. It is NaN where an
-    argument is not finite, and after a flight of 2^20/omega or longer (about 2 sqrt(2E + g^2/k)/g
-    is the longest one); for scalars such a flight is an error. `help(pseudorigid)` says what counts
-    as a number. Two balls are equal if they have equal k and g and their maps find impacts in the
-    same way.
+    arrays of the broadcast shape, whose elements equal scalar calls bit for bit. An element is NaN
+    where an argument is not finite, and after a flight of 2^20/omega or longer (about
+    2 sqrt(2E + g^2/k)/g is the longest one); for scalars such a flight is an error.
+    `help(pseudorigid)` lists the accepted types. Two balls are equal if they have equal k and g and
+    their maps find impacts in the same way.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.D
     ----------
     ball : Ball
     state : (x, xdot, udot) or xarray.Dataset
-        Just before an impact, scalars or arrays that broadcast. A Dataset stands for its last
+        Just before an impact, scalars or arrays that broadcast. A Dataset means its last
         state along `impact` or `point`, of each orbit in it, so that orbits can be continued.
     impacts : int
         Number of impacts after that state, at least 1.

@@ -115,7 +115,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
         Just before an impact, as for `orbit`. States may have different energies.
     impacts : int
         How many impacts to follow an undecided orbit at most, at least 100. Numbers below 2,000
-        stand for 2,000, since shorter orbits decide too little.
+        mean 2,000, since shorter orbits decide too little.
 
     Returns
     -------

@@ -63,7 +63,7 @@ class Picture:
     def line(self, x: Reals, y: Reals, label: str = "", **line_style: Any) -> None:
         """Draw a line, broken where a coordinate is not finite.
 
-        Above the frame each label stands once, beside the style that it was given first.
+        Above the frame each label is written once, beside the style that it was given first.
         """
         _text("label", label)
         x, y = coordinates(x=x, y=y)

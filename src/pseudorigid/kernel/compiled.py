@@ -1,6 +1,6 @@
 """Compilation with strict arithmetic, one thread, and machine code that is kept.
 
-Numba notices an edit of the file in which a function stands, but not of the files that it calls.
+Numba notices an edit of the file of a function, but not of the files that it calls.
 Machine code is therefore kept in a folder of its own for each state of the package.
 """
 

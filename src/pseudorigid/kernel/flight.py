@@ -145,7 +145,7 @@ def longest_stride(depth, df, ddf, q, g, amplitude):
 def series(f, df, ddf, p, q, t, amplitude):
     """Return the step to a nearby root by the inverse series of f to fourth order.
 
-    It comes with whether the series applies, and whether its remainder is below a rounding of tau.
+    Also return whether the series applies, and whether its remainder is below a rounding of tau.
     """
     inverse = 1.0 / df
     u = -f * inverse

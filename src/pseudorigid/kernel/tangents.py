@@ -3,7 +3,7 @@
 Impacts are processed in chunks: first the orbits advance, then the derivatives of all flights of
 the chunk are computed, and then the vectors are carried from impact to impact. The loops run over
 rows of flat arrays, which LLVM vectorises, and call the functions of `impact`, so that each orbit
-has the bits that it has alone. From `begin` on, lengths are in g R, so that g = 1.
+equals the same orbit alone, bit for bit. From `begin` on, lengths are in g R, so that g = 1.
 """
 
 import math

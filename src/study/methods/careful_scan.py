@@ -1,4 +1,4 @@
-"""A scan with care: steps of constant length, a look at each maximum of the gap, a fast landing.
+"""A tuned scan: steps of constant length, a look at each maximum of the gap, a fast landing.
 
 src/study/README.md describes its forms, of which the best takes whatever it can use from the march.
 It has no proof: the gap's speed may rise and fall within one step.

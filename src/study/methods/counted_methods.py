@@ -19,7 +19,7 @@ from . import Flights, Method, inflections
 from .careful_scan import BEST, CUBIC, LANDING, PARABOLA, careful_scan
 
 # Kinds of method: the certified march; the paper's, steps of constant length until the gap changes
-# sign and then bisection; steps of a physics engine; a scan with care; and inflections.
+# sign and then bisection; steps of a physics engine; a tuned scan; and inflections.
 MARCH, SCAN, ENGINE, CAREFUL, PIECES = 0, 1, 2, 3, 4
 Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or care
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
@@ -122,7 +122,7 @@ def scan_method(step: float, tolerance: float) -> CountedMethod:
 
 
 def careful_method(step: float, care: float = CUBIC) -> CountedMethod:
-    """Return a scan with care, with a step and what it takes from the march."""
+    """Return a tuned scan, with a step and what it takes from the march."""
     form = {PARABOLA: " (simple)", CUBIC: "", LANDING: " (landing)", BEST: " (best)"}[care]
     name, family = f"careful scan {step:g}{form}", f"careful scan{form}"
     return CountedMethod(name, family, (CAREFUL, step, care))

@@ -1,6 +1,6 @@
 """Methods of scipy, CyRK, heyoka and pynamicalsys, which has Lyapunov exponents.
 
-Each is there as it is usually written, and with care; src/study/README.md says what that means.
+Each is there as commonly written, and tuned, called "with care" (src/study/README.md).
 CyRK, heyoka and pynamicalsys are imported when they are first used, since their packages are
 installed for the study alone.
 """
@@ -24,14 +24,14 @@ from pseudorigid.kernel.formulas import impact_coefficients, rebound
 
 from . import Flights, Method
 
-# Time after the impact at which a flight begins as usually written: the gap is 0 at the impact, and
+# Start of a flight after the impact, as commonly written: the gap is 0 at the impact, and
 # events are changes of sign. Above x = -g a flight with xdot + udot below about 1e-10 may be
 # shorter; its end is then wrong or missed.
 AFTER = 1e-9
-_START = 1e-3  # the same with care, in units of s: a flight lasts for 2 s/(g + A) or longer
-_ATOL = 1e-3  # absolute tolerance over the relative one, in units of s with care
+_START = 1e-3  # the same, tuned, in units of s: a flight lasts for 2 s/(g + A) or longer
+_ATOL = 1e-3  # absolute tolerance over the relative one, in units of s, tuned
 _NEAR = 4.0  # first bounds of the root up to which heyoka looks first
-_CHOOSES_FIRST_STEP = ("LSODA",)  # one that suits its order, which starts at one
+_CHOOSES_FIRST_STEP = ("LSODA",)  # its own fits its order, which starts at one
 
 
 class Flight(NamedTuple):
@@ -101,7 +101,7 @@ class ExternalSolver(Method):
 
 
 def ivp_method(solver: str, rtol: float, careful: bool = True) -> ExternalSolver:
-    """Return solve_ivp, with care or with one terminal event where the gap rises through 0."""
+    """Return solve_ivp, tuned or with one terminal event where the gap rises through 0."""
 
     def integrate(a: Flight, end: float, dense: bool, calls: list[int]) -> Any:
         def fall(_: float, y: np.ndarray) -> tuple[float, ...]:
@@ -116,7 +116,7 @@ def ivp_method(solver: str, rtol: float, careful: bool = True) -> ExternalSolver
 
 
 def cyrk_method(solver: str, rtol: float) -> ExternalSolver:
-    """Return CyRK's compiled integrator with care, with the system and its events compiled."""
+    """Return CyRK's compiled integrator, tuned, with the system and its events compiled."""
 
     def integrate(a: Flight, end: float, dense: bool, calls: list[int]) -> Any:
         from CyRK import pysolve_ivp
@@ -135,9 +135,9 @@ def cyrk_method(solver: str, rtol: float) -> ExternalSolver:
 
 
 def taylor_method(tolerance: float, careful: bool = True) -> ExternalSolver:
-    """Return heyoka's Taylor integrator, with care or with a terminal event at a zero of the gap.
+    """Return heyoka's Taylor integrator, tuned or with a terminal event at a zero of the gap.
 
-    It finds all zeros in a step, so that it needs no second event. With care a first call ends
+    It finds all zeros in a step, so that it needs no second event. Tuned, a first call ends
     shortly after the bound of the first root, since a root at a tiny part of a step is beyond its
     root finder. Each order of each Taylor step counts as one evaluation of the right-hand side.
     """
@@ -227,7 +227,7 @@ def _event(value: Callable[[np.ndarray], float], terminal: bool, direction: int)
 
 
 _RISING = _event(lambda y: y[0] + y[2], True, 1)
-# With care: the gap rises, and its speed falls.
+# Tuned: the gap rises, and its speed falls.
 _WITH_TOUCHES = [_event(lambda y: y[0], True, 1), _event(lambda y: y[1], False, -1)]
 
 

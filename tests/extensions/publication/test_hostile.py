@@ -128,7 +128,7 @@ OTHERS = {"a FIFO": os.mkfifo, "a folder": os.mkdir}
 def test_a_special_file_hangs_nothing(moved, tmp_path, file, what):
     (moved.path / file).unlink()
     OTHERS[what](moved.path / file)
-    said = f"{file}: {what} stands in its place, move it away"
+    said = f"{file}: {what} is in its place: move it away"
     found = verified(moved)
     assert found.status == 1 and any(said in line for line in found.lines)
     if file != MANIFEST:
@@ -148,7 +148,7 @@ def test_a_special_file_beside_a_result_or_as_config_is_one_line(moved, file, wh
     (moved.path / file).parent.mkdir(exist_ok=True)
     OTHERS[what](moved.path / file)
     result = moved.run("fig3")
-    said = f"{file}: {what} stands in its place, move it away\n"
+    said = f"{file}: {what} is in its place: move it away\n"
     assert result.returncode == 1 and result.stdout.removeprefix("reproduce: ") == said
 
 

@@ -148,7 +148,7 @@ def line(sweep: Sweep, data: xr.Dataset) -> Figure:
     exponent = linear(0.0, np.nanmax(exponents, initial=0.05) * 1.02, 4)
     above = Panel(sheet, (110, 635, 1010, 1145), across.blank(), share)
     below = Panel(sheet, (110, 135, 1010, 545), across, exponent)
-    left, bottom, right, top = above.frame  # its title stands above the names of resonances
+    left, bottom, right, top = above.frame  # its title is above the names of resonances
     letters(sheet, (left, bottom, right, top + 10 * POINT), below.frame)
     for panel, text, bars, rise in (
         (above, "Regular share of the section", "bars: 95 %", 14),

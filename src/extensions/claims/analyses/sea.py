@@ -38,9 +38,9 @@ def sea_states(ball: Ball, energy: float, orbits: int) -> np.ndarray:
     """Return states just before an impact, (3, n), of the chaotic ones of orbits over the section.
 
     Rows are x, xdot, udot. The orbits start at `section_points`, as the map keeps area: averages
-    over the chaotic ones are those of the sea from the first impact on. `classify_orbits` tells
-    them from regular ones by their first BEGINNING impacts, and so prefers orbits that leave the
-    edges of islands soon; the states are those after these impacts. Raises ValueError if fewer
+    over the chaotic ones are those of the sea from the first impact on. `classify_orbits` decides
+    by their first BEGINNING impacts which are chaotic, and so prefers orbits that leave the edges
+    of islands soon; the states are those after these impacts. Raises ValueError if fewer
     than two orbits are chaotic.
     """
     states = as_array(ball.state_xy(*section_points(ball, energy, orbits), energy))

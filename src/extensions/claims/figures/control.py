@@ -37,7 +37,7 @@ def draw(scene: Scene, control: xr.Dataset) -> Figure:
         form, _, kept = name.partition(" ")
         if kept == "both":  # like the unchanged map
             continue
-        # The impact map stands where "shift area" would: no shift keeps area.
+        # The impact map takes the place of "shift area": no shift keeps area.
         row = last if name == "none" else [*FORMS].index(form)
         column = 0 if name == "none" else columns.index(kept)
         left, top = _LEFT + column * (_SIDE + 22), sheet.high - 105 - row * _APART

@@ -27,7 +27,7 @@ def derived(algebra: xr.Dataset, *names: str) -> Outcome:
 
 
 def numbers_of(algebra: xr.Dataset) -> dict[str, float]:
-    """Return formula -> the number that comes with it."""
+    """Return formula -> its number."""
     return dict(zip(algebra["formula"].values.tolist(), algebra["value"].values, strict=True))
 
 

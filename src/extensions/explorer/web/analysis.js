@@ -146,7 +146,7 @@ const analysis = (() => {
     return larger;
   }
 
-  /** The growth of a tangent vector, by which dynamics/regularity.py tells orbits apart. */
+  /** The growth of a tangent vector, by which dynamics/regularity.py classifies orbits. */
   function growthOf(sizes, n) {
     const quarter = Math.floor(n / 4);
     if (!quarter) return NaN;

@@ -152,7 +152,7 @@ async function orbitsCsv(page, orbits) {
   return new Blob(parts, { type: "text/csv" });
 }
 
-/** The section as it is drawn, with a margin that tells what it shows: PNG at a ratio, or SVG. */
+/** The section as it is drawn, with what it shows in the margin: PNG at a ratio, or SVG. */
 async function picture(page, ratio = null) {
   const { view } = page.state;
   const { width } = page.section;

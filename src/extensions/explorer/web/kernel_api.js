@@ -186,7 +186,7 @@ globalThis.pseudorigid = (() => {
     return state;
   }
 
-  // An orbit that goes on where it ended, with its largest Lyapunov exponent so far. `advance` is
+  // An orbit that continues where it ended, with its largest Lyapunov exponent so far. `advance` is
   // slower than `history`, because it carries four tangent vectors along.
   class Follower {
     constructor(k, g, x, xdot, udot) {

@@ -273,7 +273,7 @@ class Explorer {
       if (!orbit || orbit.refused || orbit.count >= MOST_FOLLOWED) return;
       this.mark();
       orbit.endless = true;
-      this.controls.hint("The orbit goes on until you stop it.");
+      this.controls.hint("The orbit continues until you stop it.");
     } else this.controls.welcome();
     this.changedOrbits();
     this.run();

@@ -35,7 +35,7 @@ class Orbit {
     this.pace = 12; // impacts asked for at once, which grows, so that one sees it begin
     this.facts = null;
     this.refused = ""; // why it stops before its end
-    this.endless = false; // whether it goes on until it is stopped
+    this.endless = false; // whether it continues until it is stopped
     this.hue = null; // one of the style sheet's, if it is regular
     this.history = []; // [impacts, exponent so far]
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
@@ -80,7 +80,7 @@ class Orbit {
 
   isSea() { return Boolean(this.sea || this.facts?.verdict === "chaotic"); }
 
-  /** Whether it is the one that the time view shows, which stands out. */
+  /** Whether it is the one that the time view shows, which is highlighted. */
   get chosen() { return this.page.orbits[this.page.state.chosen] === this; }
 
   colour(colours) {

@@ -117,7 +117,7 @@ def correct(system: System, place: Place, along: Place, radius: float) -> Point 
     """Return the solution in the plane through a place that is normal to `along`, or None.
 
     Newton's method may move by at most 2 `radius`. With two equations, whose gradients are nearly
-    dependent at large multipliers, it also goes on while only the defect falls.
+    dependent at large multipliers, it also continues while only the defect falls.
     """
     first, previous, previous_defect = place, math.inf, math.inf
     for _ in range(_NEWTON_STEPS):

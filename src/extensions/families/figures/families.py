@@ -43,7 +43,7 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     if not inside([up.limits] * 2, rim[1:]).all():
         up = around(np.append(x, rim[1:]), 0.04, 8)
     below = Window(sheet, (LEFT, 340, RIGHT, 1345), across, up)
-    left, bottom, right, top = above.frame  # its title stands above the names of resonances
+    left, bottom, right, top = above.frame  # its title is above the names of resonances
     letters(sheet, (left, bottom, right, top + 10 * POINT), below.frame)
     title(sheet, above.frame, "Regular share of the section", 14)
     title(sheet, below.frame, "Position $x$ of the orbit's point on a symmetry line")

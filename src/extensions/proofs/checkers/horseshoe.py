@@ -38,7 +38,7 @@ def check(
     The orbit's least period must be `period`.
 
     The orbit must be the only one within `radius` of the centres of the sets S. `crossing` is an
-    interval of x that must hold M_0: it tells this connection from others. The entropy, in nats per
+    interval of x that must hold M_0: it singles out this connection. The entropy, in nats per
     impact, must be above `entropy`. In the Finding, margins are the least over all coverings, and
     parts are saddles and chain (lists of HSet), edges (pairs of HSet), margins (of each edge) and
     loop (impacts).

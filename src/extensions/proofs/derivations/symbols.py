@@ -20,7 +20,7 @@ class Formula(NamedTuple):
 
     printed: bool | None  # whether it holds as printed; None if the paper prints none
     corrected: bool | None = None  # whether the corrected or unprinted one holds, if there is one
-    value: float = float("nan")  # a number that comes with it
+    value: float = float("nan")  # its number
 
 
 def zero(*expressions: sp.Expr) -> bool:

@@ -103,7 +103,7 @@ class Surface:
     k, g, energy : int, Fraction, Decimal or str
         Exact: Euler inertia, gravity and total energy, dimensionless.
     width : int, Fraction, Decimal or str
-        With a width the surface stands for every energy from `energy` to `energy + width`. What is
+        With a width the surface is that of every energy from `energy` to `energy + width`. What is
         proved then holds for each of them.
 
     Raises

@@ -17,7 +17,7 @@ from pseudorigid.figures.canvas.sheet import Sheet
 _HIGH = 1500  # pixels
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
 _HALF = "${}$, in half sides of the middle set"
-_ROOM = 1.3  # height of the lower panel over that of its square; the square's name stands above it
+_ROOM = 1.3  # height of the lower panel over that of its square; the square's name is above it
 
 
 @style.pinned()

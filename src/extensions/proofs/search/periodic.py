@@ -69,7 +69,7 @@ def centre_rows(points: Sequence) -> str:
 def with_largest_radius(theorem: Theorem, before: str, after: str = "") -> str:
     """Return a text with the largest radius of one digit that the checker accepts, or the smallest.
 
-    The line with the radius stands between `before` and `after`. What holds for a radius must hold
+    The line with the radius is between `before` and `after`. What holds for a radius must hold
     for smaller ones.
     """
     sizes = [f"{m}e-{e:02}" for e in range(_LARGEST, _SMALLEST + 1) for m in range(9, 0, -1)]

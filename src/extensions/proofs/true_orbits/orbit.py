@@ -94,7 +94,7 @@ def true_scene_orbits(
 ) -> xr.Dataset:
     """Compute the orbits of a scene, one after the other (CF), correctly rounded.
 
-    Each number stands for the decimal that Python prints: 0.2 is 1/5. `progress` is called with the
+    Each number means the decimal that Python prints: 0.2 is 1/5. `progress` is called with the
     share of all orbits that is done, and the current orbit in words. Raises ValueError as
     `true_orbit` does.
 

@@ -16,7 +16,7 @@ from pipeline.records.sources import ROOT
 from .. import archive
 
 SITE, LIST = "results/site", "files.txt"  # the latter lists the files of the former
-# These links are put into the explorer, which has none where it stands alone.
+# These links are put into the explorer, which has none where it is alone.
 _LINKS = '<nav><a href="index.html">Site</a> · <a href="article.html">Article</a></nav>\n</header>'
 
 

@@ -66,7 +66,7 @@ def _width(axis: YamlMapping) -> float:
 
 
 def side_by_side(drawings: Mapping[str, Pixels | None], path: Path) -> None:
-    """Save two pictures side by side, each below its name. None stands for a missing picture."""
+    """Save two pictures side by side, each below its name. None means a missing picture."""
     images = [None if part is None else Image.fromarray(part) for part in drawings.values()]
     blank = Image.new("RGB", next(filter(None, images)).size, "white")
     columns = [ImageOps.expand(image or blank, (0, _HEAD, 0, 0), "white") for image in images]

@@ -226,7 +226,7 @@ class Box:
                 yield _Label(along, at, step, _TICK + _GAP, style.number(tick), _SIZE)
             low, high = self.spans[along]
             name = list(style.NAMES.values())[along]
-            if along == 2:  # this name stands above its axis, the others beside the middle
+            if along == 2:  # this name is above its axis, the others beside the middle
                 above = 0.3 * step[0], 1.0
                 yield _Label(along, [*start[:2], high], above, 2 * _GAP, name, _NAME)
                 continue
@@ -248,7 +248,7 @@ class Box:
             self.sheet.text(across, up, label.text, ha=ha, va=va, size=label.size)
 
     def _place(self, label: _Label) -> tuple[float, float, str, str]:
-        """Return where a label stands on the sheet, and its alignments `ha` and `va`."""
+        """Return where a label is on the sheet, and its alignments `ha` and `va`."""
         right, high = label.step
         ha = "center" if abs(right) < 0.25 else ("left" if right > 0 else "right")
         va = "center_baseline" if abs(high) < 0.5 else ("bottom" if high > 0 else "top")

@@ -60,7 +60,7 @@ class Axis:
         return values[(low <= values) & (values <= high)]
 
     def blank(self) -> "Axis":
-        """Return the axis without name and labels, for a panel that stands above another."""
+        """Return the axis without name and labels, for a panel above another."""
         return replace(self, name="", labels=[""] * len(self.ticks))
 
     def texts(self) -> Sequence[str]:

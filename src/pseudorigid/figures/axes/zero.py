@@ -13,7 +13,7 @@ _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a bre
 
 
 class AxisWithZero(Axis):
-    """An axis of decades whose lower end stands for zero and for all that is less than it."""
+    """An axis of decades whose lower end means zero and all that is below that end."""
 
     def fraction(self, values: ArrayLike) -> np.ndarray:
         """Return where values lie between the limits, 0 to 1."""
@@ -41,6 +41,6 @@ class PanelWithZeros(Panel):
 
 
 def axis_with_zero(low: int, high: float, name: str, every: int = 4) -> AxisWithZero:
-    """Return an axis of decades with ticks at its lower end, which stands for zero, and above."""
+    """Return an axis of decades with ticks at its lower end, which means zero, and above."""
     ticks = [low, *range(-(-(low + 1) // every) * every, int(high) + 1, every)]
     return AxisWithZero((low, high), ticks, name, True)

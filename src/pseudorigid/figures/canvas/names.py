@@ -28,7 +28,7 @@ def name_curves(
 ) -> None:
     """Write the name of each curve where the other curves are farthest, on a white ground.
 
-    It interrupts its curve, or stands beside it if it would hide a large share of the curve.
+    It interrupts its curve, or is beside it if it would hide a large share of the curve.
     Curves are points (2, n) in pixels, so dense that a name does not fit between two of them; one
     beyond the last name has none. A name that would lie on a curve or another name, or beyond the
     frame (left, bottom, right, top), is left out. Names of curves that lie within the islands of
