@@ -1,7 +1,7 @@
 """./reproduce prove: check each theorem from its certificate."""
 
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from functools import partial
 
 from pipeline.cli import publishing
@@ -39,8 +39,8 @@ def run(args: Arguments) -> int:
             from .proved_impacts import prove_figures
 
             doing = ["reading the impacts"]
-            Heartbeat(lambda: f"reproduce: {doing[0]}").print(f"reproduce: {doing[0]}")
-            with interruptible(), one_line():
+            heartbeat = Heartbeat(lambda: f"reproduce: {doing[0]}")
+            with interruptible(), one_line(), closing(heartbeat):
                 return int(prove_figures(args.config, partial(doing.__setitem__, 0)))
         return _check(args, args.theorem or [*THEOREMS])
 
@@ -78,18 +78,14 @@ def search(names: Sequence[str]) -> None:
 
     found = dict[str, str]()
 
-    def progress() -> str:
-        running = len(found) < len(names)
-        return f"{len(found)} of {len(names)} certificates found" if running else ""
-
-    heartbeat = Heartbeat(progress)
-    for name in names:
-        heartbeat.print(f"reproduce: searching for a certificate of {name}")
-        prefix = f"no certificate of {name}: "
-        with one_line(prefix), one_line(prefix, NotProvedError):
-            text = search_certificate(name)
-            THEOREMS[name].prove(text)
-            found[name] = text
+    with closing(Heartbeat(lambda: f"{len(found)} of {len(names)} certificates found")) as heartbeat:
+        for name in names:
+            heartbeat.print(f"reproduce: searching for a certificate of {name}")
+            prefix = f"no certificate of {name}: "
+            with one_line(prefix), one_line(prefix, NotProvedError):
+                text = search_certificate(name)
+                THEOREMS[name].prove(text)
+                found[name] = text
     with ExitStack() as replaced:  # all of them, once each is written
         for name, text in found.items():
             file = ROOT / CERTIFICATES / f"{name}.toml"

@@ -14,6 +14,7 @@ from flint import arb
 from pipeline.config import MAIN, Config
 from pipeline.config.results import drawn, stage_parameters
 from pipeline.config.schema.scene import Picture
+from pipeline.jobs.heartbeat import clear_line
 from pipeline.records.artifacts import load
 from pipeline.records.provenance import Freshness
 from pipeline.records.sources import ROOT
@@ -66,6 +67,7 @@ def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
                 progress(f"{name}: {done:,} of {total:,} impacts done")
 
             result = prove_impacts(k, g, some, name=name, progress=report)
+            clear_line()
             print(result.line(), flush=True)
             status |= result.verdict != "proved"
             worst = max(worst, result.margins["worst error"])

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
+from ..jobs.heartbeat import clear_line
 from ..records.differences import DAMAGED
 from ..records.files import disk_is_full, memory_is_short, why_not_a_file
 from ..records.provenance import Freshness, log_path, record_path, with_dependencies
@@ -75,6 +76,7 @@ def _run(command: list[str], remote: bool) -> int:
         except KeyboardInterrupt:
             if not caught:
                 raise
+    clear_line()  # of a snakemake that was killed
     if caught:
         print_error("interrupted: run it again to go on")
         return INTERRUPTED

@@ -27,6 +27,7 @@ THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THRE
 # To start a process, multiprocessing asks for the status of all others. A status can be read once:
 # if two threads ask for it, it is lost.
 _lock = threading.Lock()
+PROGRESS: dict[str, str] = {}  # result -> what its job said last of its progress
 
 
 def run(
@@ -46,7 +47,9 @@ def run(
         with _lock:
             process.start()
         answer.close()
-        made = receiver.recv()
+        while isinstance(message := receiver.recv(), str):
+            PROGRESS[spec.result] = message
+        made = message
     if process.pid:
         wait([process.sentinel])
         with _lock:

@@ -1,36 +1,57 @@
-"""Lines that tell the user of a long computation what is being done."""
+"""What a long computation shows of its progress: one line that changes, or lines in a file."""
 
+import os
 import sys
 import threading
 import time
 from collections.abc import Callable
+from shutil import get_terminal_size
 
-FIRST, GAP = 2.5, 4.5  # seconds to the first line, and without another one to the next
+GAP = 30.0  # seconds without a line after which one is written, where there is no terminal
+CLEAR = "\r\033[K"  # clears the present line of a terminal
+
+
+def on_terminal() -> bool:
+    """Return whether stderr is a terminal on which a line can change."""
+    return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def clear_line() -> None:
+    """Clear the line that changes, before others are printed."""
+    if on_terminal():
+        _write(CLEAR)
 
 
 class Heartbeat(threading.Thread):
-    """Print what `describe` returns, unless it is empty, when no line was printed for GAP seconds.
+    """Show what `describe` returns until `close`: on a terminal in one line, which changes."""
 
-    It does so until the process ends, and adds the time since the user's command, which was given
-    `waited` seconds ago.
-    """
-
-    def __init__(self, describe: Callable[[], str], waited: float = 0.0) -> None:
+    def __init__(self, describe: Callable[[], str]) -> None:
         super().__init__(daemon=True)
-        self.describe, self.began = describe, time.monotonic() - waited
-        self.due = self.began + FIRST
+        self.describe, self.closed = describe, threading.Event()
+        self.due = time.monotonic() + GAP
         self.start()
 
     def run(self) -> None:
-        """Look a few times a second whether a line is due."""
-        while True:
-            now = time.monotonic()
-            if now >= self.due and (words := self.describe()):
-                self.print(f"{words}; {now - self.began:.0f} s so far")
-            time.sleep(0.2)
+        """Look a few times a second what there is to show."""
+        while not self.closed.wait(0.2):
+            if on_terminal():
+                _write(CLEAR + self.describe()[: get_terminal_size().columns - 1])
+            elif time.monotonic() >= self.due:
+                self.print(self.describe())
 
     def print(self, line: str) -> None:
-        """Print a line, after which the next one is due in GAP seconds."""
-        sys.stderr.write(f"{line}\n")  # at once: another thread may print a line
-        sys.stderr.flush()
+        """Print a line that stays."""
+        clear_line()
+        _write(f"{line}\n")
         self.due = time.monotonic() + GAP
+
+    def close(self) -> None:
+        """Show nothing any more."""
+        self.closed.set()
+        self.join()
+        clear_line()
+
+
+def _write(text: str) -> None:
+    sys.stderr.write(text)  # at once: another thread may print a line
+    sys.stderr.flush()

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -46,10 +47,10 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
 
     def progress() -> str:
         left = len(blocks) - sum(each.done() for each in futures)
-        return f"{card.name}: {left} of {len(blocks)} blocks left" if left else ""
+        return f"{card.name}: {left} of {len(blocks)} blocks left"
 
-    Heartbeat(progress)
-    with ThreadPoolExecutor(threads() if cores == "all" else int(cores)) as pool:
+    jobs = threads() if cores == "all" else int(cores)
+    with closing(Heartbeat(progress)), ThreadPoolExecutor(jobs) as pool:
         try:
             for batch, (starts, impacts) in _batches(blocks, rooms):
                 cells = np.array([cell for spec in batch for cell in spec.config["cells"]])
