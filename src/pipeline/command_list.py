@@ -19,11 +19,16 @@ def _name(name: str, text: str, metavar: str | None = None) -> tuple[str, dict[s
 REQUIRED = ("variant", "a", "b")
 _FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
 COMMANDS = {
-    "list": Command("figures, charts and datasets that can be made, and their states"),
+    "list": Command(
+        "figures, charts and datasets that can be made, and their states",
+        names("name", "figures, sets of figures or variants to list; without a name, all"),
+        group="figures",
+    ),
     "variant": SnakemakeCommand(
         "make the figures of a variant, in results/NAME/figures/",
         _name("variant", "a variant of config.yaml", "NAME"),
         names("figure", _FIGURES),
+        group="figures",
     ),
     "verify": Command(
         "check whether all is as committed, and if not, show what differs",
@@ -32,21 +37,26 @@ COMMANDS = {
         details="The layers are config, source, environment, data, drawing and file. The exit "
         "status is 1 for other bytes, for results that this tree did not make, and for figures of "
         "the paper that were not computed here; other differences are notes.",
+        group="checks",
     ),
     "accept": Command(
         "make the present figures the committed ones",
         details="Includes other published pictures that were made, and prints what changed.",
+        group="publishing",
     ),
     "test": Command(
         "run the test suite (arguments go to pytest)",
         packages="test",
         details="Installs the packages of the tests first (once).",
+        group="checks",
     ),
     "help": Command(
-        "show this list, or the arguments of a COMMAND", _name("word", "a command", "COMMAND")
+        "show this list, or the arguments of a COMMAND",
+        _name("word", "a command", "COMMAND"),
+        group="figures",
     ),
 }
-_MAKING = ("list", "variant")  # listed first, before the commands of parts
+GROUPS = ("figures", "checks", "parts", "publishing")  # of commands, as they are listed
 DEFAULT_COMMAND = SnakemakeCommand(
     "Draw and publish the figures of config.yaml, unless they are current.",
     names("figure", _FIGURES + "; also files, such as results/paper/orbits_fig2.nc"),
@@ -56,10 +66,9 @@ DEFAULT_COMMAND = SnakemakeCommand(
 
 @cache
 def all_commands() -> dict[str, Command]:
-    """Return the commands of the engine and of parts."""
-    more = {k: v for part in parts().values() for k, v in part.commands.items()}
-    first = {name: COMMANDS[name] for name in _MAKING}
-    return first | more | {k: v for k, v in COMMANDS.items() if k not in _MAKING}
+    """Return the commands of the engine and of parts, by their groups."""
+    found = COMMANDS | {k: v for part in parts().values() for k, v in part.commands.items()}
+    return dict(sorted(found.items(), key=lambda item: GROUPS.index(item[1].group)))
 
 
 def options_of(command: str | None) -> list[tuple[str, dict[str, Any], str]]:

@@ -88,7 +88,8 @@ class Command:
 
     Each argument is a name with the keyword arguments of argparse's add_argument. A module in
     pipeline.cli.commands has a name without a dot. `scenes` names the set of scenes that it makes,
-    `packages` a list in requirements/ that it installs first, and `needs` other parts.
+    `packages` a list in requirements/ that it installs first, and `needs` other parts. The list of
+    commands shows it in its `group`, one of command_list.GROUPS.
     """
 
     def __init__(
@@ -101,8 +102,10 @@ class Command:
         scenes: str = "",
         packages: str = "",
         needs: tuple[str, ...] = (),
+        group: str = "parts",
     ) -> None:
         self.line, self.arguments, self.module, self.details = line, arguments, module, details
+        self.group = group
         self.runs_snakemake, self.scenes = runs_snakemake, scenes
         self.packages, self.needs = packages, needs
 

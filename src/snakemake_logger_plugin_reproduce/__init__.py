@@ -19,8 +19,8 @@ from pipeline.cli.running import RUN
 from pipeline.declaration import parts
 from pipeline.jobs.forks import PROGRESS
 from pipeline.jobs.heartbeat import Heartbeat, on_terminal
-from pipeline.records.files import disk_is_full, memory_is_short
 from pipeline.records import provenance
+from pipeline.records.files import disk_is_full, memory_is_short
 from pipeline.records.provenance import failure, read_record, record_path
 from pipeline.records.sources import ROOT
 
@@ -101,6 +101,7 @@ class LogHandler(LogHandlerBase):
             slower = sum(finished.values()) / expected  # than in the earlier runs
             words += f", {_duration((total - done) * slower / max(len(running), 1))} left"
         return f"{words}: {', '.join(running)}"
+
     def _seconds(self, result: str) -> float:
         """Return the seconds that a result is expected to take; without any, all count the same."""
         return self.expected.get(result, 1.0)

@@ -25,13 +25,26 @@ def test_help_has_a_line_for_each_command(capsys):
             assert re.search(rf"^  {name} +{re.escape(command.line)}$", out, re.MULTILINE)
 
 
+def test_help_groups_the_commands(capsys):
+    _, out, _ = answer(capsys, "help")
+    groups = {block.partition(":\n")[0]: block for block in out.split("\n\n")}
+    for name, command in all_commands().items():
+        assert f"\n  {name} " in groups[command.group]
+
+
+def test_list_shows_what_is_named(capsys):
+    _, out, _ = answer(capsys, "list", "fig3")
+    assert re.findall(r"^(\w+) +(?:png|svg|nc)", out, re.MULTILINE)[0] == "fig3"
+    assert "orbits_fig3" not in out  # fig3 has the data of its periodic orbits alone
+    assert not re.search("fig[24-8]|spread", out)
+
+
 def test_help_needs_no_config(capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(arguments, "ROOT", tmp_path)
     status, _, err = answer(capsys, "fig3", "--help")
     assert (status, err) == (2, "reproduce: no command or figure fig3\n")
 
 
-FIGURES = "fig2, fig3, fig4, fig5, fig6, fig7 or fig8"
 MISTAKES = {
     "verfy": ": no command or figure verfy: did you mean verify?",
     "fig33": ": no command or figure fig33: did you mean fig3?",
@@ -42,11 +55,12 @@ MISTAKES = {
     "fig2 fig3 list": ": list is a command, no figure: run ./reproduce list",
     "help verfy": ": no command verfy: did you mean verify?",
     "help verify fig3": " help: no argument fig3: usage: ./reproduce help [-h] [COMMAND]",
-    "list fig3": " list: no argument fig3: usage: ./reproduce list [-h]",
+    "list fgi3": ": no figure, set or variant fgi3: did you mean fig3?",
+    "zzz": ": no command or figure zzz: ./reproduce list shows the figures",
     "variant": ": variant needs a name:",
     "variant paper": ": no variant paper:",
     "variant lower-energi": ": no variant lower-energi: did you mean lower-energy?",
-    "variant lower-energy fig99": f": no figure fig99: did you mean {FIGURES}?",
+    "variant lower-energy fig99": ": no figure fig99: did you mean fig2, fig3 or fig4?",
     "verify --strikt": " verify: no argument --strikt: did you mean --strict?",
     "fig3 --strict": ": no argument --strict: verify has it",
     "variant --coers 1": " variant: no argument --coers: did you mean --cores?",

@@ -78,7 +78,9 @@ def search(names: Sequence[str]) -> None:
 
     found = dict[str, str]()
 
-    with closing(Heartbeat(lambda: f"{len(found)} of {len(names)} certificates found")) as heartbeat:
+    with closing(
+        Heartbeat(lambda: f"{len(found)} of {len(names)} certificates found")
+    ) as heartbeat:
         for name in names:
             heartbeat.print(f"reproduce: searching for a certificate of {name}")
             prefix = f"no certificate of {name}: "

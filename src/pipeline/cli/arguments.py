@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Iterable
 from functools import cached_property
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -153,9 +154,15 @@ def _parser(name: str | None) -> _Parser:
         parser = _Parser("./reproduce", formatter_class=unchanged, allow_abbrev=False)
         parser.description = command.line
         width = max(map(len, commands))
-        lines = [f"  {word:{width}}  {commands[word].line}" for word in commands]
+        lines = list[str]()
+        for group, words in groupby(commands, lambda word: commands[word].group):
+            lines += [
+                f"{group}:",
+                *(f"  {word:{width}}  {commands[word].line}" for word in words),
+                "",
+            ]
         details = "./reproduce COMMAND --help shows a command's arguments."
-        parser.epilog = "\n".join(["commands:", *lines, "", details, _OFFLINE, _SNAKEMAKE])
+        parser.epilog = "\n".join([*lines, details, _OFFLINE, _SNAKEMAKE])
     for key, how in _arguments(name):
         parser.add_argument(key, **how)
     if command.runs_snakemake:

@@ -47,10 +47,15 @@ def print_files(
     print_lines(line for note in (*explained, *notes, *to_do) for line in wrapped(note))
 
 
-def wrapped(text: str) -> list[str]:
-    """Return lines of the terminal's width; without a terminal the text stays one line."""
-    width = shutil.get_terminal_size((10**6, 24)).columns
-    return textwrap.wrap(text, width, subsequent_indent="  ", break_long_words=False)
+def wrapped(text: str, width: int = 10**6) -> list[str]:
+    """Return lines of the terminal's width, or of `width`; they break at spaces alone.
+
+    By default, the text stays one line without a terminal.
+    """
+    width = min(width, shutil.get_terminal_size((width, 24)).columns)
+    return textwrap.wrap(
+        text, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def print_lines(lines: Iterable[str]) -> None:

@@ -72,7 +72,7 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     if name in all_commands():
         raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
     scenes = [scene for group in PUBLISHED for scene in args.config.variants[group]]
-    meant = hint(name, [*scenes, *all_commands()]) or f": the figures are {', '.join(scenes)}"
+    meant = hint(name, [*scenes, *all_commands()]) or ": ./reproduce list shows the figures"
     raise CommandLineError(f"no command or figure {name}{meant}")
 
 

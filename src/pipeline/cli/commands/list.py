@@ -1,6 +1,7 @@
-"""./reproduce list: show what can be made and the state of each file."""
+"""./reproduce list [NAME ...]: show what can be made and the state of each file."""
 
 from collections.abc import Iterator
+from pathlib import PurePath
 
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
@@ -8,31 +9,45 @@ from ...config.schema.sets import SETS
 from ...records.differences import differing_layers
 from ...records.provenance import CURRENT, MISSING, Freshness
 from ...records.sources import ROOT
-from ..arguments import Arguments
+from ..arguments import Arguments, hint
+from ..errors import CommandLineError
 from ..table import FileRow, print_files, print_lines, wrapped
 
 
 def run(args: Arguments) -> int:
-    """Print every figure, chart and dataset below the command that makes it."""
-    config = args.config
-    own = list[str]()  # lines about the variants of the paper
+    """Print every figure, chart and dataset, or the named ones, below the command that makes it."""
+    config, wanted = args.config, args.name
+    scenes = {scene for group in config.variants.values() for scene in group}
+    for name in wanted:
+        if name not in (known := [*config.variants, *sorted(scenes)]):
+            raise CommandLineError(f"no figure, set or variant {name}{hint(name, known)}")
+
+    def is_wanted(group: str, scene: str) -> bool:
+        return not wanted or group in wanted or scene in wanted
+
     freshness = Freshness(ROOT, config.build_specs())
-    for published_set in committed_sets(config):
-        print_files(f"{published_set.command}: ", _published(freshness, published_set))
-    # What is not published: charts of times of this machine, and the data of scenes without one.
-    for group, scenes in SETS.items():
-        blocks = config.variants[group].items()
-        charts = [scene for scene, block in blocks if is_measured(block) and block.formats]
+    for each in committed_sets(config):
+        rows = _published(freshness, each)
+        rows = (row for row in rows if is_wanted(each.group, PurePath(row[0]).stem))
+        print_files(f"{each.command}: ", rows)
+    # What is not published: charts of times of this machine, and the data of scenes without one, or
+    # of named scenes.
+    for group, declared in SETS.items():
+        blocks = {s: b for s, b in config.variants[group].items() if is_wanted(group, s)}
+        charts = [scene for scene, block in blocks.items() if is_measured(block) and block.formats]
         measured = [drawn(scene, "png", group) for scene in charts]
-        for kind, results in (("measured", measured), ("data", config.data_only(group))):
-            rows = [(path, "", (freshness.state(path),)) for path in results]
-            print_files(f"{scenes.command}, {kind}: ", rows)
+        with_data = [s for s, block in blocks.items() if not block.formats or s in wanted]
+        data = [path for scene in with_data for path in config.data_of(group, scene).values()]
+        for kind, results in (("measured", measured), ("data", data)):
+            rows = ((path, "", (freshness.state(path),)) for path in results)
+            print_files(f"{declared.command}, {kind}: ", rows)
+    own = list[str]()  # lines about the variants of the paper
     for name in config.own_variants:
         scenes_by = dict[str, dict[str, None]]()  # state -> the variant's scenes that have it
-        for scene, drawing in config.figures(name).values():
-            scenes_by.setdefault(freshness.state(drawing), {})[scene] = None
-        for scene, reason in config.left_out[name].items():
-            scenes_by.setdefault(reason, {})[scene] = None
+        states = {s: freshness.state(path) for s, path in config.figures(name).values()}
+        for scene, state in (states | config.left_out[name]).items():
+            if is_wanted(name, scene):
+                scenes_by.setdefault(state, {})[scene] = None
         own += [f"{name}: {' '.join(names)}: {state}" for state, names in scenes_by.items()]
     if own:
         print("\n./reproduce variant NAME")

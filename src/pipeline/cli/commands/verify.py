@@ -8,11 +8,11 @@ from ..table import WHAT_TO_DO, print_lines, wrapped
 
 def run(args: Arguments) -> int:
     """Compare the tree with its committed state; 0 if all is well."""
-    findings = verify(ROOT, args.config, args.committed)
+    findings, lines = verify(ROOT, args.config, args.committed), list[str]()
     for each in findings:
-        print_lines([f"{each.published_set.folder}/", *each.report(), ""])
+        lines += [f"{each.published_set.folder}/", *each.report(), ""]
     failed = [each for each in findings if each.fails(args.strict)]
-    print_lines([summary(findings), *(line for each in failed for line in each.why(args.strict))])
-    if any(each.differences for each in failed):
-        print_lines(wrapped(WHAT_TO_DO))
+    lines += [summary(findings), *(line for each in failed for line in each.why(args.strict))]
+    lines += [WHAT_TO_DO] if any(each.differences for each in failed) else []
+    print_lines(part for line in lines for part in wrapped(line, 80) or [""])
     return int(bool(failed))

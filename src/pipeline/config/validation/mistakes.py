@@ -133,8 +133,8 @@ def refusal(place: Place, value: object, allowed: str, key: str | None = None) -
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Say that there is no such thing, what may be meant, and what there is."""
     names = list(known)
-    inventory = f"config.yaml has {', '.join(names) or 'none'}"
-    return f"no {kind} {name}: " + f"{suggestion(name, names)} {inventory}".strip()
+    hint = suggestion(name, names) or f"config.yaml has {', '.join(names) or 'none'}"
+    return f"no {kind} {name}: {hint}"
 
 
 def dotted(place: Place) -> str:
