@@ -33,6 +33,11 @@ PERIODIC, ORBITS = "results/paper/periodic_fig3.nc", "results/paper/orbits_fig2.
 MOTION = "results/paper/motion_fig4.nc"  # has the longest arrays
 
 
+def unwrapped(text):
+    """Return the lines of a text with those that go on, which begin with two spaces."""
+    return re.sub(r"\n  (?=\S)", " ", text).splitlines()
+
+
 @pytest.fixture
 def command(moved, monkeypatch, capsys):
     """Return a function that runs a command of `moved` in this process: its status and lines."""
@@ -42,7 +47,7 @@ def command(moved, monkeypatch, capsys):
         args.config = config.load(moved.config)
         module = import_module(f"pipeline.cli.commands.{words[0]}")
         monkeypatch.setattr(module, "ROOT", moved.path)
-        return module.run(args), capsys.readouterr().out.splitlines()
+        return module.run(args), unwrapped(capsys.readouterr().out)
 
     return run
 
@@ -90,8 +95,8 @@ def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
     )
     assert end[1].startswith("exit status 1: paper_figures/mine.png: no scene makes it")
     assert end[2].startswith("exit status 1: results/paper/lyapunov_fig7.nc")
-    assert " ".join(line.strip() for line in end[3:]) == WHAT_TO_DO
-    assert WHAT_TO_DO in " ".join(line.strip() for line in command("list")[1])
+    assert end[3:] == [WHAT_TO_DO]
+    assert WHAT_TO_DO in command("list")[1]
 
 
 SETS_WITH_TEXTS = [name for name, each in SETS.items() if each.texts]

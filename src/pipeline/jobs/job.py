@@ -69,7 +69,7 @@ def make_and_answer(answer: "Connection[str | bool, bool]", spec: BuildSpec, *gi
 
     Before that, texts are sent that say how far it is.
     """
-    sys.stderr = _Stderr(answer, spec.scene)  # type: ignore[assignment]
+    sys.stderr = _Stderr(answer, spec.scene)
     try:
         make(spec, *given)
     except SystemExit:
