@@ -25,6 +25,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 SRC = Path(__file__).resolve().parents[1]
+# A variable of the environment: the set of scenes that a process needs. If it is the main set, the
+# process reads config.yaml alone, and of a config the main set and its variants.
 ONLY_SET = "PSEUDORIGID_SET"
 RENEW = ".venv/bin/python -m pipeline.renew"  # writes every generated file
 

@@ -1,19 +1,22 @@
 """Any file named config.yaml is a correct config or is refused in lines that name it."""
 
 import json
+import os
 import re
+import sys
 
 import pytest
 import yaml
 from documents import complaints, good
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from project import SHIPPED, shipped
+from project import SHIPPED, run, shipped
 from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
 from pipeline.config.schema.sets import MAIN, SETS
 from pipeline.config.validation import document
+from pipeline.declaration import ONLY_SET
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -205,3 +208,24 @@ def test_a_mistake_in_a_block_of_a_part_says_what_it_concerns(tmp_path, monkeypa
         with pytest.raises(config.ConfigError, match=r"scenes\.yaml: line 2: \w+\.mine\.picture"):
             config.load(SHIPPED)
         monkeypatch.undo()
+
+
+def test_a_run_of_the_paper_reads_its_set_alone_with_the_same_specifications(tmp_path):
+    program = (
+        "import json, sys; from pipeline.config import MAIN, load; made = load(sys.argv[1])\n"
+        "parts = [name for name in sys.modules if name.endswith('.kinds')]\n"
+        "print(json.dumps([made.build_specs([MAIN]), [*made.variants], parts]))"
+    )
+
+    def loaded(document, **environment):
+        (file := tmp_path / "config.yaml").write_text(json.dumps(document))
+        return run(sys.executable, "-P", "-c", program, file, env=os.environ | environment)
+
+    given = yaml.safe_load(SHIPPED.read_text())
+    whole, alone = (json.loads(loaded(given, **env).stdout) for env in ({}, {ONLY_SET: MAIN}))
+    assert alone[0] == whole[0] and {*alone[1]} < {*whole[1]}
+    assert {"pipeline.config.schema.kinds", "paper.kinds"} == {*alone[2]} < {*whole[2]}
+    others = [each.key for each in SETS.values() if each.key and each.key != "scenes"]
+    wrong = given | {key: {"x": {"picture": "y"}} for key in others}  # what a user wrote
+    refused = loaded(wrong, **{ONLY_SET: MAIN}).stderr
+    assert all(f"{key}.x.picture: 'y' is not allowed" in refused for key in others)

@@ -6,6 +6,7 @@ from pathlib import PurePath
 
 from ...command_list import DEFAULT_COMMAND, all_commands
 from ...config import MAIN, PUBLISHED
+from ...declaration import ONLY_SET
 from ...records.sources import ROOT
 from .. import publishing, running
 from ..arguments import Arguments, hint
@@ -15,7 +16,12 @@ from ..lock import locked
 
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
-    config, command = args.config, all_commands().get(args.word or "", DEFAULT_COMMAND)
+    command = all_commands().get(args.word or "", DEFAULT_COMMAND)
+    if not (args.word or args.options):
+        os.environ[ONLY_SET] = MAIN
+        if not {*args.figure} <= {"all", *args.config.scenes}:
+            del os.environ[ONLY_SET], args.config
+    config = args.config
     group, status = command.scenes, 0
     data: list[str] = []
     if group:
@@ -34,7 +40,11 @@ def run(args: Arguments) -> int:
 
 def _named(args: Arguments) -> dict[str, publishing.Drawings]:
     """Select every figure of the paper, or the named figures and files, by sets of scenes."""
-    published = {group: publishing.drawings_of(args.config, group) for group in PUBLISHED}
+    published = {
+        group: publishing.drawings_of(args.config, group)
+        for group in PUBLISHED
+        if group in args.config.variants
+    }
     targets: dict[str, publishing.Drawings] = {}
     other_results: list[str] = []
     for name in args.figure or ["all"]:

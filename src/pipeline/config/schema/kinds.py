@@ -2,26 +2,49 @@
 
 import importlib
 import re
+from collections.abc import Iterator, Mapping
 
 from ...declaration import files
 from .scene import Picture
 
 
-def _declared() -> dict[str, type[Picture]]:
-    """Return the classes that are declared, by the kinds' names, in the order of declaration."""
-    kinds = {}
-    for package in files("kinds.py"):
-        module = importlib.import_module(f"{package}.kinds")
-        template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
-        for name, value in vars(module).items():
-            ours = isinstance(value, type) and value.__module__ == module.__name__
-            if ours and issubclass(value, Picture):
-                kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
-                value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
-                figures = value.drawn_by.rsplit(".", 2)[0]
-                value.reported_by = f"{figures}.reports.{kind}"
-                kinds[kind] = value
+class _Kinds(Mapping[str, type[Picture]]):
+    """The classes by the kinds' names, in the order of declaration.
+
+    A part's kinds are loaded once a name is asked for that no earlier part has.
+    """
+
+    def __init__(self) -> None:
+        self.loaded: dict[str, type[Picture]] = {}
+        self.packages = [*files("kinds.py")]  # that are not loaded
+
+    def __getitem__(self, name: str) -> type[Picture]:
+        while name not in self.loaded and self.packages:
+            self.loaded |= _declared(self.packages.pop(0))
+        return self.loaded[name]
+
+    def __iter__(self) -> Iterator[str]:
+        while self.packages:
+            self.loaded |= _declared(self.packages.pop(0))
+        return iter(self.loaded)
+
+    def __len__(self) -> int:
+        return len([*self])
+
+
+def _declared(package: str) -> dict[str, type[Picture]]:
+    """Return the classes that a part declares, by the kinds' names."""
+    kinds, module = {}, importlib.import_module(f"{package}.kinds")
+    template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
+    for name, value in vars(module).items():
+        ours = isinstance(value, type) and value.__module__ == module.__name__
+        if ours and issubclass(value, Picture):
+            kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
+            value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
+            figures = value.drawn_by.rsplit(".", 2)[0]
+            value.reported_by = f"{figures}.reports.{kind}"
+            kinds[kind] = value
     return kinds
 
 
-KINDS = _declared()
+KINDS = _Kinds()

@@ -16,7 +16,7 @@ from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.scene import Picture
-from ..schema.sets import MAIN, SETS
+from ..schema.sets import MAIN, SETS, needs_main_alone
 from ..schema.variant import Variant
 from . import scenes
 from .mistakes import ConfigError, Mistake, refusal, validate
@@ -51,7 +51,8 @@ def load(path: str | Path) -> Config:
     """Return the checked config of a file with the shipped blocks; raise ConfigError."""
     path = Path(path)
     try:
-        return check(with_shipped(_parse(path)))
+        document = _parse(path)
+        return check(document if needs_main_alone() else with_shipped(document))
     except ConfigError as error:
         raise ConfigError(*(_located(path, mistake) for mistake in error.mistakes)) from None
     except RecursionError:
@@ -110,9 +111,12 @@ def check(given: object) -> Config:
         ball = None
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()
-    for name in SETS:
-        variants[name], more = _scenes_of_set(name, mappings, own_ball)
-        mistakes += more
+    for name, declared in SETS.items():
+        needed = name == MAIN or not needs_main_alone()
+        if needed or declared.key in mappings:
+            found, more = _scenes_of_set(name, mappings, own_ball)
+            mistakes += more
+            variants |= {name: found} if needed else {}
     if document and own_ball and not mistakes:
         for name, variant in document.variants.items():
             derived = scenes.derive_variant(mappings["scenes"], own_ball, name, variant)

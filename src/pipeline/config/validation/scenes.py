@@ -36,10 +36,10 @@ def check_scene(
     """
     if not isinstance(given, dict):
         return None, [refusal(place, given, "a mapping that begins with picture")]
-    words, picture = f"one of {', '.join(KINDS)}", (*place, "picture")
-    if "picture" not in given:
-        return None, [Mistake(picture, f"missing: expected {words}")]
-    if not isinstance(given["picture"], str) or given["picture"] not in KINDS:
+    if not isinstance(given.get("picture"), str) or given["picture"] not in KINDS:
+        words, picture = f"one of {', '.join(KINDS)}", (*place, "picture")
+        if "picture" not in given:
+            return None, [Mistake(picture, f"missing: expected {words}")]
         return None, [refusal(picture, given["picture"], words)]
     scene, mistakes = _read_scene(_with_ball(given, ball), place, others)
     errors = scene.cross_field_errors() if scene else ()
