@@ -2,7 +2,7 @@
 
     .venv/bin/python -m pipeline.renew
 
-The fields of all parts' scenes, and README's figures, are sections between two comments.
+The fields of all parts' scenes are a section between two comments.
 """
 
 import sys
@@ -10,7 +10,6 @@ from pathlib import Path
 
 import jinja2
 
-from .checks import figures_page
 from .checks.published_sets import ChecksumError
 from .config import MAIN, ConfigError, reference
 from .config.schema.kinds import KINDS
@@ -18,27 +17,16 @@ from .declaration import RENEW, SourceError, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
-FIGURES = f"<!-- The figures, written by {RENEW}. -->\n"
 BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. -->\n"
 
 
 def generated() -> dict[str, str]:
     """Map each generated file, by its path from the root, to its text."""
-    texts = {"config.schema.json": reference.json_schema(), "docs/figures.md": figures_page.page()}
-    texts[f"workflow/rules/{MAIN}.smk"] = rules()
+    fields = "".join(map(reference.fields, parts()))
+    texts = {"config.schema.json": reference.json_schema(), f"workflow/rules/{MAIN}.smk": rules()}
+    texts["docs/config.md"] = with_section(read_text(ROOT / "docs/config.md"), BEGIN, fields, END)
     for declared in parts().values():
         texts |= imported(declared.committed)() if declared.committed else {}
-    fields = "".join(map(reference.fields, parts()))
-    for name, begin, section in (
-        ("docs/config.md", BEGIN, fields),
-        ("README.md", FIGURES, figures_page.main_figures()),
-    ):
-        if (ROOT / name).exists():
-            texts[name] = with_section(read_text(ROOT / name), begin, section, END)
-    if (ROOT / "codecheck.yml").exists():
-        text = read_text(ROOT / "codecheck.yml")
-        manifest = figures_page.codecheck_manifest()
-        texts["codecheck.yml"] = with_section(text, "\nmanifest:\n", manifest, "summary:")
     return texts
 
 

@@ -1,6 +1,5 @@
 """Captions say what was computed and drawn, of any scene, and name a scene after its set."""
 
-import re
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,6 @@ from project import ROOT, SHIPPED
 from pipeline import config
 from pipeline.checks import manifest
 from pipeline.checks.captions import CAPTIONS, caption_of
-from pipeline.checks.figures_page import _captions, page
 from pipeline.checks.quantities import facts
 from pipeline.config import PUBLISHED
 from pipeline.config.schema.kinds import KINDS
@@ -161,12 +159,10 @@ def test_every_kind_that_is_drawn_has_a_caption_with_and_without_data():
 
 
 def test_no_caption_has_a_condition_or_points_to_another_picture():
-    """Of all committed pictures; of all kinds' examples and variants' scenes without data."""
-    shown = [caption for _, of in _captions() for caption in of.values()]
-    names = [caption.name for caption in shown]
-    for caption in shown:
-        assert_decided(caption, names)
-    for scenes in config.load(SHIPPED).variants.values():
+    """Of all kinds' examples, and of all scenes without data."""
+    variants = config.load(SHIPPED).variants
+    names = [name for group in PUBLISHED for name in variants[group]]
+    for scenes in variants.values():
         for block in scenes.values():
             assert_decided(caption_of("one", block.as_mapping()), names)
     for kind in CAPTIONS:
@@ -193,21 +189,3 @@ def test_a_caption_says_what_the_axes_hide():
     block = checked("portrait", **PORTRAIT | {"starts": [0.5], "impacts": 9})
     known = facts(block, computed(block)) | {"hidden": ["axes.x hides 3 %: widen it"]}
     assert caption_of("one", block, known).shows.endswith(". Note: axes.x hides 3 %: widen it.")
-
-
-def test_no_caption_or_name_is_on_the_page_twice():
-    parts = page().split("\n### ")[1:]
-    names = [part.partition(":")[0] for part in parts]
-    texts = [part.partition(")\n\n")[2].partition("\n## ")[0] for part in parts]
-    assert len(set(names)) == len(set(texts)) == len(parts)
-    for families in [part for part in parts if part.startswith("families/energy: ")]:
-        assert "positions" in families and "missed impacts" not in families
-
-
-def test_the_page_has_whole_captions():
-    text = " ".join(page().split())
-    for published, captions in _captions():
-        for scene, caption in captions.items():
-            file = f"{published.folder}/{scene}.png"
-            (own,) = re.findall(rf"/{re.escape(file)}\) (.*?)(?= ###?#? |$)", text)
-            assert own == " ".join(filter(None, caption[2:]))

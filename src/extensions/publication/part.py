@@ -58,5 +58,6 @@ PART = Part(
             f"{_COMMANDS}.against",
         )
     },
+    committed="extensions.publication.figures_page.committed",
     folders=("site", "archive", "compare"),
 )

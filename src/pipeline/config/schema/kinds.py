@@ -29,7 +29,7 @@ class _Kinds(Mapping[str, type[Picture]]):
         return iter(self.loaded)
 
     def __len__(self) -> int:
-        return len([*self])
+        return sum(1 for _ in self)
 
 
 def _declared(package: str) -> dict[str, type[Picture]]:

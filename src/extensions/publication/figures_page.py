@@ -11,12 +11,29 @@ from typing import Any
 import jinja2
 import yaml
 
-from ..config import MAIN, load
-from ..config.schema.sets import SETS
-from ..records.sources import ROOT
-from . import manifest, published_sets
-from .captions import Caption, caption_of
-from .published_sets import MANIFEST, PublishedSet
+from pipeline.checks import manifest, published_sets
+from pipeline.checks.captions import Caption, caption_of
+from pipeline.checks.published_sets import MANIFEST, PublishedSet
+from pipeline.config import MAIN, load
+from pipeline.config.schema.sets import SETS
+from pipeline.declaration import RENEW
+from pipeline.records.files import read_text
+from pipeline.records.sources import ROOT
+from pipeline.renew import END, with_section
+
+FIGURES = f"<!-- The figures, written by {RENEW}. -->\n"
+
+
+def committed() -> dict[str, str]:
+    """Map the committed files about pictures, by their paths from the root, to their texts."""
+    texts = {"docs/figures.md": page()}
+    for name, begin, section, end in (
+        ("README.md", FIGURES, main_figures(), END),
+        ("codecheck.yml", "\nmanifest:\n", codecheck_manifest(), "summary:"),
+    ):
+        if (ROOT / name).exists():
+            texts[name] = with_section(read_text(ROOT / name), begin, section, end)
+    return texts
 
 
 def page() -> str:
