@@ -22,7 +22,7 @@ from pipeline.jobs.forks import forking, run
 from pipeline.records.provenance import BuildSpec
 
 def spec(i, program):
-    return BuildSpec(f"results/paper/{i}.nc", "fig", "step", {}, program, None, [], [])
+    return BuildSpec(f"results/paper/{i}.nc", "fig", "step", {}, program, "", {}, [])
 
 if __name__ == "__main__":
     count, *programs = sys.argv[1:]
