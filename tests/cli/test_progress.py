@@ -71,9 +71,9 @@ def test_the_line_has_the_share_of_earlier_seconds_and_the_time_left(clock, caps
     for job, result in enumerate(seconds):
         handler.emit(event(LogEvent.JOB_INFO, jobid=job, output=[result]))
         handler.emit(event(LogEvent.JOB_STARTED, jobs=[job]))
-    clock[0] = 5.0
-    assert handler.describe() == "0 of 2, 25%: fig2 a (5 s), fig2 b (5 s)"
-    clock[0] = 20.0  # a took twice as long as before
+    clock[0] = 12.0  # a takes longer than before
+    assert handler.describe() == "0 of 2, 55%: fig2 a (12 s), fig2 b (12 s)"
+    clock[0] = 20.0  # twice as long
     handler.emit(event(LogEvent.JOB_FINISHED, job_id=0))
     handler.emit(event(LogEvent.PROGRESS, done=1, total=2))
     plugin.PROGRESS["results/paper/b.nc"] = "60%, halving"
