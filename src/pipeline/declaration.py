@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 SRC = Path(__file__).resolve().parents[1]
 # A variable of the environment: the set of scenes that a process needs. If it is the main set, the
-# process reads config.yaml alone, and of a config the main set and its variants.
+# process reads config.yaml alone, and checks all of it.
 ONLY_SET = "PSEUDORIGID_SET"
 RENEW = ".venv/bin/python -m pipeline.renew"  # writes every generated file
 

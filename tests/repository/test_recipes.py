@@ -93,8 +93,8 @@ EDITS = {
     "config.yaml": lambda text: text.replace("\nscenes:\n", f"\nscenes:{SCENE}", 1),
 }
 # Default tests that look at kinds of picture, scenes or files.
-TESTS = ("checks", "config", "figures/test_returns.py", "paper", "repository", "extensions/report")
-TESTS += ("extensions/explorer/test_generated.py",)
+TESTS = ("checks", "config", "figures/test_returns.py", "paper", "repository")
+TESTS += ("extensions/explorer/test_generated.py", "extensions/publication/test_figures_page.py")
 
 
 def steps():

@@ -10,7 +10,6 @@ from shlex import quote
 
 from pipeline.config import ConfigError, load
 from pipeline.config.schema.kinds import KINDS
-from pipeline.config.schema.sets import MAIN, needs_main_alone
 from pipeline.config.schema.stages import STAGES
 from pipeline.declaration import SourceError, parts
 from pipeline.records.files import FileError
@@ -26,7 +25,7 @@ if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
     CONFIG = load(ROOT / "config.yaml")
-    SPECS = CONFIG.build_specs([MAIN] if needs_main_alone() else None)
+    SPECS = CONFIG.build_specs()
     if workflow.is_main_process:  # and not a job on a cluster
         Freshness(ROOT, SPECS).set_times()
 except (ConfigError, FileError, SourceError) as error:
@@ -35,7 +34,6 @@ except (ConfigError, FileError, SourceError) as error:
 VARIANTS, DATASETS = CONFIG.variants, CONFIG.datasets
 SECONDS = {path: s for part in parts().values() for path, s in part.seconds.items()}
 ALL = {name for scenes in VARIANTS.values() for name in scenes}
-USED = {stage for _, _, stage in DATASETS}
 PICTURES = {each.picture: KINDS[each.picture] for s in VARIANTS.values() for each in s.values()}
 ALONE = {name for name, stage in STAGES.items() if stage.alone}  # nothing runs beside these
 # What is made from blocks of cells, which alone are jobs of a cluster.
@@ -97,7 +95,7 @@ def other_rules():
     """Yield name, function, result and inputs for the rules of all other stages and kinds."""
     written = {rule.name for rule in workflow.rules}
     files = {Path(path).name for path in DATASETS.values()}
-    for name in [each for each in STAGES if each in USED - written]:
+    for name in {stage: None for _, _, stage in DATASETS if stage not in written}:
         stage = STAGES[name]
         # Data that depend on no field of a scene have no scene in their path.
         scene = "" if f"{name}.nc" in files else "_{scene}"
@@ -111,5 +109,4 @@ def other_rules():
     for kind, picture in PICTURES.items():
         if f"draw_{kind}" not in written and picture.model_fields["formats"].default:
             result = "results/{variant}/figures/{scene}.{extension}"
-            inputs = {used: dataset(used) for used in picture.stages}
-            yield f"draw_{kind}", picture.drawn_by, result, inputs
+            yield f"draw_{kind}", picture.drawn_by, result, {s: dataset(s) for s in picture.stages}

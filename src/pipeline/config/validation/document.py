@@ -112,11 +112,9 @@ def check(given: object) -> Config:
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()
     for name, declared in SETS.items():
-        needed = name == MAIN or not needs_main_alone()
-        if needed or declared.key in mappings:
-            found, more = _scenes_of_set(name, mappings, own_ball)
+        if name == MAIN or declared.key in mappings or not needs_main_alone():
+            variants[name], more = _scenes_of_set(name, mappings, own_ball)
             mistakes += more
-            variants |= {name: found} if needed else {}
     if document and own_ball and not mistakes:
         for name, variant in document.variants.items():
             derived = scenes.derive_variant(mappings["scenes"], own_ball, name, variant)
@@ -124,6 +122,8 @@ def check(given: object) -> Config:
             mistakes += more
     if mistakes or document is None:
         raise ConfigError(*dict.fromkeys(mistakes))
+    if needs_main_alone():
+        variants = {MAIN: variants[MAIN]}
     return Config(variants, left_out, {k: v for k, v in document if k in BLOCKS and v})
 
 
