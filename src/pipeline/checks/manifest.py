@@ -90,17 +90,18 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
         for path in (path for path in published_set.drawn.values() if Path(path).stem == scene):
             known = facts(published_set.build_specs[path].config, data)
             described[path] = known | describe(root, path)
-    sources, results = dict[str, str](), dict[str, dict[str, Any]]()
+    shared, sources, results = versions(), dict[str, str](), dict[str, dict[str, Any]]()
     for path, content in sorted(described.items()):
         record = public_record(root, path)
         sources |= record["sources"]
         files = [*record["sources"]]
         same = next((p for p, entry in results.items() if entry["sources"] == files), files)
-        results[path] = record | {"sources": same, "output": record["output"] | content}
-        for key in ("environment", "function"):  # which sources decide
-            del results[path][key]
+        further = {n: v for n, v in record["environment"].items() if n not in shared}
+        entry = record | {"sources": same, "output": record["output"] | content}
+        del entry["environment"], entry["function"]  # which sources decide
+        results[path] = entry | ({"environment": further} if further else {})
     texts = {path: file_hash(root / path) for path in published_set.text_files}
-    return {"environment": versions(), "texts": texts, "sources": sources, "results": results}
+    return {"environment": shared, "texts": texts, "sources": sources, "results": results}
 
 
 def record_of(manifest: Manifest, path: str) -> dict[str, Any]:
@@ -109,7 +110,8 @@ def record_of(manifest: Manifest, path: str) -> dict[str, Any]:
     files = entry["sources"]
     files = manifest["results"][files]["sources"] if isinstance(files, str) else files
     sources = {file: manifest["sources"][file] for file in files}
-    return {**entry, "sources": sources, "environment": manifest["environment"]}
+    environment = manifest["environment"] | entry.get("environment", {})
+    return {**entry, "sources": sources, "environment": environment}
 
 
 def upstream(manifest: Manifest, path: str) -> list[str]:

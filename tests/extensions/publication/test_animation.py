@@ -5,9 +5,11 @@ from io import BytesIO
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
+from project import ROOT
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
+from pipeline.checks import manifest
 from pipeline.records.pictures import PictureError, drawing_hash, picture_difference
 from pseudorigid import Ball, motion
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -66,6 +68,15 @@ def test_the_gif_repeats_on_white_and_has_the_same_bytes_twice(data, content):
     assert np.abs(shown[-7].astype(int) - still).mean() < 1
     last, first = shown[-1].astype(int), shown[0].astype(int)
     assert np.abs(last - first).mean() < 0.5 * np.abs(shown[-7].astype(int) - first).mean()
+
+
+def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures():
+    committed = manifest.read(ROOT, "more_figures/publication")
+    gif, png = (
+        manifest.record_of(committed, f"results/publication/figures/bounce.{suffix}")["environment"]
+        for suffix in ("gif", "png")
+    )
+    assert gif.keys() - png.keys() == {"pillow"} and png.keys() <= gif.keys()
 
 
 def test_two_gifs_are_compared_frame_by_frame(content, data, tmp_path):
