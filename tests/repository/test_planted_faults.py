@@ -1,5 +1,6 @@
 """The list of planted faults fits the sources and the tests; tests/faults/run.py plants them."""
 
+import ast
 import tomllib
 
 import pytest
@@ -17,6 +18,8 @@ def test_each_fault_has_its_place_and_its_test(name):
     text = (ROOT / name).read_text(encoding="utf-8")
     for fault in (fault for fault in HERE if fault["file"] == name):
         assert text.count(fault["old"]) == 1 and fault["new"] != fault["old"], fault
+        if name.endswith(".py"):  # a fault that breaks the syntax shows nothing
+            ast.parse(text.replace(fault["old"], fault["new"]))
         file, _, function = fault["test"].partition("::")
         assert f"def {function.partition('[')[0]}" in (ROOT / file).read_text(encoding="utf-8"), (
             fault
