@@ -5,7 +5,8 @@ PART. Files beside it are found by their names:
 
     __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
-    figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide
+    figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide;
+                      for a kind with gif among its formats, `moving`: its frames
     figures/reports.py  what pictures report
     scenes.yaml       blocks of config.yaml that it ships, and variants
     captions.toml     captions of its pictures

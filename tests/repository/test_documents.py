@@ -43,8 +43,8 @@ def anchors(text):
 
 def is_absent(name):
     """Whether a file is one of a part that is not there, or of its tests."""
-    tests = re.match(r"tests/\w+/", name)
-    if tests and not (ROOT / tests[0]).is_dir():
+    tests = re.match(r"(?:tests/)?(extensions|study)/", name)
+    if tests and not (ROOT / "tests" / tests[1]).is_dir():
         return True
     found = re.search(r"\b(?:extensions/|src/)(?!extensions/)(\w+)/", name)
     return bool(found) and not [*ROOT.glob(f"src/{found[1]}"), *ROOT.glob(f"src/*/{found[1]}")]
@@ -77,14 +77,14 @@ def test_the_page_of_commands_has_those_of_parts():
             assert (name, command.line) in rows, "add a row to docs/commands.md"
 
 
-@pytest.mark.parametrize("document", [name for name in DOCUMENTS if name != "CHANGELOG.md"])
+@pytest.mark.parametrize("document", [n for n in DOCUMENTS + PAGES if n != "CHANGELOG.md"])
 def test_named_files_exist(document):
     """Paths, and names in backquotes, are those of a file or the end of its path."""
-    text = re.sub(r"https?://\S+", "", text_of(document))
+    text = re.sub(r"https?://\S+|git show \S+", "", text_of(document))
     words = re.findall(rf"[\w./*-]*/[\w./*-]*{SUFFIX}\b", text)
     words += re.findall(rf"`([\w-]+{SUFFIX})`", text)
     for word in words:
-        name = word.removeprefix("../")
+        name = re.sub(r"^(?:\.\./)+", "", word)
         made = name.startswith("results/") or name.endswith(".nc") or "NAME" in name
         made |= name in declaration.__doc__  # the names of files that any part may have
         if not made and not is_absent(name):

@@ -1,7 +1,7 @@
 """A second checker of the certificates for periodic orbits, horseshoes and the diffeomorphism.
 
 It shares no code with the package, and its intervals are mpmath's, not balls of Arb. The theorems
-that it uses are those of src/extensions/proofs/README.md. It takes other ways than the package's
+that it uses are those of src/extensions/proofs/theory/. It takes other ways than the package's
 checker:
 
 - That no impact is missed follows from a bound on the distance of a function from its chord.
@@ -492,7 +492,7 @@ def check_diffeomorphism(fields, k, g, energy):
     """Prove that no flight touches the floor below an energy, by factors of the rim's energy.
 
     On the rim udot = -xdot, so that E = (1 + k) xdot^2/2 + r(x), r(x) = k x^2/2 - g x. A touch at
-    the first root of a flight is on the rim and has x <= -g (src/extensions/proofs/README.md). The
+    the first root of a flight is on the rim and has x <= -g (theory/jumps.md). The
     certificate has the roots of r(x) - E0, E0 the stated energy: r(x) - E0 = (k/2) (x - x1) (x -
     x2). If both are at least -g, no factor is positive at x <= -g. So E >= r(x) >= E0 there, and no
     flight touches the floor at an energy below E0.

@@ -225,17 +225,17 @@ PLACES = [(-1, -1), (1, 1), (1, -0.45), (0.2, 1), (-0.45, -0.45)]
 
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("narrow", [Fraction(1), Fraction(1, 8)])
-def test_a_covering_on_cells_holds_for_a_bent_image(side, narrow):
+def test_a_covering_on_cells_holds_for_a_folded_image(side, narrow):
     """Where the whole set is not enclosed well enough, and for sets longer in either direction."""
 
-    def bent(x, y):
+    def folded(x, y):
         y = y / hsets.ball_of(narrow)
         return side * (3 * x + 3.2 * y * (1 - y * y)), y / 8 + 1.8 * x * (1 - x * x)
 
     source = hset("N", [0, 0, 1, 0, 0, narrow])
     with pytest.raises(NotProvedError):
-        hsets.covering_margins(hsets.local_map(made(bent), source, ONE), source, ONE)
-    beyond, room = hsets.prove_covering(made(bent), source, ONE)
+        hsets.covering_margins(hsets.local_map(made(folded), source, ONE), source, ONE)
+    beyond, room = hsets.prove_covering(made(folded), source, ONE)
     assert 0.2 < beyond < 0.77
     assert 0 < room < 0.19
 

@@ -1,4 +1,4 @@
-"""The checker of invariant curves: premises one by one, enclosures, and formulas of the README."""
+"""The checker of invariant curves: premises, enclosures, and the formulas of theory/curves.md."""
 
 from fractions import Fraction
 from functools import partial, reduce
@@ -264,7 +264,7 @@ LOSS = 0.004
 
 
 def readme(period, eps, divisors):
-    """The theorem's numbers, as in the README ("One step")."""
+    """The theorem's numbers, as in theory/curves.md ("One step")."""
     sL, sN, sT, st, c1, c2 = *list(SIZES.values())[:3], 1 / SIZES["torsion"], 4.0, 300.0
     d = LOSS
     kappa = period * (3 / 32 + divisors * d**2) ** 0.5 + 2 * (period - 1) * d

@@ -19,7 +19,7 @@ def noble(quotients: Sequence[int], repeating: Sequence[int] = (1,)) -> tuple[ar
     """Return omega = [0; quotients, 1, 1, ...], and the sum S of its inverse square divisors.
 
     S is the sum of 1/sin(pi q omega)^2 over 0 < q < q_m, where q_m is the denominator of the last
-    convergent before the ones. By S the README of the proofs ("The theorem") bounds longer sums.
+    convergent before the ones. By S theory/curves.md ("The theorem") bounds longer sums.
     """
     if not repeating:
         raise NotProvedError("the rotation number is rational: no partial quotients repeat")

@@ -1,8 +1,8 @@
 """Invariant curves of visible size around elliptic orbits, by an a-posteriori KAM theorem.
 
-README.md ("Invariant curves of visible size") has the theorem with its proof, in the names
-used here. For an orbit of period n the curves K_0 ... K_(n-1) around its points are one curve over
-T x Z_n: P maps K_i to K_(i+1), and K_(n-1) to K_0 turned by omega.
+theory/curves.md has the theorem with its proof, in the names used here. For an orbit of period n
+the curves K_0 ... K_(n-1) around its points are one curve over T x Z_n: P maps K_i to K_(i+1), and
+K_(n-1) to K_0 turned by omega.
 """
 
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,7 @@
 """Energies at which periodic orbits double their period or lose an impact.
 
 Each event is a regular zero of equations in the energy and perhaps a position, enclosed by interval
-Newton; README.md ("Births and ends") has the equations and what follows from a zero.
+Newton; theory/births.md has the equations and what follows from a zero.
 """
 
 from collections.abc import Sequence

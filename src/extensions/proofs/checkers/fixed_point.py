@@ -7,8 +7,7 @@ of flight, L = 1/theta - cot(theta) and Q = 2 theta - sin(2 theta),
     trace/2 = (1 + k cos(2 theta))/(1+k) - k L Q/(1+k)^2.
 
 `energy_at`, `trace_at` and `slope_at` raise NotProvedError unless 0 < theta < pi is proved.
-README.md of this extension derives the formulas and has the arguments ("Periodic orbits", "Births
-and ends", "Unstable at one energy").
+theory/orbits.md, births.md and unstable.md derive the formulas and have the arguments.
 """
 
 from fractions import Fraction
@@ -62,7 +61,7 @@ def _check(theta: arb) -> None:
 def check_unique(text: str, k: Fraction, g: Fraction, energy: Fraction) -> Finding:
     """Prove that the map has one fixed point at each energy from -g^2/(2k) up to a given one.
 
-    This verifies the two inequalities of the argument in README.md.
+    This verifies the two inequalities of the argument in theory/orbits.md.
     """
     with ctx.workprec(BITS):
         certificate = Certificate(text, "only fixed point", ball=(k, g))

@@ -2,7 +2,7 @@
 
 A connection leads from a strip of one set B_i, low <= p <= high, to a whole set B_j: the strip
 covers the first set of the connection's chain, each of these covers the next one, and the last one
-covers B_j. README.md ("Entropy through the sea") has the theorem.
+covers B_j. theory/entropy.md has the theorem.
 """
 
 from fractions import Fraction

@@ -1,7 +1,7 @@
 """A horseshoe: h-sets at the points of a hyperbolic orbit and along a connection between them.
 
 Sets S_0 ... S_(n-1) at the saddles cover each other in turn. A chain M_-K ... M_K leaves from S_a
-and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. README.md ("Horseshoe") has the
+and returns to S_b, so that S_a => M_-K => ... => M_K => S_b. theory/horseshoe.md has the
 theorems, and what follows for the orbits of the impact map P.
 """
 

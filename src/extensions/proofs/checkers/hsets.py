@@ -1,7 +1,7 @@
 """Parallelograms in the plane, covering relations between them, and the cone condition.
 
 An h-set is a parallelogram c + p u + q s, |p|, |q| <= 1, with one expanding and one contracting
-direction. Its exit set are the two edges p = -1 and p = 1. README.md ("Horseshoe") defines the
+direction. Its exit set are the two edges p = -1 and p = 1. theory/horseshoe.md defines the
 relations, after Zgliczynski and Gidea (2004) and Kokubu, Wilczak and Zgliczynski (2007).
 """
 

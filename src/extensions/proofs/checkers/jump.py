@@ -2,7 +2,7 @@
 
 A flight may touch the floor, f = f' = 0, without landing. The state there is a point r of the rim,
 s = 0, with x < -g. Backwards from r the ball comes from the point R P(r); these points form S+.
-README.md ("Jumps", "No invariant circle outside the saddles") has the arguments.
+theory/jumps.md and circles.md have the arguments.
 """
 
 from fractions import Fraction

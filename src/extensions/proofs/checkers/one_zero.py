@@ -1,6 +1,6 @@
 """The sign of the fixed point's twist at all energies from the least to eq. (31).
 
-README.md ("One zero of the twist") has the argument. In theta, half the flight time of the
+theory/twist.md ("One zero of the twist") has the argument. In theta, half the flight time of the
 fixed point, everything is explicit, so that no flight has to be searched. In the coordinates
 x = x_0(theta) + theta xi, y = theta eta the map is
 

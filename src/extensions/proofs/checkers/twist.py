@@ -10,7 +10,7 @@ if lambda^j != 1 for j up to the order plus one (Siegel and Moser, Lectures on C
 sections 23 and 31). tau_2 depends on how the changes of variables are chosen, but not where
 tau_1 = 0.
 
-README.md has Moser's theorem ("Invariant curves"). The map is analytic near an orbit because its
+theory/twist.md has Moser's theorem. The map is analytic near an orbit because its
 enclosure shows that the first root of each flight is simple. tau_1 depends continuously on the
 energy, so it has a zero between two energies at which its signs differ.
 """
