@@ -59,7 +59,7 @@ def computed(block):
     data, ball, energy = {}, Ball(**block["ball"]), block["energy"]
     for name in upstream(KINDS[block["picture"]].stages):
         stage = STAGES[name]
-        fields = {field: block[field] for field in stage.names if field in block}
+        fields = {field: block[field] for field in stage.fields.split() if field in block}
         inputs = [data[used] for used in stage.inputs]
         data[name] = function(stage.function)(ball, energy, *inputs, **fields)
         data[name].attrs |= {"k": ball.k, "g": ball.g, "energy": float(energy)}

@@ -5,12 +5,15 @@ PART. Files beside it are found by their names:
 
     __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
+    settings.py       blocks of config.yaml that are no scenes, each a class of its name; one that
+                      `computes` stages (stage -> function) is a method of scenes
     figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide;
                       for a kind with gif among its formats, `moving`: its frames
     figures/reports.py  what pictures report
     scenes.yaml       blocks of config.yaml that it ships, and variants
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
+    bench.py          rows of the benchmark: calls(), and lines(seconds) on them
     README.md         its page of documentation
 
 `reproduce` prints its help before anything is installed: only the standard library is used here,
@@ -54,21 +57,13 @@ class Stage(NamedTuple):
     fields: str = ""  # the scene's fields that it takes, as far as the scene has them
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
     follows: bool = False  # it follows orbits, so that a scene's `method` decides its data too
-    # A function block -> blocks of config whose data are computed each by itself, and the function
-    # that computes those of one. `function` then joins them.
-    blocks: str = ""
+    # A function (config, scene, specification) -> specifications, if it takes more than its inputs:
+    # that of its dataset with all that it takes, after those of blocks that `of_block` computes.
+    more: str = ""
     of_block: str = ""
-    main: str = (
-        ""  # a function that adds what it takes of the main set's scenes, and their datasets
-    )
-    reads: str = ""  # a data file, as a template of its fields, if it reads no other one
+    reads: str = ""  # a pattern of the data files that it reads, with its fields in braces
     measured: bool = False  # its data are times of this machine, and are never compared
     alone: bool = False  # it uses all cores, or measures seconds: no other job runs beside it
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the fields."""
-        return tuple(self.fields.split())
 
 
 class SceneSet(NamedTuple):
@@ -81,50 +76,29 @@ class SceneSet(NamedTuple):
     scenes: str = ""  # this function: module.function
     kind: str = ""  # of a scene that does not say its kind
     texts: tuple[str, ...] = ()  # other files that the command writes
-    apart: bool = False  # large: loaded only in processes whose variable ONLY_SET names it
 
 
-class Command:
+class Command(NamedTuple):
     """A command: its line in the list of commands, its arguments, and the module that runs it.
 
-    The module has a function run(args), which returns the exit status.
-
-    Each argument is a name with the keyword arguments of argparse's add_argument. A module in
-    pipeline.cli.commands has a name without a dot. `scenes` names the set of scenes that it makes,
-    `packages` a list in requirements/ that it installs first, and `needs` other parts. The list of
-    commands shows it in its `group`, one of command_list.GROUPS.
+    An argument has a help text, or keyword arguments of argparse's add_argument. With a text alone
+    it is a switch if its name begins with --, otherwise any number of names.
     """
 
-    def __init__(
-        self,
-        line: str,
-        *arguments: tuple[str, dict[str, Any]],
-        module: str | None = None,
-        details: str = "",
-        runs_snakemake: bool = False,
-        scenes: str = "",
-        packages: str = "",
-        needs: tuple[str, ...] = (),
-        group: str = "parts",
-    ) -> None:
-        self.line, self.arguments, self.module, self.details = line, arguments, module, details
-        self.group = group
-        self.runs_snakemake, self.scenes = runs_snakemake, scenes
-        self.packages, self.needs = packages, needs
+    line: str
+    arguments: Mapping[str, str | Mapping[str, Any]] = {}
+    # It has a function run(args) -> exit status; by default the command's one in cli.commands.
+    module: str = ""
+    details: str = ""
+    runs_snakemake: bool = False
+    scenes: str = ""  # the set of scenes that it makes
+    packages: str = ""  # a list in requirements/ that it installs first
+    needs: tuple[str, ...] = ()  # other parts
+    group: str = "parts"  # of the list of commands, one of command_list.GROUPS
 
 
 # Such a command also reads -n and --cores, and what follows -- goes to snakemake.
-SnakemakeCommand = partial(Command, runs_snakemake=True, module="figures")
-
-
-def names(name: str, text: str) -> tuple[str, dict[str, Any]]:
-    """Declare an argument for any number of names."""
-    return name, {"nargs": "*", "help": text}
-
-
-def switch(name: str, text: str) -> tuple[str, dict[str, Any]]:
-    """Declare an option without a value."""
-    return name, {"action": "store_true", "help": text}
+SnakemakeCommand = partial(Command, runs_snakemake=True, module="pipeline.cli.commands.figures")
 
 
 class Part(NamedTuple):
@@ -133,15 +107,7 @@ class Part(NamedTuple):
     needs: tuple[str, ...] = ()  # other parts without which its modules cannot be loaded
     stages: Mapping[str, Stage] = {}
     sets: Mapping[str, SceneSet] = {}  # by their folders in results/
-    commands: Mapping[str, Command] = {}
-    # Command of the engine -> name, keyword arguments and module of a further option. If the option
-    # is given, this module runs the command.
-    options: Mapping[str, tuple[str, dict[str, Any], str]] = {}
-    settings: Mapping[str, str] = {}  # key of config.yaml -> the class of its block
-    # Key of a scene's `method` -> the class of its block, and stage -> function that computes it.
-    methods: Mapping[str, tuple[str, Mapping[str, str]]] = {}
-    reads: Mapping[str, str] = {}  # source file -> pattern of the data files that it reads
-    benchmark: str = ""  # a module with rows of the benchmark
+    commands: Mapping[str, Command] = {}  # one of the engine's names replaces the engine's
     folders: tuple[str, ...] = ()  # in results/, of its commands; no variant has such a name
     committed: str = ""  # a function () -> committed file that pipeline.renew writes -> its text
     # Result -> its seconds on one core. The longest jobs begin first, so that none of them is left
@@ -150,16 +116,13 @@ class Part(NamedTuple):
 
 
 @cache
-def _packages() -> dict[str, str]:
-    """Map the name of each part, that of its folder, to its package."""
-    files = [*sorted(SRC.glob("*/part.py")), *sorted(SRC.glob("extensions/*/part.py"))]
-    return {f.parent.name: ".".join(f.parent.relative_to(SRC).parts) for f in files}
-
-
-@cache
-def _declared() -> dict[str, Part]:
-    """Return what each part declares."""
-    return {name: imported(f"{package}.part.PART") for name, package in _packages().items()}
+def _declared() -> dict[str, tuple[str, Part]]:
+    """Map the name of each part, that of its folder, to its package and what it declares."""
+    found = {}
+    for file in (*sorted(SRC.glob("*/part.py")), *sorted(SRC.glob("extensions/*/part.py"))):
+        package = ".".join(file.parent.relative_to(SRC).parts)
+        found[file.parent.name] = package, imported(f"{package}.part.PART")
+    return found
 
 
 @cache
@@ -168,8 +131,8 @@ def parts() -> dict[str, Part]:
     declared, found = _declared(), dict[str, Part]()
 
     def add(name: str) -> bool:
-        if name in declared and name not in found and all(map(add, declared[name].needs)):
-            found[name] = declared[name]
+        if name in declared and name not in found and all(map(add, declared[name][1].needs)):
+            _, found[name] = declared[name]
         return name in found
 
     for name in declared:
@@ -179,7 +142,7 @@ def parts() -> dict[str, Part]:
 
 def lacking(command: str) -> str | None:
     """Return a part that is not there and that a command needs, or None."""
-    for part in _declared().values():
+    for _, part in _declared().values():
         if command in part.commands:
             needed = (*part.needs, *part.commands[command].needs)
             return next((name for name in needed if name not in parts()), None)
@@ -205,6 +168,6 @@ def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]
 
 def files(name: str) -> dict[str, Path]:
     """Map the package of each part that has a file of this name to the file."""
-    packages = [_packages()[part] for part in parts()]
-    found = {each: SRC.joinpath(*each.split("."), name) for each in packages}
-    return {package: file for package, file in found.items() if file.is_file()}
+    packages = (_declared()[part][0] for part in parts())
+    found = ((each, SRC.joinpath(*each.split("."), name)) for each in packages)
+    return {package: file for package, file in found if file.is_file()}

@@ -12,7 +12,7 @@ from importlib import import_module
 import numpy as np
 
 from pipeline.cli.arguments import Arguments
-from pipeline.declaration import parts
+from pipeline.declaration import files
 from pseudorigid.dynamics.ball import State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.kernel.arithmetic import sincos
@@ -39,11 +39,11 @@ Triple = tuple[float, float, float]
 def run(args: Arguments) -> int:
     """Print the table: label, seconds, ratio and aim; then machine and versions.
 
-    A module that a part declares as `benchmark` adds calls(), and lines(seconds) on them.
+    The module `bench` of another part adds calls(), and lines(seconds) on them.
     """
     if hasattr(os, "sched_setaffinity"):  # macOS has none
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # one core: threads gain nothing
-    more = [import_module(part.benchmark) for part in parts().values() if part.benchmark]
+    more = [import_module(f"{each}.bench") for each in files("bench.py") if each != __package__]
     timed = calls()
     for module in more:
         timed |= module.calls()

@@ -1,9 +1,10 @@
 """The scenes of the paper whose errors the study measures, and what it compares with."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator
 
+from pipeline.config import MAIN, Config
 from pipeline.config.schema.scene import Picture
+from pipeline.records.provenance import BuildSpec
 
 # Kinds of picture with a measure of error in figure_errors, with the axes that it needs, and
 # the stages whose datasets the study compares with.
@@ -17,24 +18,23 @@ STUDIED = {
 _COMPARED = ("periodic", "manifolds")
 
 
-def paper_scenes(
-    scenes: Mapping[str, Picture], datasets: Mapping[tuple[str, str], str]
-) -> tuple[dict[str, Any], dict[str, str]]:
-    """Return what decides the data of the stage `needs`, and its inputs by stage and scene.
+def with_paper(config: Config, _: Picture, spec: BuildSpec) -> Iterator[BuildSpec]:
+    """Yield the specification of the stage `needs` with the paper's scenes and their datasets.
 
     The study measures the errors of scenes with a measure of error and all axes, which fix the
     picture's size.
     """
     chosen = {
         name: block
-        for name, scene in scenes.items()
+        for name, scene in config.scenes.items()
         if scene.picture in STUDIED
         and STUDIED[scene.picture] <= (block := scene.as_mapping()).get("axes", {}).keys()
     }
-    measures = {name: scenes[name].picture for name in chosen}
     inputs = {
         f"{stage}/{scene}": path
-        for (scene, stage), path in datasets.items()
-        if scene in chosen and stage in _COMPARED
+        for (variant, scene, stage), path in config.datasets.items()
+        if variant == MAIN and scene in chosen and stage in _COMPARED
     }
-    return {"scenes": chosen, "measures": measures}, inputs
+    measures = {name: config.scenes[name].picture for name in chosen}
+    more = {"scenes": chosen, "measures": measures, "inputs": [*inputs]}
+    yield spec._replace(config=spec.config | more, inputs=[*spec.inputs, *inputs.values()])

@@ -11,7 +11,7 @@ PART = Part(
         "edges": Stage(f"{_STAGES}.edges", reads=_RECORDED),
         "misses": Stage(f"{_STAGES}.misses", reads=_RECORDED),
         "drift": Stage(f"{_STAGES}.drift"),
-        "needs": Stage("study.figure_errors.figure_errors", main="study.compared.paper_scenes"),
+        "needs": Stage("study.figure_errors.figure_errors", more="study.compared.with_paper"),
         "work_all": Stage(f"{_MEASURED}.work_all", measured=True, alone=True),
     },
     sets={

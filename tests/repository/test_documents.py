@@ -8,6 +8,7 @@ import yaml
 from project import ROOT
 
 from pipeline import config, declaration
+from pipeline.command_list import COMMANDS
 
 DOCUMENTS = sorted(
     str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
@@ -73,8 +74,8 @@ def test_links_lead_to_files(document):
 def test_the_page_of_commands_has_those_of_parts():
     rows = re.findall(r"\| `\./reproduce (\w+)` \| (.*) \|\n", text_of("docs/commands.md"))
     for part in declaration.parts().values():
-        for name, command in part.commands.items():
-            assert (name, command.line) in rows, "add a row to docs/commands.md"
+        for name in part.commands.keys() - COMMANDS.keys():
+            assert (name, part.commands[name].line) in rows, "add a row to docs/commands.md"
 
 
 @pytest.mark.parametrize("document", [n for n in DOCUMENTS + PAGES if n != "CHANGELOG.md"])

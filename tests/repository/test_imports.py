@@ -15,8 +15,10 @@ import yaml
 from project import ROOT, SHIPPED, run
 from test_style import pins
 
+from pipeline.command_list import COMMANDS
 from pipeline.config.schema import scene
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.method import SETTINGS
 from pipeline.config.schema.sets import SETS
 from pipeline.declaration import files, parts
 from pipeline.records.sources import source_files
@@ -126,12 +128,11 @@ def undeclared(graph):
             commands = [each for each in declared.commands.values() if each.module]
             allowed = {each.module for each in commands if other in with_needs(each.needs)}
             if "benchmark" in parts()[other].commands:  # which alone loads rows of others
-                allowed |= {declared.benchmark} - {""}
+                allowed |= {f"{own}.bench"} & inside
             for module in set(allowed):
                 allowed |= graph.find_upstream_modules(module)
             # Modules by which it is entered where the other one is absent.
             entered = {each.module for each in commands if other not in with_needs(each.needs)}
-            entered |= {module for _, _, module in declared.options.values()}
             entered |= {f"{own}.{module}" for module in ("part", "kinds")}
             for module in (inside - allowed) | (entered & inside):
                 reached = graph.find_upstream_modules(module)
@@ -151,10 +152,10 @@ for _group in vars(scene).values():
 
 def names_of_parts():
     """The names that parts declare: of themselves, stages, kinds, scenes, commands and folders."""
-    found = set(parts()) | KINDS.keys()
+    found = set(parts()) | KINDS.keys() | SETTINGS.keys()
     for part in parts().values():
-        for declared in ("stages", "sets", "commands", "settings", "methods"):
-            found |= getattr(part, declared).keys()
+        for declared in ("stages", "sets", "commands"):
+            found |= getattr(part, declared).keys() - COMMANDS.keys()
         found |= {each.key for each in part.sets.values()}
         found |= {each.folder for each in part.sets.values()}
         found |= {*part.folders}

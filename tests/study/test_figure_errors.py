@@ -9,7 +9,7 @@ import xarray as xr
 from pipeline import config
 from pseudorigid import Ball, symmetric_orbits
 from study import figure_errors
-from study.compared import STUDIED, paper_scenes
+from study.compared import STUDIED
 from study.methods.counted_methods import ENGINES, OURS, SCANS
 
 BALL = {"k": 0.2, "g": 0.04}
@@ -47,8 +47,9 @@ def test_a_scene_without_all_axes_is_left_out():
     bare = {key: value for key, value in PORTRAIT.items() if key != "axes"}
     flat = {name: axis for name, axis in PORTRAIT["axes"].items() if name != "udot"}
     document = {"one": PORTRAIT, "two": bare, "three": PORTRAIT | {"axes": flat}}
-    scenes = config.check({"ball": BALL, "scenes": document}).scenes
-    block = paper_scenes(scenes, {})[0]
+    given = {"ball": BALL, "scenes": document, "study": {"needs": {"picture": "figure_errors"}}}
+    specs = config.check(given).build_specs(["study"])
+    block = specs["results/study/needs.nc"].config
     assert list(block["scenes"]) == list(block["measures"]) == ["one"]
 
 

@@ -29,7 +29,7 @@ def snakemake(*arguments):
 def test_each_stage_and_each_kind_has_a_rule_with_its_function():
     listed = dict(re.findall(r"^(\w+) \((.*)\)$", snakemake("--list"), re.M))
     expected = {name: stage.function for name, stage in STAGES.items()}
-    expected |= {f"{name}_block": s.of_block for name, s in STAGES.items() if s.blocks}
+    expected |= {f"{name}_block": s.of_block for name, s in STAGES.items() if s.of_block}
     drawn = {name: kind for name, kind in KINDS.items() if kind.model_fields["formats"].default}
     assert listed == expected | {f"draw_{name}": kind.drawn_by for name, kind in drawn.items()}
 

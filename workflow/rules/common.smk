@@ -37,7 +37,7 @@ ALL = {name for scenes in VARIANTS.values() for name in scenes}
 PICTURES = {each.picture: KINDS[each.picture] for s in VARIANTS.values() for each in s.values()}
 ALONE = {name for name, stage in STAGES.items() if stage.alone}  # nothing runs beside these
 # What is made from blocks of cells, which alone are jobs of a cluster.
-JOINED = {name for name, stage in STAGES.items() if stage.blocks}
+JOINED = {name for name, stage in STAGES.items() if stage.of_block}
 JOINED |= {f"draw_{kind}" for kind, picture in PICTURES.items() if JOINED & {*picture.stages}}
 shell.prefix(f"PATH={quote(str(Path(sys.executable).parent))}:$PATH; ")  # this Python, for jobs
 
@@ -101,9 +101,9 @@ def other_rules():
         scene = "" if f"{name}.nc" in files else "_{scene}"
         result = f"results/{{variant}}/{name}{scene}.nc"
         inputs = {used: dataset(used) for used in stage.inputs}
-        if stage.blocks or stage.main:
+        if stage.more:
             inputs = {"datasets": inputs_of(result)}
-        if stage.blocks:
+        if stage.of_block:
             yield f"{name}_block", stage.of_block, result.replace(".nc", ".{number}.nc"), {}
         yield name, stage.function, result, inputs
     for kind, picture in PICTURES.items():

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Tag
 
+from pipeline.config.results import files_of
 from pipeline.config.schema.fields import (
     ABSENT,
     TAGS,
@@ -19,6 +20,8 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, as_decimal
+from pipeline.config.schema.stages import STAGES
+from pipeline.records.provenance import BuildSpec
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 # Bounds of a sweep.
@@ -126,6 +129,17 @@ class Verdicts(Picture):
     """the share of wrong verdicts on orbits against the impacts that they take"""
 
     stages = ("verdicts",)
+
+
+def specifications(_: object, sweep: Picture, spec: BuildSpec) -> Iterator[BuildSpec]:
+    """Yield the specifications of a sweep's blocks and of its dataset, which joins them."""
+    function, path = STAGES["sweep"].of_block, spec.result.removesuffix(".nc")
+    of_block = spec._replace(function=function, sources=files_of(function), inputs=[])
+    inputs = []
+    for i, block in enumerate(blocks(sweep.as_mapping())):
+        inputs.append(f"{path}.{i:04d}.nc")  # no scene has a dot in its name
+        yield of_block._replace(result=inputs[-1], step=f"block {i}", config=block)
+    yield spec._replace(step="data", inputs=inputs)
 
 
 def blocks(sweep: dict[str, Any]) -> list[dict[str, Any]]:

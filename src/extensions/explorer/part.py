@@ -1,13 +1,13 @@
 """What the explorer adds to the pipeline."""
 
-from pipeline.declaration import Command, Part, switch
+from pipeline.declaration import Command, Part
 
 PART = Part(
     needs=("processors",),
     commands={
         "explore": Command(
             "open the interactive explorer in a browser",
-            switch("--no-open", "only write results/explorer.html"),
+            {"--no-open": "only write results/explorer.html"},
             module="extensions.explorer.command",
         ),
     },

@@ -1,6 +1,7 @@
 """Blocks of config.yaml: `prove`, and the method that computes true orbits."""
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal
 
 from pipeline.config.schema.fields import LARGEST, Block, allowed, whole
 
@@ -15,6 +16,10 @@ class Prove(Block):
 
 class Exact(Block):
     """a mapping with the key exact"""
+
+    computes: ClassVar[Mapping[str, str]] = {
+        "orbits": "extensions.proofs.true_orbits.orbit.true_scene_orbits"
+    }
 
     exact: Annotated[Literal[True], allowed("true, or no method at all")]
     """Compute the true orbit of each start, so that every number is a rounded true value, in

@@ -1,8 +1,15 @@
 """What publishing adds: archive, article, site, the comparison of variants, and Figure 1."""
 
-from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, Stage, names, switch
+from pipeline.command_list import COMMANDS
+from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, Stage
 
 _COMMANDS, _TEXT = "extensions.publication.commands", ("claims", "explorer", "proofs")
+_VERIFY = COMMANDS["verify"]
+_AGAINST = {
+    "metavar": "PLACE",
+    "help": "compare file by file with an archive, or with a folder that holds an unpacked "
+    "archive or another tree",
+}
 PART = Part(
     needs=("paper",),
     stages={"frames": Stage("extensions.publication.frames.scene_frames", "frames", ("orbits",))},
@@ -14,12 +21,14 @@ PART = Part(
     commands={
         "archive": Command(
             "write one tar of the figures, their data and provenance",
-            ("file", {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"}),
-            switch("--with-packages", "add the sources and the locked packages: runs offline"),
-            (
-                "--python",
-                {"metavar": "X.Y", "help": "of these packages; by default the present one"},
-            ),
+            {
+                "file": {"nargs": "?", "help": "by default results/archive/pseudorigid.tar"},
+                "--with-packages": "add the sources and the locked packages: runs offline",
+                "--python": {
+                    "metavar": "X.Y",
+                    "help": "of these packages; by default the present one",
+                },
+            },
             module=f"{_COMMANDS}.archive",
             group="publishing",
             details="The same results give the same bytes. All results must be current.",
@@ -33,9 +42,11 @@ PART = Part(
         ),
         "compare": SnakemakeCommand(
             "show what differs between two variants, figure by figure",
-            ("a", {"nargs": "?", "help": "a variant of config.yaml, or paper", "metavar": "A"}),
-            ("b", {"nargs": "?", "help": "another one", "metavar": "B"}),
-            names("figure", "figures to compare, by their names in config.yaml; by default all"),
+            {
+                "a": {"nargs": "?", "metavar": "A", "help": "a variant of config.yaml, or paper"},
+                "b": {"nargs": "?", "metavar": "B", "help": "another one"},
+                "figure": "figures to compare, by their names in config.yaml; by default all",
+            },
             module="extensions.publication.compare.command",
             group="checks",
         ),
@@ -46,17 +57,10 @@ PART = Part(
             details="Publishes committed files alone. Installs packages first (once).",
             needs=_TEXT,
         ),
-    },
-    options={
-        "verify": (
-            "--against",
-            {
-                "metavar": "PLACE",
-                "help": "compare file by file with an archive, or with a folder that holds an "
-                "unpacked archive or another tree",
-            },
-            f"{_COMMANDS}.against",
-        )
+        "verify": _VERIFY._replace(
+            arguments={**_VERIFY.arguments, "--against": _AGAINST},
+            module=f"{_COMMANDS}.against",
+        ),
     },
     committed="extensions.publication.figures_page.committed",
     folders=("site", "archive", "compare"),

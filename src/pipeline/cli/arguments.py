@@ -12,7 +12,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands, options_of
+from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands
 from ..declaration import files, lacking
 from ..spelling import suggestion
 
@@ -110,7 +110,7 @@ def explain(parser: argparse.ArgumentParser, message: str) -> str:
     if first.startswith("-"):
         first = first.partition("=")[0]
     known = [name for action in parser._actions for name in action.option_strings]
-    owners = [name for name in all_commands() if first in dict(_arguments(name))]
+    owners = [name for name, command in all_commands().items() if first in command.arguments]
     after = ": options of snakemake follow --" if "--cores" in known and first[0] == "-" else ""
     after = f": {owners[0]} has it" if owners and first[0] == "-" else after
     return f"no argument {first}{hint(first, known) or after or f': usage: {parser.usage}'}"
@@ -135,12 +135,6 @@ def _number_of_cores(text: str) -> str:
     raise argparse.ArgumentTypeError(f"{text!r} is not allowed: expected 1 or more, or all")
 
 
-def _arguments(name: str | None) -> list[tuple[str, dict[str, Any]]]:
-    """Return the arguments of a command with those that parts add to it."""
-    command = all_commands().get(name or "", DEFAULT_COMMAND)
-    return [*command.arguments, *(option[:2] for option in options_of(name))]
-
-
 def _parser(name: str | None) -> _Parser:
     """Return the parser of a command, or of the default command."""
     commands = all_commands()
@@ -163,8 +157,9 @@ def _parser(name: str | None) -> _Parser:
             ]
         details = "./reproduce COMMAND --help shows a command's arguments."
         parser.epilog = "\n".join([*lines, details, _OFFLINE, _SNAKEMAKE])
-    for key, how in _arguments(name):
-        parser.add_argument(key, **how)
+    for key, how in command.arguments.items():
+        kind = {"action": "store_true"} if key.startswith("--") else {"nargs": "*"}
+        parser.add_argument(key, **(kind | {"help": how} if isinstance(how, str) else how))
     if command.runs_snakemake:
         text = "print what would be made, and make nothing"
         parser.add_argument("-n", "--dry-run", "--dryrun", action="store_true", help=text)
@@ -173,8 +168,10 @@ def _parser(name: str | None) -> _Parser:
             "-c", "--cores", type=_number_of_cores, default="all", metavar="N", help=text
         )
     usage = parser.format_usage().partition(": ")[2].strip()
-    for metavar in [how["metavar"] for key, how in command.arguments if key in REQUIRED]:
-        usage = usage.replace(f"[{metavar}]", str(metavar))
+    for metavar in [
+        command.arguments[key]["metavar"] for key in REQUIRED if key in command.arguments
+    ]:
+        usage = usage.replace(f"[{metavar}]", metavar)
     parser.usage = usage
     return parser
 

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from ..command_list import DEFAULT_COMMAND, all_commands, module_of
+from ..command_list import DEFAULT_COMMAND, all_commands
 from ..declaration import SourceError, imported
 from ..records.files import memory_is_short
 from . import arguments
@@ -60,8 +60,8 @@ def _run(words: list[str]) -> int:
             from .packages import add_packages
 
             add_packages(command.packages)
-        run = imported(f"{module_of(command, args.word, vars(args))}.run")
-        return int(run(args))
+        module = command.module or f"pipeline.cli.commands.{args.word}"
+        return int(imported(f"{module}.run")(args))
     except ConfigError as error:
         print(error, file=sys.stderr)
     except (UsageError, FileError, ChangedError) as error:

@@ -11,9 +11,10 @@ from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
-from ..declaration import RENEW, imported, parts
+from ..declaration import RENEW, parts
 from .schema.fields import Block
 from .schema.kinds import KINDS
+from .schema.method import SETTINGS
 from .schema.scene import Scene
 from .schema.sets import MAIN, SETS
 from .schema.stages import upstream
@@ -76,22 +77,22 @@ def fields(part: str) -> str:
     shipped: Any = with_shipped({})
     scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
-    methods = {key: place for key, (place, _) in declared.methods.items()}
-    models = {key: imported(of) for key, of in {**declared.settings, **methods}.items()}
-    models |= {"every scene": Scene, "a variant": Variant}
-    models |= {name: kind for name, kind in KINDS.items() if kind.__module__.split(".")[-2] == part}
+    models = {**SETTINGS, "every scene": Scene, "a variant": Variant, **KINDS}
     for title, model in models.items():
+        of_all = model in (Scene, Variant)
+        if not of_all and model.__module__.split(".")[-2] != part:
+            continue
         schema = model.model_json_schema(schema_generator=_Described)
         lines = [f"### {title}\n", *_listed(schema, schema.get("$defs", {}), title, seen)]
         if title in KINDS:
             about = f"{model.__doc__[0].upper()}{model.__doc__[1:]}.\n\nStages: "
             about += f"{_quoted(upstream(model.stages))}; under `{keys.get(title, 'scenes')}:`.\n"
             lines[:1] = [f"### picture: {title}\n", about]
-        if model not in (Scene, Variant) or MAIN in declared.sets:
+        if not of_all or MAIN in declared.sets:
             texts.append("\n".join(lines))
     rows = ["### stages\n\n| stage | fields | made from | follows `method` |\n|---|---|---|---|"]
     for name, stage in declared.stages.items():
-        cells = f"`{name}` | {_quoted(stage.names)} | {_quoted(stage.inputs)}"
+        cells = f"`{name}` | {_quoted(stage.fields.split())} | {_quoted(stage.inputs)}"
         rows.append(f"| {cells} | {'yes' if stage.follows else 'no'} |")
     texts += ["\n".join(rows)] if declared.stages else []
     return "\n\n".join([f"\n## Fields of {part}", *texts, ""]) if texts else ""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import PurePath
 
-from ..declaration import Stage, imported, parts
+from ..declaration import imported
 from ..records import sources
 from ..records.provenance import BuildSpec
 from .schema.fields import Block, YamlMapping
@@ -74,29 +74,16 @@ class Config:
         """Yield the specifications of a scene's datasets and drawings."""
         scene, data = self.variants[variant][name], self.data_of(variant, name)
         for stage, parameters in stage_parameters(scene).items():
-            path, declared, step, block = data[stage], STAGES[stage], stage, parameters
-            label, inputs = _label(path, name), [data[used] for used in declared.inputs]
-            if declared.main:
-                of_main = {(s, st): p for (v, s, st), p in self.datasets.items() if v == MAIN}
-                more, others = imported(declared.main)(self.scenes, of_main)
-                block = parameters | more | {"inputs": [*others]}
-                inputs += others.values()
-            if declared.blocks:
-                blocks = [*_of_blocks(scene, declared, path, label)]
-                yield from blocks
-                inputs, step = [each.result for each in blocks], "data"
-            function = function_of(stage, scene)
-            files = _files("stage", function, declared.reads.format(**parameters))
-            yield BuildSpec(path, label, step, block, "stage", function, files, inputs)
+            path, declared, function = data[stage], STAGES[stage], function_of(stage, scene)
+            files = files_of(function, declared.reads.format(**parameters))
+            inputs, label = [data[used] for used in declared.inputs], _label(path, name)
+            spec = BuildSpec(path, label, stage, parameters, "stage", function, files, inputs)
+            yield from imported(declared.more)(self, scene, spec) if declared.more else [spec]
         inputs = [data[stage] for stage in scene.stages]
         for suffix in scene.formats:
-            path, block = drawn(name, suffix, variant), drawing(scene)
-            label, step, files = (
-                _label(path, name),
-                f"drawing {suffix}",
-                _files("draw", scene.drawn_by),
-            )
-            yield BuildSpec(path, label, step, block, "draw", scene.drawn_by, files, inputs)
+            path, block, function = drawn(name, suffix, variant), drawing(scene), scene.drawn_by
+            step, files = f"drawing {suffix}", files_of(function, program="draw")
+            yield BuildSpec(path, _label(path, name), step, block, "draw", function, files, inputs)
 
     def figures(self, variant: str = MAIN) -> dict[str, tuple[str, str]]:
         """Map each figure, where users find it, to its scene and its drawing.
@@ -123,7 +110,9 @@ def stage_parameters(scene: Picture) -> dict[str, YamlMapping]:
     parameters = {}
     for name in upstream(scene.stages):
         method = ("method",) if takes_method(name, scene) else ()
-        parameters[name] = scene.as_mapping(("ball", "energy", *STAGES[name].names, *method))
+        parameters[name] = scene.as_mapping(
+            ("ball", "energy", *STAGES[name].fields.split(), *method)
+        )
     return parameters
 
 
@@ -165,29 +154,17 @@ def dataset_paths(variants: Variants) -> Datasets:
     return paths
 
 
-def _of_blocks(scene: Picture, stage: Stage, path: str, label: str) -> Iterator[BuildSpec]:
-    """Yield the specifications of the blocks of a stage's dataset."""
-    files = _files("stage", stage.of_block)
-    for i, block in enumerate(imported(stage.blocks)(scene.as_mapping())):
-        result = f"{path.removesuffix('.nc')}.{i:04d}.nc"  # no scene has a dot in its name
-        yield BuildSpec(result, label, f"block {i}", block, "stage", stage.of_block, files, [])
-
-
 def _label(path: str, scene: str) -> str:
     """Return a scene's name in messages, with the first variant that has a result of it."""
     folder = PurePath(path).parts[1]
     return scene if folder in SETS else f"{folder}/{scene}"
 
 
-def _files(program: str, function: str, data_file: str = "") -> dict[str, str | None]:
+def files_of(function: str, data: str = "", program: str = "stage") -> dict[str, str | None]:
     """Return the files, without their hashes, that decide what a program makes with a function.
 
-    They include the data files that the function's modules can read, or of these `data_file` alone.
+    `data` is a pattern of the data files among them.
     """
     files = _source_files(f"pipeline.jobs.{program}", function.rpartition(".")[0])
-    read = [each.reads.items() for each in parts().values()]
-    patterns = [pattern for items in read for module, pattern in items if module in files]
-    patterns = [data_file] if data_file else patterns
-    data = [file for pattern in patterns for file in sources.ROOT.glob(pattern)]
-    names = sorted(str(file.relative_to(sources.ROOT)) for file in data)
-    return dict.fromkeys(files + names)
+    found = sources.ROOT.glob(data) if data else ()
+    return dict.fromkeys(files + sorted(str(file.relative_to(sources.ROOT)) for file in found))

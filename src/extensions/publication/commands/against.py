@@ -1,8 +1,9 @@
-"""./reproduce verify --against PLACE: compare file by file with an archive or another tree."""
+"""./reproduce verify, which with --against PLACE compares with an archive or another tree."""
 
 import os
 
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.commands import verify
 from pipeline.cli.errors import CommandLineError, one_line
 from pipeline.records.sources import ROOT
 
@@ -11,6 +12,8 @@ from .. import archive
 
 def run(args: Arguments) -> int:
     """Print how each file compares, and return 0 if all are the same."""
+    if args.against is None:
+        return verify.run(args)
     other = args.start / args.against
     # Path.exists raises an error for a name that is too long or in a folder without access.
     if not args.against or not os.path.exists(other):

@@ -6,6 +6,8 @@ messages and docs/config.md quote; and, as its docstring, what it means, for the
 A checked config has these models. `Block.as_mapping` makes what is recorded of one.
 """
 
+import importlib
+import re
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal
@@ -59,6 +61,15 @@ def _as_written(checked: Any, given: Any) -> Any:
     if isinstance(checked, dict):
         return {key: _as_written(value, given[key]) for key, value in checked.items()}
     return checked if isinstance(checked, Block) else given
+
+
+def declared_in(module: str) -> dict[str, Any]:
+    """Return the blocks of a part's module by their names, from CamelCase to snake_case."""
+    found = {}
+    for name, value in vars(importlib.import_module(module)).items():
+        if isinstance(value, type) and issubclass(value, Block) and value.__module__ == module:
+            found[re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()] = value
+    return found
 
 
 def allowed(words: str, **constraints: Any) -> Any:

@@ -1,10 +1,10 @@
 """The kinds of picture that parts declare: each is a class named in CamelCase."""
 
-import importlib
-import re
+import sys
 from collections.abc import Iterator, Mapping
 
 from ...declaration import files
+from .fields import declared_in
 from .scene import Picture
 
 
@@ -20,31 +20,27 @@ class _Kinds(Mapping[str, type[Picture]]):
 
     def __getitem__(self, name: str) -> type[Picture]:
         while name not in self.loaded and self.packages:
-            self.loaded |= _declared(self.packages.pop(0))
+            self._load(self.packages.pop(0))
         return self.loaded[name]
 
     def __iter__(self) -> Iterator[str]:
         while self.packages:
-            self.loaded |= _declared(self.packages.pop(0))
+            self._load(self.packages.pop(0))
         return iter(self.loaded)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
-
-def _declared(package: str) -> dict[str, type[Picture]]:
-    """Return the classes that a part declares, by the kinds' names."""
-    kinds, module = {}, importlib.import_module(f"{package}.kinds")
-    template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
-    for name, value in vars(module).items():
-        ours = isinstance(value, type) and value.__module__ == module.__name__
-        if ours and issubclass(value, Picture):
-            kind = re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
-            value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
-            figures = value.drawn_by.rsplit(".", 2)[0]
-            value.reported_by = f"{figures}.reports.{kind}"
-            kinds[kind] = value
-    return kinds
+    def _load(self, package: str) -> None:
+        """Add the classes that a part declares."""
+        for kind, value in declared_in(f"{package}.kinds").items():
+            if issubclass(value, Picture):
+                module = sys.modules[value.__module__]
+                template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
+                value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
+                figures = value.drawn_by.rsplit(".", 2)[0]
+                value.reported_by = f"{figures}.reports.{kind}"
+                self.loaded[kind] = value
 
 
 KINDS = _Kinds()

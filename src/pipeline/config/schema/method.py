@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag
 
-from ...declaration import imported, parts
-from .fields import TAGS, Block, allowed
+from ...declaration import files
+from .fields import TAGS, Block, allowed, declared_in
 
 
 class Scan(Block):
@@ -23,20 +23,23 @@ class Scan(Block):
     scenes with manifolds allow no more."""
 
 
-# Key that only a method of a part has -> the class of its block.
-_BY_KEY: dict[str, type[Block]] = {
-    key: imported(place) for each in parts().values() for key, (place, _) in each.methods.items()
-}
-METHOD_BLOCKS = {"scan and bisection": Scan} | _BY_KEY
+# Key of config.yaml, or of a scene's `method`, that a part adds -> the class of its block.
+SETTINGS: dict[str, type[Block]] = {}
+for _package in files("settings.py"):
+    SETTINGS |= declared_in(f"{_package}.settings")
+_METHODS = {key: each for key, each in SETTINGS.items() if hasattr(each, "computes")}
+BLOCKS = {key: each for key, each in SETTINGS.items() if key not in _METHODS}
 
 
 def _tag(value: Any) -> str:
     """Return the tag of the method whose block or mapping a value is meant to be."""
     keys = value if isinstance(value, Mapping) else getattr(value, "model_fields_set", ())
-    return next((TAGS[i] for i, key in enumerate(_BY_KEY, 1) if key in keys), TAGS[0])
+    return TAGS[not _METHODS.keys().isdisjoint(keys)]
 
 
-_WORDS = ["a mapping with the keys scan and tolerance", *(f"{{{key}: true}}" for key in _BY_KEY)]
-_TAGGED = [Annotated[block, Tag(TAGS[i])] for i, block in enumerate(METHOD_BLOCKS.values())]
-_UNION: Any = Annotated[reduce(or_, _TAGGED), Discriminator(_tag)] if _BY_KEY else Scan
+_WORDS = ["a mapping with the keys scan and tolerance", *(f"{{{key}: true}}" for key in _METHODS)]
+_TAGGED = [
+    Annotated[each, Tag(tag)] for tag, each in zip(TAGS, (Scan, *_METHODS.values()), strict=False)
+]
+_UNION: Any = Annotated[reduce(or_, _TAGGED), Discriminator(_tag)] if _METHODS else Scan
 Method: Any = Annotated[_UNION, allowed(", or ".join(_WORDS))]

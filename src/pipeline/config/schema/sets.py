@@ -6,11 +6,7 @@ from ...declaration import ONLY_SET, SceneSet, parts
 
 SETS: dict[str, SceneSet] = {}  # by their folders in results/
 for _part in parts().values():
-    SETS |= {
-        name: each
-        for name, each in _part.sets.items()
-        if not each.apart or name == os.environ.get(ONLY_SET)
-    }
+    SETS |= _part.sets
 # The set whose scenes are those of the key `scenes`, which ./reproduce makes and variants change.
 MAIN = next(name for name, each in SETS.items() if each.key == "scenes")
 PUBLISHED = {name: each.folder for name, each in SETS.items() if each.folder}

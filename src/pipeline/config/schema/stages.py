@@ -1,25 +1,19 @@
 """The stages that parts declare: function, inputs, fields that decide the data."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from ...declaration import Stage, parts
-from .scene import Picture, Scene
+from .scene import Picture
 
 STAGES: dict[str, Stage] = {}
 for _part in parts().values():
     STAGES |= _part.stages
-# method of a part -> stage -> the function that computes it
-METHODS = {
-    key: functions for part in parts().values() for key, (_, functions) in part.methods.items()
-}
 
 
 def function_of(stage: str, scene: Picture) -> str:
     """Return the function that computes a stage of a scene."""
-    of_method = (
-        functions[stage] for functions in _functions_of_method(scene) if stage in functions
-    )
-    return next(of_method, STAGES[stage].function)
+    computes = getattr(getattr(scene, "method", None), "computes", {})
+    return str(computes.get(stage, STAGES[stage].function))
 
 
 def takes_method(stage: str, scene: Picture) -> bool:
@@ -27,15 +21,8 @@ def takes_method(stage: str, scene: Picture) -> bool:
 
     A scan decides all stages that use a method; a method of a part only those that it has.
     """
-    return STAGES[stage].follows and all(
-        stage in functions for functions in _functions_of_method(scene)
-    )
-
-
-def _functions_of_method(scene: Picture) -> list[Mapping[str, str]]:
-    """Return stage -> function of a scene's method if a part has it, otherwise nothing."""
-    keys = scene.method.model_fields_set if isinstance(scene, Scene) and scene.method else ()
-    return [METHODS[key] for key in keys if key in METHODS]
+    method = getattr(scene, "method", None)
+    return STAGES[stage].follows and stage in getattr(method, "computes", STAGES)
 
 
 def upstream(stages: Iterable[str]) -> list[str]:

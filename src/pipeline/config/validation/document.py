@@ -10,11 +10,12 @@ import yaml
 from pydantic import create_model
 
 from ...command_list import all_commands
-from ...declaration import SRC, SourceError, files, imported, parts
+from ...declaration import SRC, SourceError, files, imported
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
+from ..schema.method import BLOCKS
 from ..schema.scene import Picture
 from ..schema.sets import MAIN, SETS, needs_main_alone
 from ..schema.variant import Variant
@@ -26,10 +27,6 @@ _AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_leng
 _VARIANTS = Annotated[
     dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
 ]
-# Key -> the class of a block of a part that is no scenes.
-BLOCKS: dict[str, type[Block]] = {
-    key: imported(place) for each in parts().values() for key, place in each.settings.items()
-}
 
 
 class _Document(Block):
@@ -76,7 +73,7 @@ def _located(path: Path, mistake: Mistake | str) -> str:
             name += f": line {found[-1]}"
             break
     owners = [each.command for n, each in SETS.items() if n != MAIN and each.key == key]
-    owners += [f"the part {n}" for n, part in parts().items() if key in part.settings]
+    owners += [f"the part {BLOCKS[key].__module__.split('.')[-2]}"] if key in BLOCKS else []
     of = "".join(f" (this concerns {each} alone)" for each in owners)
     return f"{name}: {mistake}{of}"
 
