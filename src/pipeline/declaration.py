@@ -86,7 +86,7 @@ class Command(NamedTuple):
     """
 
     line: str
-    arguments: Mapping[str, str | Mapping[str, Any]] = {}
+    arguments: Mapping[str, Any] = {}
     # It has a function run(args) -> exit status; by default the command's one in cli.commands.
     module: str = ""
     details: str = ""
@@ -104,6 +104,7 @@ SnakemakeCommand = partial(Command, runs_snakemake=True, module="pipeline.cli.co
 class Part(NamedTuple):
     """What a part adds, beside the files in its folder."""
 
+    package: str = ""  # of its folder, known when it is loaded
     needs: tuple[str, ...] = ()  # other parts without which its modules cannot be loaded
     stages: Mapping[str, Stage] = {}
     sets: Mapping[str, SceneSet] = {}  # by their folders in results/
@@ -116,12 +117,12 @@ class Part(NamedTuple):
 
 
 @cache
-def _declared() -> dict[str, tuple[str, Part]]:
-    """Map the name of each part, that of its folder, to its package and what it declares."""
+def _declared() -> dict[str, Part]:
+    """Map the name of each part, that of its folder, to what it declares."""
     found = {}
     for file in (*sorted(SRC.glob("*/part.py")), *sorted(SRC.glob("extensions/*/part.py"))):
         package = ".".join(file.parent.relative_to(SRC).parts)
-        found[file.parent.name] = package, imported(f"{package}.part.PART")
+        found[file.parent.name] = imported(f"{package}.part.PART")._replace(package=package)
     return found
 
 
@@ -131,8 +132,8 @@ def parts() -> dict[str, Part]:
     declared, found = _declared(), dict[str, Part]()
 
     def add(name: str) -> bool:
-        if name in declared and name not in found and all(map(add, declared[name][1].needs)):
-            _, found[name] = declared[name]
+        if name in declared and name not in found and all(map(add, declared[name].needs)):
+            found[name] = declared[name]
         return name in found
 
     for name in declared:
@@ -142,7 +143,7 @@ def parts() -> dict[str, Part]:
 
 def lacking(command: str) -> str | None:
     """Return a part that is not there and that a command needs, or None."""
-    for _, part in _declared().values():
+    for part in _declared().values():
         if command in part.commands:
             needed = (*part.needs, *part.commands[command].needs)
             return next((name for name in needed if name not in parts()), None)
@@ -168,6 +169,5 @@ def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]
 
 def files(name: str) -> dict[str, Path]:
     """Map the package of each part that has a file of this name to the file."""
-    packages = (_declared()[part][0] for part in parts())
-    found = ((each, SRC.joinpath(*each.split("."), name)) for each in packages)
-    return {package: file for package, file in found if file.is_file()}
+    found = {p.package: SRC.joinpath(*p.package.split("."), name) for p in parts().values()}
+    return {package: file for package, file in found.items() if file.is_file()}

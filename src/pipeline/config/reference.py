@@ -15,10 +15,9 @@ from ..declaration import RENEW, parts
 from .schema.fields import Block
 from .schema.kinds import KINDS
 from .schema.method import SETTINGS
-from .schema.scene import Scene
+from .schema.scene import Scene, Variant
 from .schema.sets import MAIN, SETS
 from .schema.stages import upstream
-from .schema.variant import Variant
 from .validation.document import Document, with_shipped
 from .validation.mistakes import allowed_at
 
@@ -77,7 +76,7 @@ def fields(part: str) -> str:
     shipped: Any = with_shipped({})
     scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
-    models = {**SETTINGS, "every scene": Scene, "a variant": Variant, **KINDS}
+    models: dict[str, Any] = {**SETTINGS, "every scene": Scene, "a variant": Variant, **KINDS}
     for title, model in models.items():
         of_all = model in (Scene, Variant)
         if not of_all and model.__module__.split(".")[-2] != part:

@@ -5,7 +5,7 @@ drawing results/VARIANT/figures/SCENE.png, where VARIANT may be a set of scenes.
 """
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import PurePath
@@ -16,7 +16,7 @@ from ..records.provenance import BuildSpec
 from .schema.fields import Block, YamlMapping
 from .schema.scene import Picture
 from .schema.sets import MAIN, PUBLISHED, SETS
-from .schema.stages import STAGES, function_of, takes_method, upstream
+from .schema.stages import STAGES, upstream
 
 SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results
 
@@ -74,7 +74,8 @@ class Config:
         """Yield the specifications of a scene's datasets and drawings."""
         scene, data = self.variants[variant][name], self.data_of(variant, name)
         for stage, parameters in stage_parameters(scene).items():
-            path, declared, function = data[stage], STAGES[stage], function_of(stage, scene)
+            path, declared = data[stage], STAGES[stage]
+            function = _of_method(scene).get(stage, declared.function)
             files = files_of(function, declared.reads.format(**parameters))
             inputs, label = [data[used] for used in declared.inputs], _label(path, name)
             spec = BuildSpec(path, label, stage, parameters, "stage", function, files, inputs)
@@ -107,13 +108,20 @@ class Config:
 
 def stage_parameters(scene: Picture) -> dict[str, YamlMapping]:
     """Map each stage of a scene to the fields of the scene that decide its data."""
-    parameters = {}
+    parameters, of_method = {}, _of_method(scene)
     for name in upstream(scene.stages):
-        method = ("method",) if takes_method(name, scene) else ()
+        # A scan decides all stages that follow orbits, a method of a part those that it computes.
+        decides = STAGES[name].follows and (not of_method or name in of_method)
+        method = ("method",) if decides else ()
         parameters[name] = scene.as_mapping(
             ("ball", "energy", *STAGES[name].fields.split(), *method)
         )
     return parameters
+
+
+def _of_method(scene: Picture) -> Mapping[str, str]:
+    """Return stage -> function that computes it by a scene's method, if that is one of a part."""
+    return getattr(getattr(scene, "method", None), "computes", {})
 
 
 def drawing(scene: Picture) -> YamlMapping:

@@ -148,11 +148,6 @@ class Axis(Block):
     ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
     """Positions of the tick marks and their labels, within the limits."""
 
-    def holds(self, value: float) -> bool:
-        """Return whether a value lies within the limits."""
-        low, high = self.limits
-        return low <= value <= high
-
 
 class Point(Block):
     """a mapping with the keys x and xdot, or x and y = xdot - k udot"""

@@ -20,27 +20,22 @@ class _Kinds(Mapping[str, type[Picture]]):
 
     def __getitem__(self, name: str) -> type[Picture]:
         while name not in self.loaded and self.packages:
-            self._load(self.packages.pop(0))
+            package = self.packages.pop(0)
+            for kind, value in declared_in(f"{package}.kinds").items():
+                if issubclass(value, Picture):
+                    module = sys.modules[value.__module__]
+                    template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
+                    value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
+                    value.reported_by = f"{value.drawn_by.rsplit('.', 2)[0]}.reports.{kind}"
+                    self.loaded[kind] = value
         return self.loaded[name]
 
     def __iter__(self) -> Iterator[str]:
-        while self.packages:
-            self._load(self.packages.pop(0))
+        self.get("")  # no kind, so that all are loaded
         return iter(self.loaded)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
-
-    def _load(self, package: str) -> None:
-        """Add the classes that a part declares."""
-        for kind, value in declared_in(f"{package}.kinds").items():
-            if issubclass(value, Picture):
-                module = sys.modules[value.__module__]
-                template = getattr(module, "DRAWN_BY", f"{package}.figures.{{}}.draw")
-                value.drawn_by = vars(value).get("drawn_by") or template.format(kind)
-                figures = value.drawn_by.rsplit(".", 2)[0]
-                value.reported_by = f"{figures}.reports.{kind}"
-                self.loaded[kind] = value
 
 
 KINDS = _Kinds()

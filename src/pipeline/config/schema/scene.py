@@ -1,4 +1,4 @@
-"""Pictures and scenes of config.yaml, and the groups of fields that kinds are made of.
+"""Pictures, scenes and variants of config.yaml.
 
 A kind of picture is one class in `kinds`, derived from these. Checks that need more than one field
 stand with the group. They compare numbers as the decimals that were written.
@@ -6,7 +6,7 @@ stand with the group. They compare numbers as the decimals that were written.
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pseudorigid.kernel.closed_forms import energy_bounds
 
@@ -61,7 +61,7 @@ class Picture(fields.Block):
         for name, axis in self.given_axes().items():
             low, high = axis.limits
             for tick in axis.ticks:
-                if low < high and not axis.holds(tick):
+                if low < high and not low <= tick <= high:
                     words = f"numbers within the limits {axis.limits}"
                     yield ("axes", name, "ticks"), tick, words
 
@@ -89,8 +89,49 @@ class Scene(Picture):
         if not self.ball.g < self.ball.k:
             yield ("ball", "g"), self.ball.g, f"0 < g < k = {self.ball.k}"
             return
-        yield from _energy_errors(self)
+        k, g = as_decimal(self.ball.k), as_decimal(self.ball.g)
+        lowest, highest = energy_bounds(k, g)
+        long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
+        names = ["energy", "energies"] + ["span"] * self.along_energy()
+        for place, energy in entries(self, *names):
+            if not as_decimal(energy) > lowest:
+                bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
+                yield place, energy, f"a number above {bound}"
+            elif not as_decimal(energy) < highest:
+                bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
+                yield place, energy, f"a number below {bound}"
+            elif not as_decimal(energy) <= long:
+                yield (
+                    place,
+                    energy,
+                    f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega",
+                )
         yield from super().cross_field_errors()
+
+
+class Variant(fields.Block):
+    """a mapping with the keys ball, energy, method, scenes and scale, or some of them"""
+
+    ball: fields.PartOfBall = ABSENT
+    """Replaces `k`, `g` or both in the ball of every scene."""
+    energy: fields.Energy = ABSENT
+    """Replaces the energy of every scene."""
+    method: Method = ABSENT
+    """Replaces the method of every scene."""
+    scale: float = allowed(
+        "a number from 1e-6 to 1e6, by which every length is multiplied",
+        default=ABSENT,
+        ge=1e-6,
+        le=1e6,
+    )
+    """Changes the unit of length. g, positions and velocities are multiplied by this number, and
+    energies by its square; times and exponents stay."""
+    scenes: Annotated[
+        dict[str, Annotated[fields.YamlMapping, allowed("a mapping with fields of the scene")]],
+        allowed("a mapping from names of scenes to the fields that differ"),
+    ] = ABSENT
+    """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
+    lists, numbers and texts are replaced."""
 
 
 def as_decimal(value: float) -> Fraction:
@@ -106,20 +147,3 @@ def entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...]
             yield from (((name, i), entry) for i, entry in enumerate(value))
         else:
             yield (name,), value
-
-
-def _energy_errors(scene: Scene) -> Iterator[CrossFieldError]:
-    """Yield energies without motion, with flights too long, or at which the ball could flatten."""
-    k, g = as_decimal(scene.ball.k), as_decimal(scene.ball.g)
-    lowest, highest = energy_bounds(k, g)
-    long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
-    names = ["energy", "energies"] + ["span"] * scene.along_energy()
-    for place, energy in entries(scene, *names):
-        if not as_decimal(energy) > lowest:
-            bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
-            yield place, energy, f"a number above {bound}"
-        elif not as_decimal(energy) < highest:
-            bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
-            yield place, energy, f"a number below {bound}"
-        elif not as_decimal(energy) <= long:
-            yield place, energy, f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"

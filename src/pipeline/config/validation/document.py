@@ -10,15 +10,14 @@ import yaml
 from pydantic import create_model
 
 from ...command_list import all_commands
-from ...declaration import SRC, SourceError, files, imported
+from ...declaration import ONLY_SET, SRC, SourceError, files, imported
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.method import BLOCKS
-from ..schema.scene import Picture
-from ..schema.sets import MAIN, SETS, needs_main_alone
-from ..schema.variant import Variant
+from ..schema.scene import Picture, Variant
+from ..schema.sets import MAIN, SETS
 from . import scenes
 from .mistakes import ConfigError, Mistake, refusal, validate
 
@@ -48,8 +47,8 @@ def load(path: str | Path) -> Config:
     """Return the checked config of a file with the shipped blocks; raise ConfigError."""
     path = Path(path)
     try:
-        document = _parse(path)
-        return check(document if needs_main_alone() else with_shipped(document))
+        document, alone = _parse(path), os.environ.get(ONLY_SET) == MAIN
+        return check(document if alone else with_shipped(document), alone)
     except ConfigError as error:
         raise ConfigError(*(_located(path, mistake) for mistake in error.mistakes)) from None
     except RecursionError:
@@ -94,8 +93,8 @@ def _lines_of(keys: Sequence[int | str], node: yaml.Node | None) -> Iterator[int
         yield at.start_mark.line + 1
 
 
-def check(given: object) -> Config:
-    """Return the complete config of a parsed YAML document.
+def check(given: object, main_alone: bool = False) -> Config:
+    """Return the complete config of a parsed YAML document, or the main set of scenes alone.
 
     Raises ConfigError with all mistakes.
     """
@@ -109,7 +108,7 @@ def check(given: object) -> Config:
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()
     for name, declared in SETS.items():
-        if name == MAIN or declared.key in mappings or not needs_main_alone():
+        if name == MAIN or declared.key in mappings or not main_alone:
             variants[name], more = _scenes_of_set(name, mappings, own_ball)
             mistakes += more
     if document and own_ball and not mistakes:
@@ -119,7 +118,7 @@ def check(given: object) -> Config:
             mistakes += more
     if mistakes or document is None:
         raise ConfigError(*dict.fromkeys(mistakes))
-    if needs_main_alone():
+    if main_alone:
         variants = {MAIN: variants[MAIN]}
     return Config(variants, left_out, {k: v for k, v in document if k in BLOCKS and v})
 

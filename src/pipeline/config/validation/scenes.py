@@ -15,15 +15,9 @@ from pydantic import create_model
 from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.scene import CompletionError, Picture, Scene, as_decimal
+from ..schema.scene import CompletionError, Picture, Scene, Variant, as_decimal
 from ..schema.sets import SETS
-from ..schema.variant import Variant
 from .mistakes import Mistake, Place, refusal, unknown, validate
-
-
-def reserved_names() -> list[str]:
-    """Return the names that a variant may not have: of other folders in results/."""
-    return [*SETS, *(folder for part in parts().values() for folder in part.folders)]
 
 
 def check_scene(
@@ -92,19 +86,16 @@ def derive_variant(
     the values that the variant gives for all scenes do not suit it. It is a mistake if they suit no
     scene, or if what the variant gives for the scene itself is wrong.
     """
-    place = ("variants", name)
-    if name in (reserved := reserved_names()):
+    place, changes, mistakes = ("variants", name), variant.scenes or {}, list[Mistake]()
+    reserved = [*SETS, *(folder for part in parts().values() for folder in part.folders)]
+    if name in reserved:
         words = f"a name other than {', '.join(reserved)}"
         return {}, {}, [refusal(place[:-1], name, words, key=name)]
-    mistakes: list[Mistake] = []
-    changes = variant.scenes or {}
     for scene, change in changes.items():
-        where = (*place, "scenes", scene)
+        where, picture = (*place, "scenes", scene), scenes.get(scene, change).get("picture")
         if scene not in scenes:
-            mistakes.append(Mistake(where, unknown("scene", scene, list(scenes))))
-            continue
-        picture = scenes[scene]["picture"]
-        if change.get("picture", picture) != picture:
+            mistakes.append(Mistake(where, unknown("scene", scene, scenes)))
+        elif change.get("picture", picture) != picture:
             words = f"{picture}, which a variant does not change"
             mistakes.append(refusal((*where, "picture"), change["picture"], words))
     if mistakes:
@@ -145,13 +136,13 @@ def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) ->
     kind = KINDS[block["picture"]]
     replaced = variant.as_mapping(("ball", "energy", "method")) if issubclass(kind, Scene) else {}
     if "method" in replaced:  # methods are replaced as a whole
-        block = {key: value for key, value in block.items() if key != "method"}
+        block = block | {"method": {}}
     derived: YamlMapping = _merge(_merge(block, replaced), change)
     framing = ("ball", "energy", *kind.axes_depend_on)
-    if variant.scale in (None, 1) and all(block.get(f) == derived.get(f) for f in framing):
-        return derived
-    derived.pop("axes", None)
-    return derived | {key: value for key, value in change.items() if key == "axes"}
+    if variant.scale not in (None, 1) or any(block.get(f) != derived.get(f) for f in framing):
+        derived.pop("axes", None)
+        derived |= {"axes": change["axes"]} if "axes" in change else {}
+    return derived
 
 
 def _merge(old: Any, new: Any) -> Any:
