@@ -3,7 +3,7 @@
 import xarray as xr
 from project import ROOT
 
-from pipeline.config.schema.stages import STAGES
+from pipeline.config.schema.declared import STAGES
 
 PAGE = "docs/data.md"
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Tag
 
 from pipeline.config.results import files_of
+from pipeline.config.schema.declared import STAGES
 from pipeline.config.schema.fields import (
     ABSENT,
     TAGS,
@@ -20,7 +21,6 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, as_decimal
-from pipeline.config.schema.stages import STAGES
 from pipeline.records.provenance import BuildSpec
 from pseudorigid.kernel.closed_forms import energy_bounds
 

@@ -13,10 +13,9 @@ from pathlib import PurePath
 from ..declaration import imported
 from ..records import sources
 from ..records.provenance import BuildSpec
+from .schema.declared import MAIN, PUBLISHED, SETS, STAGES, upstream
 from .schema.fields import Block, YamlMapping
 from .schema.scene import Picture
-from .schema.sets import MAIN, PUBLISHED, SETS
-from .schema.stages import STAGES, upstream
 
 SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results
 

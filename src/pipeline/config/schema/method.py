@@ -1,14 +1,12 @@
 """The methods of a scene: scan and bisection, and those of parts."""
 
 from collections.abc import Mapping
-from functools import reduce
-from operator import or_
 from typing import Annotated, Any
 
-from pydantic import Discriminator, Tag
+from pydantic import Discriminator
 
 from ...declaration import files
-from .fields import TAGS, Block, allowed, declared_in
+from .fields import FIRST, SECOND, TAGS, Block, allowed, declared_in
 
 
 class Scan(Block):
@@ -37,9 +35,9 @@ def _tag(value: Any) -> str:
     return TAGS[not _METHODS.keys().isdisjoint(keys)]
 
 
-_WORDS = ["a mapping with the keys scan and tolerance", *(f"{{{key}: true}}" for key in _METHODS)]
-_TAGGED = [
-    Annotated[each, Tag(tag)] for tag, each in zip(TAGS, (Scan, *_METHODS.values()), strict=False)
-]
-_UNION: Any = Annotated[reduce(or_, _TAGGED), Discriminator(_tag)] if _METHODS else Scan
-Method: Any = Annotated[_UNION, allowed(", or ".join(_WORDS))]
+_WORDS = ["a mapping with the keys scan and tolerance", *map("{{{}: true}}".format, _METHODS)]
+_BLOCKS: Any = Annotated[Scan, FIRST]
+for _block in _METHODS.values():
+    _BLOCKS |= Annotated[_block, SECOND]
+_BY_TAG = [Discriminator(_tag)] if _METHODS else []
+Method: Any = Annotated[_BLOCKS, *_BY_TAG, allowed(", or ".join(_WORDS))]

@@ -101,11 +101,8 @@ class Scene(Picture):
                 bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
                 yield place, energy, f"a number below {bound}"
             elif not as_decimal(energy) <= long:
-                yield (
-                    place,
-                    energy,
-                    f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega",
-                )
+                words = f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"
+                yield place, energy, words
         yield from super().cross_field_errors()
 
 

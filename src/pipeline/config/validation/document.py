@@ -14,33 +14,27 @@ from ...declaration import ONLY_SET, SRC, SourceError, files, imported
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
+from ..schema.declared import MAIN, SETS
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.method import BLOCKS
 from ..schema.scene import Picture, Variant
-from ..schema.sets import MAIN, SETS
 from . import scenes
 from .mistakes import ConfigError, Mistake, refusal, validate
 
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
-_AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_length=1)
 _VARIANTS = Annotated[
     dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
 ]
-
-
-class _Document(Block):
-    """a mapping with the keys ball and scenes"""
-
-    ball: BallBlock
-    scenes: dict[Name, Any] = _AT_LEAST_ONE
-    variants: _VARIANTS = {}
-
-
-_OF_PARTS: dict[str, Any] = {
+_AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_length=1)
+_FIELDS: dict[str, Any] = {
+    "ball": (BallBlock, ...),
+    "scenes": (dict[Name, Any], _AT_LEAST_ONE),
+    "variants": (_VARIANTS, {}),
     **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != MAIN},
     **{key: (block, ABSENT) for key, block in BLOCKS.items()},
 }
-Document = create_model("Document", __base__=_Document, __doc__=_Document.__doc__, **_OF_PARTS)
+_ABOUT = "a mapping with the keys ball and scenes"
+Document: Any = create_model("Document", __base__=Block, __doc__=_ABOUT, **_FIELDS)
 
 
 def load(path: str | Path) -> Config:
@@ -166,19 +160,14 @@ def with_shipped(document: object) -> object:
             raise SourceError(file, error) from None
         ball = parsed.pop("ball", None)
         for key, block in parsed.items():
-            own = ball if key != "variants" else None
-            scenes = {name: _with_ball(scene, own) for name, scene in block.items()}
-            shipped[key] = shipped.get(key, {}) | scenes
+            for name, scene in block.items() if ball and key != "variants" else ():
+                if isinstance(scene, dict) and "energy" in scene:  # it is of a ball's motion
+                    block[name] = {"ball": ball} | scene
+            shipped[key] = shipped.get(key, {}) | block
     variants = document.get("variants", {})
     if isinstance(variants, dict):
         document = document | {"variants": variants | shipped.pop("variants", {}) | variants}
     return shipped | document
-
-
-def _with_ball(scene: Any, ball: YamlMapping | None) -> Any:
-    """Return a scene with a ball, if there is one and it is a scene of a ball's motion."""
-    of_ball = ball and isinstance(scene, dict) and "energy" in scene
-    return {"ball": ball} | scene if of_ball else scene
 
 
 class _Loader(yaml.SafeLoader):

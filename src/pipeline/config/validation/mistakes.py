@@ -103,9 +103,7 @@ def allowed_at(model: type[Block], loc: Place) -> str:
     return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
 
 
-@cache
-def _schema(model: type[Block]) -> dict[str, Any]:
-    return model.model_json_schema()
+_schema = cache(lambda model: model.model_json_schema())  # of a type of block
 
 
 def _node(model: type[Block], loc: Place) -> dict[str, Any]:
