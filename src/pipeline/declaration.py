@@ -91,13 +91,13 @@ class Command(NamedTuple):
     module: str = ""
     details: str = ""
     runs_snakemake: bool = False
-    scenes: str = ""  # the set of scenes that it makes
     packages: str = ""  # a list in requirements/ that it installs first
     needs: tuple[str, ...] = ()  # other parts
     group: str = "parts"  # of the list of commands, one of command_list.GROUPS
 
 
-# Such a command also reads -n and --cores, and what follows -- goes to snakemake.
+# Such a command also reads -n and --cores, and what follows -- goes to snakemake. Without a module
+# of its own, it makes the set of scenes of its name.
 SnakemakeCommand = partial(Command, runs_snakemake=True, module="pipeline.cli.commands.figures")
 
 

@@ -22,7 +22,6 @@ PART = Part(
     commands={
         "study": SnakemakeCommand(
             "compare speed and accuracy of methods, in more_figures/study/",
-            scenes="study",
             packages="study",
             details="Installs the packages of the other methods first (once).",
         ),

@@ -6,18 +6,23 @@ _ANALYSES = "extensions.claims.analyses"
 PART = Part(
     needs=("paper", "proofs", "atlas", "families"),
     stages={
-        **{
-            name: Stage(f"{_ANALYSES}.{name}.{name}", fields)
-            for name, fields in {  # stage -> the fields of a scene that it takes
-                "spread": "orbits length blocks regular regular_impacts cells visits",
-                "clusters": "orbits impacts cuts lags resamples seed",
-                "rotation": "energies starts impacts detail detail_impacts",
-                "jumps": "energies sides",
-                "flux": "period distance grid orbits impacts",
-                "exclusion": "grid followed",
-                "control": "strengths orbits impacts period starts shown drawn resamples seed",
-            }.items()
-        },
+        "spread": Stage(
+            f"{_ANALYSES}.spread.spread",
+            "orbits length blocks regular regular_impacts cells visits",
+        ),
+        "clusters": Stage(
+            f"{_ANALYSES}.clusters.clusters", "orbits impacts cuts lags resamples seed"
+        ),
+        "rotation": Stage(
+            f"{_ANALYSES}.rotation.rotation", "energies starts impacts detail detail_impacts"
+        ),
+        "jumps": Stage(f"{_ANALYSES}.jumps.jumps", "energies sides"),
+        "flux": Stage(f"{_ANALYSES}.flux.flux", "period distance grid orbits impacts"),
+        "exclusion": Stage(f"{_ANALYSES}.exclusion.exclusion", "grid followed"),
+        "control": Stage(
+            f"{_ANALYSES}.control.control",
+            "strengths orbits impacts period starts shown drawn resamples seed",
+        ),
         "last_curve": Stage(  # computed by the atlas, drawn here
             "extensions.atlas.last_curve.last_curve", "nobles convergents between impacts drawn"
         ),

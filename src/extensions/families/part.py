@@ -25,7 +25,6 @@ PART = Part(
         "families": SnakemakeCommand(
             "follow periodic orbits from birth to end: more_figures/families/",
             details="Takes minutes; a killed search continues.",
-            scenes="families",
         ),
     },
 )

@@ -50,7 +50,7 @@ def prove_figures(checked: Config, progress: Callable[[str], None]) -> int:
     Raises ValueError if a result is missing.
     """
     freshness = Freshness(ROOT, checked.build_specs([MAIN]))
-    status, worst, sample = 0, 0.0, checked.blocks["prove"].as_mapping()["impacts"]  # of each
+    status, worst, sample = 0, 0.0, checked.document.prove.impacts  # of each
     for scene, block in checked.scenes.items():
         if why := freshness.refusal(drawn(scene, "png")):
             print(f"{scene} is left out, because it cannot exist: {why}")

@@ -9,12 +9,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import PurePath
+from typing import Any
 
 from ..declaration import imported
 from ..records import sources
 from ..records.provenance import BuildSpec
 from .schema.declared import MAIN, PUBLISHED, SETS, STAGES, upstream
-from .schema.fields import Block, YamlMapping
+from .schema.fields import YamlMapping
 from .schema.scene import Picture
 
 SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results
@@ -29,13 +30,13 @@ class Config:
     """A checked config, whose scenes are complete.
 
     `variants` has the sets of scenes and then the variants of the main set. `left_out` maps each of
-    these to the scenes that it cannot have, with the reasons. `blocks` are those of parts that are
-    no scenes, by their keys.
+    these to the scenes that it cannot have, with the reasons. `document` has the blocks of parts
+    that are no scenes.
     """
 
     variants: Variants
     left_out: dict[str, dict[str, str]]
-    blocks: dict[str, Block]
+    document: Any
 
     @property
     def scenes(self) -> dict[str, Picture]:
@@ -66,7 +67,10 @@ class Config:
         for variant in self.variants if names is None else names:
             for scene in self.variants[variant]:
                 for spec in self._specs_of(variant, scene):
-                    specs.setdefault(spec.result, spec)
+                    # Messages name the first variant that has a result, if it is no set.
+                    folder = PurePath(spec.result).parts[1]
+                    label = scene if folder in SETS else f"{folder}/{scene}"
+                    specs.setdefault(spec.result, spec._replace(scene=label))
         return specs
 
     def _specs_of(self, variant: str, name: str) -> Iterator[BuildSpec]:
@@ -76,14 +80,14 @@ class Config:
             path, declared = data[stage], STAGES[stage]
             function = _of_method(scene).get(stage, declared.function)
             files = files_of(function, declared.reads.format(**parameters))
-            inputs, label = [data[used] for used in declared.inputs], _label(path, name)
-            spec = BuildSpec(path, label, stage, parameters, "stage", function, files, inputs)
+            inputs = [data[used] for used in declared.inputs]
+            spec = BuildSpec(path, name, stage, parameters, "stage", function, files, inputs)
             yield from imported(declared.more)(self, scene, spec) if declared.more else [spec]
         inputs = [data[stage] for stage in scene.stages]
         for suffix in scene.formats:
             path, block, function = drawn(name, suffix, variant), drawing(scene), scene.drawn_by
             step, files = f"drawing {suffix}", files_of(function, program="draw")
-            yield BuildSpec(path, _label(path, name), step, block, "draw", function, files, inputs)
+            yield BuildSpec(path, name, step, block, "draw", function, files, inputs)
 
     def figures(self, variant: str = MAIN) -> dict[str, tuple[str, str]]:
         """Map each figure, where users find it, to its scene and its drawing.
@@ -98,11 +102,6 @@ class Config:
                     path = f"{PUBLISHED[variant]}/{name}.{suffix}"
                 found[path] = name, drawing_path
         return found
-
-    def data_only(self, variant: str) -> list[str]:
-        """Return the datasets of the scenes of a set that have no picture."""
-        scenes = [name for name, block in self.variants[variant].items() if not block.formats]
-        return [path for name in scenes for path in self.data_of(variant, name).values()]
 
 
 def stage_parameters(scene: Picture) -> dict[str, YamlMapping]:
@@ -159,12 +158,6 @@ def dataset_paths(variants: Variants) -> Datasets:
                 path = first_paths.setdefault(key, f"results/{variant}/{name}.nc")
                 paths[variant, scene, stage] = path
     return paths
-
-
-def _label(path: str, scene: str) -> str:
-    """Return a scene's name in messages, with the first variant that has a result of it."""
-    folder = PurePath(path).parts[1]
-    return scene if folder in SETS else f"{folder}/{scene}"
 
 
 def files_of(function: str, data: str = "", program: str = "stage") -> dict[str, str | None]:

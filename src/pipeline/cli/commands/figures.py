@@ -4,7 +4,7 @@ import os
 from contextlib import nullcontext
 from pathlib import PurePath
 
-from ...command_list import DEFAULT_COMMAND, all_commands
+from ...command_list import all_commands
 from ...config import MAIN, PUBLISHED
 from ...declaration import ONLY_SET
 from ...records.sources import ROOT
@@ -16,23 +16,20 @@ from ..lock import locked
 
 def run(args: Arguments) -> int:
     """Make the files that the command and its names select."""
-    command = all_commands().get(args.word or "", DEFAULT_COMMAND)
     if not (args.word or args.options):
         os.environ[ONLY_SET] = MAIN
         if not {*args.figure} <= {"all", *args.config.scenes}:
             del os.environ[ONLY_SET], args.config
     config = args.config
-    group, status = command.scenes, 0
-    data: list[str] = []
-    if group:
+    status, group = 0, args.word
+    if group in PUBLISHED:  # the command that makes these scenes has their name
         targets = {group: publishing.drawings_of(config, group)}
-        data = config.data_only(group)
     else:
         targets = _variant(args) if args.word else _named(args)
     # Plain -n reads only, also where nothing can be written.
     with nullcontext() if args.dry_run and not args.options else locked():
         for name, drawings in targets.items():
-            status = publishing.make(config, name, drawings, args, data) or status
+            status = publishing.make(config, name, drawings, args) or status
             if status == running.INTERRUPTED:
                 break
     return status

@@ -114,7 +114,7 @@ def check(given: object, main_alone: bool = False) -> Config:
         raise ConfigError(*dict.fromkeys(mistakes))
     if main_alone:
         variants = {MAIN: variants[MAIN]}
-    return Config(variants, left_out, {k: v for k, v in document if k in BLOCKS and v})
+    return Config(variants, left_out, document)
 
 
 def _scenes_of_set(
@@ -182,10 +182,12 @@ class _Loader(yaml.SafeLoader):
         for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
             if isinstance(key, yaml.ScalarNode):  # PyYAML itself refuses lists and mappings
                 if key.value in seen:
-                    raise _mistake(key, f"not valid YAML: the key {key.value} is given twice")
+                    raise _mistake(
+                        key.start_mark, f"not valid YAML: the key {key.value} is given twice"
+                    )
                 if key.tag.rpartition(":")[2] not in ("str", "merge"):
                     words = f"the key {key.value} is no text in YAML 1.1: write '{key.value}'"
-                    raise _mistake(key, words)
+                    raise _mistake(key.start_mark, words)
                 seen.add(key.value)
         return super().construct_mapping(node, deep)
 
@@ -194,14 +196,14 @@ class _Loader(yaml.SafeLoader):
         if node.tag.endswith((":int", ":float", ":bool")) and _MISLEADING.fullmatch(text):
             value = str(yaml.safe_load(text)).lower()
             words = f"{text} means {value} in YAML 1.1: write {value} or what you mean"
-            raise _mistake(node, f"{words}; a text is '{text}', in quotes")
+            raise _mistake(node.start_mark, f"{words}; a text is '{text}', in quotes")
         return text
 
 
-def _mistake(node: yaml.Node, words: str) -> ConfigError:
-    """Return the error of a mistake at a node."""
-    mark = node.start_mark
-    return ConfigError(f"line {mark.line + 1}, column {mark.column + 1}: {words}")
+def _mistake(mark: yaml.Mark | None, words: str) -> ConfigError:
+    """Return the error of a mistake, with its place if that is known."""
+    place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+    return ConfigError(f"{place}{words}")
 
 
 _MISLEADING = re.compile("(?i)yes|no|on|off|[-+]?0[0-7_]+|.*:.*")  # octal, and to base 60
@@ -218,9 +220,8 @@ def _parse(path: Path) -> object:
     try:
         return yaml.load(text, _Loader)
     except (yaml.YAMLError, ValueError) as error:  # ValueError: an impossible date
-        mark = getattr(error, "problem_mark", None)
-        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise ConfigError(f"{place}not valid YAML: {problem}") from None
+        mark = getattr(error, "problem_mark", None)
+        raise _mistake(mark, f"not valid YAML: {problem}") from None
     except (LookupError, AttributeError):  # raised by PyYAML for `!!bool x`
         raise ConfigError("not valid YAML: a value that is not what its !!tag says") from None

@@ -35,17 +35,12 @@ def check_scene(
         if "picture" not in given:
             return None, [Mistake(picture, f"missing: expected {words}")]
         return None, [refusal(picture, given["picture"], words)]
-    scene, mistakes = _read_scene(_with_ball(given, ball), place, others)
+    if ball and issubclass(KINDS[given["picture"]], Scene):
+        given = {"ball": ball} | given
+    scene, mistakes = _read_scene(given, place, others)
     errors = scene.cross_field_errors() if scene else ()
-    return scene, mistakes + [
-        refusal((*place, *at), value, allowed) for at, value, allowed in errors
-    ]
-
-
-def _with_ball(given: YamlMapping, ball: YamlMapping | None) -> YamlMapping:
-    """Return a scene with a ball, if there is one and the scene's kind has a ball."""
-    of_ball = ball and issubclass(KINDS[given["picture"]], Scene)
-    return {"ball": ball} | given if of_ball else given
+    mistakes += [refusal((*place, *at), value, allowed) for at, value, allowed in errors]
+    return scene, mistakes
 
 
 def _read_scene(
@@ -105,14 +100,13 @@ def derive_variant(
     unsuitable: dict[Mistake, list[str]] = {}
     for scene, given in scenes.items():
         change, where = changes.get(scene, {}), (*place, "scenes", scene)
-        block = _with_ball(given, ball)
-        merged, wrong = _read_scene(_merge_variant(block, variant, change), where, scenes)
+        merged, wrong = _read_scene(_merge_variant(given, ball, variant, change), where, scenes)
         mistakes += wrong
         if merged is None:
             continue
         errors = [*merged.cross_field_errors()]
         # Its own errors are in fields that the variant changes for it, or that had none before.
-        unchanged, _ = _read_scene(_merge_variant(block, variant, {}), where, scenes)
+        unchanged, _ = _read_scene(_merge_variant(given, ball, variant, {}), where, scenes)
         before = {at[0] for at, *_ in unchanged.cross_field_errors()} if unchanged else set()
         own = [error for error in errors if error[0][0] not in before - change.keys()]
         for at, value, allowed in own or errors:
@@ -123,18 +117,20 @@ def derive_variant(
             left_out[scene] = f"left out: {refusal(*errors[0])}"
         else:
             derived[scene] = _scaled(merged, variant.scale or 1)
-    if not derived:
-        mistaken |= unsuitable
-    for mistake, names in mistaken.items():
+    for mistake, names in (mistaken if derived else mistaken | unsuitable).items():
         more = f", for {', '.join(names)}" if names else ""
         mistakes.append(mistake._replace(words=mistake.words + more))
     return derived, left_out, mistakes
 
 
-def _merge_variant(block: YamlMapping, variant: Variant, change: YamlMapping) -> YamlMapping:
-    """Merge a variant's values into a scene's block, which includes its ball."""
-    kind = KINDS[block["picture"]]
-    replaced = variant.as_mapping(("ball", "energy", "method")) if issubclass(kind, Scene) else {}
+def _merge_variant(
+    block: YamlMapping, ball: YamlMapping, variant: Variant, change: YamlMapping
+) -> YamlMapping:
+    """Merge a variant's values into a scene's block, to which its ball is added."""
+    kind, replaced = KINDS[block["picture"]], YamlMapping()
+    if issubclass(kind, Scene):
+        block = {"ball": ball} | block
+        replaced = variant.as_mapping(("ball", "energy", "method"))
     if "method" in replaced:  # methods are replaced as a whole
         block = block | {"method": {}}
     derived: YamlMapping = _merge(_merge(block, replaced), change)
@@ -158,8 +154,7 @@ def _scaled(scene: Picture, scale: float) -> Picture:
         return scene
     ball = scene.ball.model_copy(update={"g": _times(scene.ball.g, scale)})
     scaled: YamlMapping = {"ball": ball}
-    energies = ["energy", "energies", "marks"] + ["span", "step"] * scene.along_energy()
-    for name in energies:
+    for name in ["energy", "energies", "marks"] + ["span", "step"] * scene.along_energy():
         if (value := getattr(scene, name, None)) is not None:
             scaled[name] = _times(value, scale, scale)
     starts = getattr(scene, "starts", None)  # or their number
