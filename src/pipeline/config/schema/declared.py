@@ -1,8 +1,9 @@
-"""The stages and the sets of scenes that parts declare."""
+"""The stages, sets of scenes, blocks and methods that parts declare."""
 
 from collections.abc import Iterable
 
-from ...declaration import SceneSet, Stage, parts
+from ...declaration import SceneSet, Stage, files, parts
+from .fields import Block, declared_in
 
 STAGES: dict[str, Stage] = {}
 SETS: dict[str, SceneSet] = {}  # by their folders in results/
@@ -12,6 +13,11 @@ for _part in parts().values():
 # The set whose scenes are those of the key `scenes`, which ./reproduce makes and variants change.
 MAIN = next(name for name, each in SETS.items() if each.key == "scenes")
 PUBLISHED = {name: each.folder for name, each in SETS.items() if each.folder}
+SETTINGS: dict[str, type[Block]] = {}  # by keys of config.yaml, or of a scene's `method`
+for _package in files("settings.py"):
+    SETTINGS |= declared_in(f"{_package}.settings")
+METHODS = {key: each for key, each in SETTINGS.items() if hasattr(each, "computes")}
+BLOCKS = {key: each for key, each in SETTINGS.items() if key not in METHODS}
 
 
 def upstream(stages: Iterable[str]) -> list[str]:

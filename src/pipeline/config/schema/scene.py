@@ -1,4 +1,4 @@
-"""Pictures, scenes and variants of config.yaml.
+"""Pictures, scenes, their methods, and variants of config.yaml.
 
 A kind of picture is one class in `kinds`, derived from these. Checks that need more than one field
 stand with the group. They compare numbers as the decimals that were written.
@@ -8,11 +8,13 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar, Self
 
+from pydantic import Discriminator
+
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 from . import fields
+from .declared import METHODS
 from .fields import ABSENT, allowed
-from .method import Method
 
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
 # 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.
@@ -21,6 +23,32 @@ LONGEST_FLIGHT = 1_000_000
 
 class CompletionError(Exception):
     """A shorthand that cannot be written out; the arguments are those of a CrossFieldError."""
+
+
+class Scan(fields.Block):
+    """a mapping with the keys scan and tolerance"""
+
+    scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
+    """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected, for
+    instance 0.1. A smaller one misses fewer impacts; a ball whose impact is missed falls through
+    the floor."""
+    tolerance: float = allowed("a number from 1e-15 to 0.001", ge=1e-15, le=0.001)
+    """Width in time, in 1/omega, at which bisection ends. 1.0e-12 leaves little but rounding, and
+    scenes with manifolds allow no more."""
+
+
+def _tag(value: Any) -> str:
+    """Return the tag of the method whose block or mapping a value is meant to be."""
+    keys = value if isinstance(value, Mapping) else getattr(value, "model_fields_set", ())
+    return fields.TAGS[not METHODS.keys().isdisjoint(keys)]
+
+
+_WORDS = ["a mapping with the keys scan and tolerance", *map("{{{}: true}}".format, METHODS)]
+_EITHER: Any = Annotated[Scan, fields.FIRST]
+for _block in METHODS.values():
+    _EITHER |= Annotated[_block, fields.SECOND]
+_BY_TAG = [Discriminator(_tag)] if METHODS else []
+Method: Any = Annotated[_EITHER, *_BY_TAG, allowed(", or ".join(_WORDS))]
 
 
 class Picture(fields.Block):
