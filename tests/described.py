@@ -3,7 +3,7 @@
 import xarray as xr
 from project import ROOT
 
-from pipeline.config.schema.declared import STAGES
+from pipeline.config.schema.parts import STAGES
 
 PAGE = "docs/data.md"
 

@@ -14,8 +14,8 @@ from legible import assert_legible
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts, reported
 from pipeline.config import ConfigError, check
-from pipeline.config.schema.declared import STAGES, upstream
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.parts import STAGES, upstream
 from pipeline.declaration import files
 from pseudorigid import Ball
 from pseudorigid.figures.axes.panel import Panel

@@ -13,7 +13,7 @@ from pathlib import Path
 import yaml
 
 from pipeline.config import MAIN
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.records import sources
 from pipeline.records.files import write_whole
 from pipeline.records.provenance import git

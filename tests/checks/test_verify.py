@@ -21,7 +21,7 @@ from pipeline.checks.published_sets import committed_sets, edited_lists
 from pipeline.checks.verify import inspect
 from pipeline.cli import arguments
 from pipeline.cli.table import WHAT_TO_DO
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.records import pictures
 from pipeline.records.provenance import public_record
 from pipeline.records.sources import syntax_hash

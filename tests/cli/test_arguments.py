@@ -11,7 +11,7 @@ from project import run
 
 from pipeline.cli import arguments
 from pipeline.command_list import all_commands
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.declaration import parts
 
 

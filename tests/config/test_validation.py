@@ -14,7 +14,7 @@ from project import SHIPPED, run, shipped
 from random_documents import FUZZ, JSON, edited, spoilt
 
 from pipeline import config
-from pipeline.config.schema.declared import MAIN, SETS
+from pipeline.config.schema.parts import MAIN, SETS
 from pipeline.config.validation import document
 from pipeline.declaration import ONLY_SET
 

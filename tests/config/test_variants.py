@@ -6,7 +6,7 @@ from project import shipped
 
 from pipeline import config
 from pipeline.config.results import dataset_paths
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 
 NO_SCENE_FITS = {"ball": {"g": 0.0995}}  # energies 0.001 and 0.01 are too high for it
 

@@ -8,7 +8,7 @@ import xarray as xr
 from described import PAGE, assert_described, assert_describes_itself, stages_of
 from test_documents import blocks, text_of
 
-from pipeline.config.schema.declared import STAGES
+from pipeline.config.schema.parts import STAGES
 from pipeline.records import artifacts
 from pseudorigid import Ball, lyapunov_spectrum, orbit, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.orbits import scene_orbits

@@ -17,8 +17,8 @@ from test_style import pins
 
 from pipeline.command_list import COMMANDS
 from pipeline.config.schema import scene
-from pipeline.config.schema.declared import SETS, SETTINGS
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.parts import SETS, SETTINGS
 from pipeline.declaration import files, parts
 from pipeline.records.sources import source_files
 

@@ -12,8 +12,8 @@ from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
 from pipeline.config import load
-from pipeline.config.schema.declared import STAGES
 from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.parts import STAGES
 from pipeline.declaration import parts
 from pipeline.records.provenance import spec_path
 

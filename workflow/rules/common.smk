@@ -10,7 +10,7 @@ from shlex import quote
 
 from pipeline.config import ConfigError, load
 from pipeline.config.schema.kinds import KINDS
-from pipeline.config.schema.declared import STAGES
+from pipeline.config.schema.parts import STAGES
 from pipeline.declaration import SourceError, parts
 from pipeline.records.files import FileError
 from pipeline.records.provenance import Freshness, log_path, record_path, spec_path

@@ -10,7 +10,7 @@ from pipeline.cli.errors import CommandLineError, UsageError, one_line, print_er
 from pipeline.cli.lock import locked
 from pipeline.cli.packages import add_packages
 from pipeline.cli.running import INTERRUPTED, interruptible
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.declaration import ONLY_SET
 from pipeline.records.sources import ROOT
 

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Tag
 
 from pipeline.config.results import files_of
-from pipeline.config.schema.declared import STAGES
 from pipeline.config.schema.fields import (
     ABSENT,
     TAGS,
@@ -20,6 +19,7 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
+from pipeline.config.schema.parts import STAGES
 from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, as_decimal
 from pipeline.records.provenance import BuildSpec
 from pseudorigid.kernel.closed_forms import energy_bounds

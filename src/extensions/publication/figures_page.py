@@ -15,7 +15,7 @@ from pipeline.checks import manifest, published_sets
 from pipeline.checks.captions import Caption, caption_of
 from pipeline.checks.published_sets import MANIFEST, PublishedSet
 from pipeline.config import MAIN, load
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.declaration import RENEW
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT

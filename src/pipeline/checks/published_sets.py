@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..config import MAIN, Config
 from ..config.results import SHOWN, drawn, is_measured
-from ..config.schema.declared import PUBLISHED, SETS
+from ..config.schema.parts import PUBLISHED, SETS
 from ..records.files import ABSENT, file_hash, read_text
 from ..records.provenance import BuildSpec, git, git_refuses, with_dependencies
 

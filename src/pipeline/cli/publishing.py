@@ -7,7 +7,7 @@ from pathlib import PurePath
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, unknown
 from ..config.results import drawn
-from ..config.schema.declared import PUBLISHED
+from ..config.schema.parts import PUBLISHED
 from ..records.files import FileError, read_bytes, why_not_a_file, write_whole
 from ..records.provenance import (
     MISSING,

@@ -5,7 +5,7 @@ value and what is allowed. Every command imports this package, so importing it m
 """
 
 from .results import Config
-from .schema.declared import MAIN, PUBLISHED
+from .schema.parts import MAIN, PUBLISHED
 from .validation.document import check, load
 from .validation.mistakes import ConfigError, unknown
 

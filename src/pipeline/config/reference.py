@@ -12,9 +12,9 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 
 from ..declaration import RENEW, parts
-from .schema.declared import MAIN, SETS, SETTINGS, upstream
 from .schema.fields import Block
 from .schema.kinds import KINDS
+from .schema.parts import MAIN, SETS, SETTINGS, upstream
 from .schema.scene import Scene, Variant
 from .validation.document import Document, with_shipped
 from .validation.mistakes import allowed_at

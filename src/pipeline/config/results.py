@@ -14,8 +14,8 @@ from typing import Any
 from ..declaration import imported
 from ..records import sources
 from ..records.provenance import BuildSpec
-from .schema.declared import MAIN, PUBLISHED, SETS, STAGES, upstream
 from .schema.fields import YamlMapping
+from .schema.parts import MAIN, PUBLISHED, SETS, STAGES, upstream
 from .schema.scene import Picture
 
 SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results

@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 from extensions.proofs.derivations import FORMULAS
 from extensions.proofs.kinds import theorems
 from pipeline.config import ConfigError
-from pipeline.config.schema.declared import STAGES
+from pipeline.config.schema.parts import STAGES
 from pipeline.config.validation.mistakes import dotted
 from pipeline.spelling import suggestion
 

@@ -18,7 +18,7 @@ from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import measured
 from pipeline.config import MAIN, Config
 from pipeline.config.results import drawn
-from pipeline.config.schema.declared import SETS
+from pipeline.config.schema.parts import SETS
 from pipeline.records.artifacts import load
 from pipeline.records.files import read_text
 from pipeline.records.provenance import CURRENT, Freshness, read_record, record_path

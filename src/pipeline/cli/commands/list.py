@@ -5,7 +5,7 @@ from pathlib import PurePath
 
 from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
-from ...config.schema.declared import SETS
+from ...config.schema.parts import SETS
 from ...records.differences import differing_layers
 from ...records.provenance import CURRENT, MISSING, Freshness
 from ...records.sources import ROOT

@@ -13,8 +13,8 @@ from pydantic import Discriminator
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 from . import fields
-from .declared import METHODS
 from .fields import ABSENT, allowed
+from .parts import METHODS
 
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
 # 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.

@@ -14,8 +14,8 @@ from ...declaration import ONLY_SET, SRC, SourceError, files, imported
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
-from ..schema.declared import BLOCKS, MAIN, SETS
 from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
+from ..schema.parts import BLOCKS, MAIN, SETS
 from ..schema.scene import Picture, Variant
 from . import scenes
 from .mistakes import ConfigError, Mistake, refusal, validate

@@ -13,9 +13,9 @@ from typing import Any
 from pydantic import create_model
 
 from ...declaration import parts
-from ..schema.declared import SETS
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
+from ..schema.parts import SETS
 from ..schema.scene import CompletionError, Picture, Scene, Variant, as_decimal
 from .mistakes import Mistake, Place, refusal, unknown, validate
 

@@ -1,4 +1,4 @@
-"""The stages, sets of scenes, blocks and methods that parts declare."""
+"""What parts declare: stages, sets of scenes, and blocks of config.yaml, among them methods."""
 
 from collections.abc import Iterable
 
