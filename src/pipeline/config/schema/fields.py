@@ -9,7 +9,6 @@ A checked config has these models. `Block.as_mapping` makes what is recorded of 
 import importlib
 import re
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import pydantic
@@ -91,7 +90,7 @@ def distinct(items: Sequence[Any]) -> bool:
 
 def rising(numbers: Sequence[float]) -> bool:
     """Return whether each number is above the one before."""
-    return all(a < b for a, b in pairwise(numbers))
+    return [*numbers] == sorted(set(numbers))
 
 
 NOT_EMPTY = Predicate(lambda block: bool(block.model_fields_set))  # of a block with optional fields

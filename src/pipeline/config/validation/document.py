@@ -111,9 +111,7 @@ def check(given: object, main_alone: bool = False) -> Config:
             mistakes += more
     if mistakes or document is None:
         raise ConfigError(*dict.fromkeys(mistakes))
-    if main_alone:
-        variants = {MAIN: variants[MAIN]}
-    return Config(variants, left_out, document)
+    return Config({MAIN: variants[MAIN]} if main_alone else variants, left_out, document)
 
 
 def _scenes_of_set(
