@@ -9,17 +9,26 @@ from legible import assert_legible, frames_of, pixels_in_frames
 from project import shipped
 from sections import BALL
 
+from extensions.proofs import part
 from extensions.proofs.figures.escape import draw as draw_escape
 from extensions.proofs.figures.twist import draw
 from extensions.proofs.theorems.scenes import scene_horseshoe
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import hidden
+from pipeline.config.results import files_of
+from pipeline.config.schema.parts import STAGES
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.figures.canvas import style
 
 MARKS = {"marks": []}
+
+
+def test_a_stage_that_can_read_certificates_says_so():
+    reader = "src/extensions/proofs/theorems/statements.py"
+    stages = [stage for stage in STAGES.values() if reader in files_of(stage.function)]
+    assert stages and all(stage.reads.startswith(part.CERTIFICATES) for stage in stages)
 
 
 @pytest.mark.parametrize(("kind", "at_bound", "beyond", "line"), [
