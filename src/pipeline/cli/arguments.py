@@ -167,12 +167,10 @@ def _parser(name: str | None) -> _Parser:
         parser.add_argument(
             "-c", "--cores", type=_number_of_cores, default="all", metavar="N", help=text
         )
-    usage = parser.format_usage().partition(": ")[2].strip()
-    for metavar in [
-        command.arguments[key]["metavar"] for key in REQUIRED if key in command.arguments
-    ]:
-        usage = usage.replace(f"[{metavar}]", metavar)
-    parser.usage = usage
+    parser.usage = parser.format_usage().partition(": ")[2].strip()
+    for key, how in command.arguments.items():
+        if key in REQUIRED:
+            parser.usage = parser.usage.replace(f"[{how['metavar']}]", how["metavar"])
     return parser
 
 
