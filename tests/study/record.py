@@ -5,14 +5,12 @@
     .venv/bin/python tests/study/record.py search      # states at which methods fail, five minutes
     .venv/bin/python tests/study/record.py flights     # misses among 1e9 flights, half an hour
     .venv/bin/python tests/study/record.py times       # seconds of flights, three minutes
-    .venv/bin/python tests/study/record.py trials      # forms that were tried and were worse
 
 Each was run once, on one core. recorded.json names the processor and the versions of packages, and
 tests compute a part of it again.
 """
 
 import json
-import math
 import sys
 import time
 from collections.abc import Callable
@@ -20,12 +18,11 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.variables import of_rows
 from pseudorigid.kernel.arithmetic import sincos_each
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
-from study import measured, stages, states
+from study import measured, stages
 from study.measured import machine
-from study.methods import Method, libraries
+from study.methods import libraries
 from study.methods.counted_methods import BEST_SCAN, CAREFUL_SCANS, INFLECTIONS, METHODS, OURS
 from study.states import BALL
 
@@ -151,31 +148,6 @@ def times() -> dict[str, xr.Dataset]:
     return {"times": data.drop_attrs(deep=False)}
 
 
-def trials() -> dict[str, xr.Dataset]:
-    """Count the grazing states at which careful methods fail without a part of their care."""
-    rows: list[tuple[str, int, int]] = []
-
-    def count(name: str, method: Method, columns: np.ndarray) -> None:
-        wrong = int(stages.wrong_roots([method], columns).sum())
-        rows.append((name, columns.shape[1], wrong))
-        print(*rows[-1])
-
-    for chooses, text in ((("LSODA",), "its own first step"), ((), "our first step")):
-        libraries._CHOOSES_FIRST_STEP = chooses
-        for rtol in libraries.RTOLS["LSODA"]:
-            method = libraries.ivp_method("LSODA", rtol)
-            count(f"{method.name}, {text}", method, states.grazing(500))
-    method = libraries.taylor_method(1e-15)
-    for near, text in ((libraries._NEAR, "a first call"), (math.inf, "no first call")):
-        libraries._NEAR = near
-        for exponent in (10, 11, 12):
-            name = f"{method.name}, {text}, x > -g, s = 1e-{exponent}"
-            count(name, method, states.grazing_at(exponent, 1, 200))
-    names = {"trial": ("trial", "what was tried"), "tried_states": ("trial", "states")}
-    names |= {"wrong_states": ("trial", "wrong roots")}
-    return {"trials": xr.Dataset(of_rows(names, rows))}
-
-
 def _before(x: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
     """Return the states before impacts after which the velocities are b, c."""
     xdot, udot, _ = rebound(b, c, BALL.k, impact_coefficients(BALL.k))  # the law is an involution
@@ -183,8 +155,7 @@ def _before(x: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    parts = {"libraries": libraries_recorded, "search": search, "flights": flights}
-    parts |= {"trials": trials, "times": times}
+    parts = {"libraries": libraries_recorded, "search": search, "flights": flights, "times": times}
     start = time.process_time()
     made = parts[sys.argv[1]]()
     done = machine() | {"seconds": str(round(time.process_time() - start))}

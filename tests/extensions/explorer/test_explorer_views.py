@@ -14,7 +14,7 @@ from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.dynamics.variables import of_type
 
-slow = pytest.mark.slow  # they see no figure
+pytestmark = pytest.mark.slow  # they see no figure
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
 TOUR = json.loads((page.WEB / "tour.json").read_text("utf-8"))
 
@@ -28,13 +28,6 @@ def differing(one, other):
     return np.mean(np.any(one != other, axis=2))
 
 
-def test_the_tour_has_six_steps_of_two_sentences():
-    assert len(TOUR) == 6
-    for step in TOUR:
-        assert len(re.findall(r"[.?!](?:\s|$)", step["text"])) == 2
-
-
-@slow
 def test_the_tour_goes_on_and_back_and_ends(person):
     person.press("tour-start")
     for number, step in enumerate(TOUR, 1):
@@ -50,7 +43,6 @@ def test_the_tour_goes_on_and_back_and_ends(person):
     assert person.state()["tour"] == "5"
 
 
-@slow
 @pytest.mark.parametrize("way", ["box", "wheel", "keys"])
 def test_a_window_fills_itself_after_a_zoom_and_again_from_its_address(person, way):
     person.open(DISK)
@@ -76,13 +68,11 @@ def test_a_window_fills_itself_after_a_zoom_and_again_from_its_address(person, w
     assert "fill" not in person.state()
 
 
-@slow
 def test_a_window_to_which_no_orbit_returns_says_so(person):
     person.open("view=disk,115,40,0.3,0.2,1e-12&fill=1")
     assert "too rarely" in note(person, "orbits began")
 
 
-@slow
 def test_impacts_that_are_not_kept_are_drawn_and_saved_again(person):
     person.open(f"{DISK}&orbits=0.534522*120000&chosen=0")
     drawn = person.pixels()
@@ -95,7 +85,6 @@ def test_impacts_that_are_not_kept_are_drawn_and_saved_again(person):
     assert [float(last[n]) for n in ("x", "xdot", "udot", "tau")] == np.ravel(expected).tolist()
 
 
-@slow
 def test_the_section_in_colour_follows_the_energy_and_has_the_share_of_the_map(person):
     person.open(f"{DISK}&map=verdict")
     share = float(re.search(r"regular ([\d.]+) %", note(person, "200 × 200 orbits:"))[1])
@@ -114,7 +103,6 @@ def test_the_section_in_colour_follows_the_energy_and_has_the_share_of_the_map(p
     assert "map" not in person.state() and person.text("map-note") == ""
 
 
-@slow
 def test_play_e_raises_the_energy_and_is_undone_at_once(person):
     person.open(f"E=-0.003&{DISK}&map=exponent")
     person.press("play-energy")
@@ -127,7 +115,6 @@ def test_play_e_raises_the_energy_and_is_undone_at_once(person):
     wait_for(lambda: person.state()["E"] == "-0.003")
 
 
-@slow
 def test_a_click_on_a_mark_names_the_orbit_and_its_branches_grow(person):
     saddle = of_type(symmetric_orbits(BALL, ENERGY, 6), "hyperbolic").isel(point=0)
     centre, radius, height = BALL.section(ENERGY)[0], BALL.section(ENERGY)[1], np.sqrt(0.24)
@@ -145,14 +132,12 @@ def test_a_click_on_a_mark_names_the_orbit_and_its_branches_grow(person):
     assert person.text("branch-note") == traced  # not traced again
 
 
-@slow
 def test_the_orbit_under_the_pointer_is_named(person):
     person.open(f"{DISK}&orbits=0.534522*2000;-0.2*2000")
     person.pointer(person.spot(-0.2)).perform()
     wait_for(lambda: "orbit 2: regular, rotation number 0.176" in person.text("where"))
 
 
-@slow
 def test_families_have_the_energy_at_which_the_islands_are_born(person):
     person.open(f"{DISK}&periods=6&chart=families")
     ends = "return [...document.querySelectorAll('#families button')].map(b => b.textContent)"
@@ -164,7 +149,6 @@ def test_families_have_the_energy_at_which_the_islands_are_born(person):
     assert float(person.state()["E"]) == pytest.approx(birth, rel=1e-4)
 
 
-@slow
 def test_messages_end_and_an_address_says_what_it_leaves_out(person):
     person.open("&".join([DISK, "orbits=" + ";".join(["0.5*10"] * 70)]))
     assert "last 6 orbits" in person.text("hint")
@@ -175,7 +159,6 @@ def test_messages_end_and_an_address_says_what_it_leaves_out(person):
     assert "Drag a box" not in person.text("hint")
 
 
-@slow
 def test_pictures_offer_their_variants(person):
     options = "return [...document.getElementById(args[0]).options].map(o => o.value)"
     assert len(person.run(options, "preset")) <= 21  # with one's own
@@ -187,7 +170,6 @@ def test_pictures_offer_their_variants(person):
     assert not person.find("variant").is_displayed()
 
 
-@slow
 def test_pressed_buttons_stand_out_in_forced_colours(person):
     media = {"features": [{"name": "forced-colors", "value": "active"}]}
     person.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", media)

@@ -34,12 +34,7 @@ return orbits.map(({{ x, facts }}) => [[...x], facts.verdict]);"""
 def test_pixels_have_the_pipeline_s_exponents_rotation_numbers_and_verdicts(browser, k, g, energy):
     places = np.random.default_rng(5).uniform(-0.7, 0.7, (100, 2))
     # Along the rim, where a turn takes long, and where the growth is near the threshold.
-    places[:4] = [
-        [0.9999999, 0],
-        [0.175555, -0.033553],
-        [-0.05841, 0.32319],
-        [-0.360426, -0.503227],
-    ]
+    places[:4] = [0.9999999, 0], [0.175555, -0.033553], [-0.05841, 0.32319], [-0.360426, -0.503227]
     states, *found = browser.run(PIXELS, k, g, energy, places.ravel().tolist())
     ball, states = Ball(k, g), np.array(states).T
     exponents, rotations, verdicts = found
@@ -61,11 +56,7 @@ def test_an_orbit_that_fills_a_window_has_all_its_impacts_there(browser):
     ball, energy = Ball(0.2, 0.04), 0.01
     centre, radius = ball.section(energy)[:2]
     window = {"x": [centre - radius, centre], "y": [-0.05, 0.05]}
-    places = [
-        [-0.4, 0],
-        [0.534522, 0],
-        [-0.326707, 0.552701],
-    ]  # the last one looks regular at first
+    places = [-0.4, 0], [0.534522, 0], [-0.326707, 0.552701]  # the last one looks regular at first
     found = browser.run(FILL, 0.2, 0.04, energy, places, window)
     (island, sea, _), verdicts = zip(*found, strict=True)
     assert verdicts == ("regular", "chaotic", "chaotic")
