@@ -1,6 +1,7 @@
 """Pseudo-arclength continuation follows curves that have a closed form."""
 
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -149,6 +150,20 @@ def test_a_jump_of_the_equation_is_no_solution():
     assert solve_at(Plane(lambda q, p: (q * q + 1.0, 2.0 * q, 0.0)), (0.3, 0.0), 1.0) is None
     far = Plane(lambda q, p: (q - 1.0, 1.0, 0.0))
     assert solve_at(far, (0.0, 0.0), 0.4) is None and solve_at(far, (0.0, 0.0), 0.6).q == 1.0
+
+
+@pytest.mark.parametrize(("drop", "equations"), [(0.09, 2), (0.11, 2), (0.09, 1)])
+def test_a_defect_that_falls_to_a_tenth_is_progress_with_two_equations(drop, equations):
+    """Newton's steps have the length 1 until the last one."""
+    defects, rows = iter([drop, drop**2, drop**3, 0.0]), np.eye(equations + 1)
+
+    def point(place):
+        h = next(defects)
+        gradients = ((h or 1.0) * rows[0], *rows[1:-1])
+        return Point(place, (h, 0.0)[:equations], gradients, np.empty(0), (), None)
+
+    found = curve.correct(SimpleNamespace(scale=1.0, point=point), tuple(rows[0]), rows[-1], 2.0)
+    assert (found is not None) == ((drop, equations) == (0.09, 2))
 
 
 @pytest.mark.parametrize("p", [0.3, 0.25, -0.7])
