@@ -5,21 +5,17 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-import mpmath
 import numpy as np
 import pytest
 from certificates import told
 from flint import acb, arb, ctx
-from independent_solver import exact_map
-from sections import sea
 
 from extensions.proofs import Surface, proved_impacts
 from extensions.proofs.enclosure import jets, surface
 from extensions.proofs.enclosure.jets import Jet, algebra, square_root
 from extensions.proofs.enclosure.surface import ball_of, exact
-from pseudorigid.dynamics.variables import chart
 from pseudorigid.verified import reference_solver
-from pseudorigid.verified.flight import UndecidedError, launch
+from pseudorigid.verified.flight import launch
 
 PAPER, K, G = Surface("1/5", "1/25", "1/100"), Fraction(1, 5), Fraction(1, 25)
 OPERATIONS = {
@@ -166,31 +162,6 @@ def test_a_fraction_lies_in_its_ball_and_comes_back_from_its_midpoint(text):
             middle, radius = surface.fraction_of(ball), surface.fraction_of(arb(ball.rad()))
             assert abs(middle - value) <= radius <= abs(value) / 2 ** (bits - 2)
             assert jets.intersection(acb(ball), acb(arb(ball.mid(), 1))).real.contains(ball)
-
-
-def test_a_box_encloses_the_images_and_derivatives_of_its_points():
-    random = np.random.default_rng(8)
-    for x, y in chart(0.2, *sea(40)).T:
-        try:
-            rows, image = PAPER.jacobian(arb(x, 1e-4), arb(y, 1e-4))
-        except UndecidedError:
-            continue
-        for dx, dy in random.uniform(-1e-4, 1e-4, (5, 2)):
-            inner, point = PAPER.jacobian(arb(x + dx), arb(y + dy))
-            assert all(outer.contains(part) for outer, part in zip(image, point, strict=True))
-            for wide, thin in zip(rows, inner, strict=True):
-                assert all(a.contains(b) for a, b in zip(wide, thin, strict=True))
-
-
-def test_an_independent_map_of_60_digits_lies_in_the_balls():
-    with ctx.workprec(160), mpmath.workdps(60):
-        k, g = mpmath.mpf(1) / 5, mpmath.mpf(1) / 25
-        for x, y in chart(0.2, *sea(20)).T:
-            v, w = (mpmath.mpf(a.str(50, radius=False)) for a in PAPER.velocities(arb(x), arb(y)))
-            image = PAPER.impact(arb(x), arb(y))
-            x1, v1, w1, tau = exact_map(k, g, mpmath.mpf(x), v, w)
-            for ball, true in ((image.x, x1), (image.y, v1 - k * w1), (image.tau, tau)):
-                assert abs(float(arb(mpmath.nstr(true, 50)) - ball)) < 1e-40
 
 
 def test_exact_numbers_are_fractions_decimals_and_text():
