@@ -1,14 +1,12 @@
-"""The theorems are proved, and other methods find their digits."""
+"""The theorems are proved, and their pages have the numbers of the checkers."""
 
 import re
 import tomllib
 
-import numpy as np
 import pytest
 from certificates import ONE_OF_EACH
 from flint import arb, ctx
 from project import ROOT
-from sections import BALL
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, search_certificate
@@ -17,9 +15,7 @@ from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
 from pipeline import config
-from pseudorigid import orbit
 from pseudorigid.dynamics import fixed_point
-from pseudorigid.dynamics.variables import chart, states_of
 
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
@@ -136,35 +132,6 @@ def test_the_closed_forms_of_the_fixed_point_are_those_of_the_package(theta):
         assert float(energy_at(k, arb(3), t)) == pytest.approx(9 * energy)
         slope = (trace_at(k, t + step) - trace_at(k, t - step)) / (2 * step)
         assert abs(slope - slope_at(k, t)) < arb("1e-30")
-
-
-def frequency(energy, fixed, frame, q):
-    """Action, and angle per impact, of the orbit at q along the first axis of the normal frame."""
-    beta, delta = frame
-    path = orbit(BALL, BALL.state_xy(fixed + beta * q, 0.0, energy), 40_000)
-    x, y = chart(BALL.k, *states_of(path))
-    first, second = (x - fixed) / beta, beta * (y - delta * (x - fixed) / beta)
-    angle = np.unwrap(np.arctan2(second, first))
-    share = np.linspace(0.0, 1.0, angle.size + 1)[1:-1]
-    weight = np.exp(-1.0 / (share * (1.0 - share)))  # smooth, so that the mean converges fast
-    return np.mean(first**2 + second**2) / 2, np.sum(np.diff(angle) * weight) / weight.sum()
-
-
-def test_the_twist_is_that_of_measured_rotation_numbers(results):
-    """The angle of rotation grows with the enclosed area, along orbits in doubles."""
-    energy, fixed = 0.01, float(middle(results["fixed-point"].digits["x"]))
-    state = BALL.state_xy(fixed, 0.0, energy)
-    (a, b), (_, d) = BALL.chart_jacobian(*state)
-    sine = np.copysign(np.sqrt(1 - ((a + d) / 2) ** 2), b)
-    beta = np.sqrt(b / sine)
-    frame = beta, beta * ((a + d) / 2 - a) / b
-    actions, angles = zip(*(frequency(energy, fixed, frame, q) for q in (0.002, 0.006)),
-                          strict=True)  # fmt: skip
-    turn = np.arccos((a + d) / 2)
-    assert angles[0] == pytest.approx(-turn, rel=1e-3)  # clockwise: the rotation number falls
-    slope = (angles[1] - angles[0]) / (actions[1] - actions[0])
-    stated = float(middle(results["twist-fixed-point"].digits["twist"]))
-    assert slope == pytest.approx(stated, rel=0.02)
 
 
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
