@@ -43,14 +43,10 @@ def compile_the_rest():
     if "study" not in parts():
         return
     from study import figure_errors, states
-    from study.methods import counted_methods
+    from study.methods.counted_methods import OURS, engine_method, scan_method
 
     start = states.chaotic()
-    for method in (
-        counted_methods.OURS,
-        counted_methods.scan_method(0.1, 1e-12),
-        counted_methods.engine_method(1e-3),
-    ):
+    for method in (OURS, scan_method(0.1, 1e-12), engine_method(1e-3)):
         method.solve(states.BALL, *states.uniform(20))
         method.orbit(states.BALL, start, 20)
     figure_errors._log_stretch(np.ones((3, 3, 3)))

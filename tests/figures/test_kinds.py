@@ -3,18 +3,7 @@
 import numpy as np
 import pytest
 from keys import texts
-from samples import (
-    ATTRS,
-    FLAT,
-    SCENES,
-    drawn,
-    exponents,
-    manifolds,
-    module,
-    motion,
-    states,
-    window,
-)  # fmt: skip
+from samples import ATTRS, FLAT, SCENES, drawn, exponents, manifolds, module, motion, states, window
 from slowly import slowly
 
 from paper.figures import tangle
