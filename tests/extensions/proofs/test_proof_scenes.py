@@ -13,7 +13,6 @@ from extensions.proofs import part
 from extensions.proofs.figures.escape import draw as draw_escape
 from extensions.proofs.figures.twist import draw
 from extensions.proofs.theorems.scenes import scene_horseshoe
-from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import hidden
 from pipeline.config.results import files_of
 from pipeline.config.schema.parts import STAGES
@@ -72,11 +71,6 @@ def twist_data(energies, twist):
 def picture(energies, twist, **scene):
     """Draw twists that vanish nowhere."""
     return draw(SCENE | scene, twist_data(energies, twist))
-
-
-def test_the_caption_of_a_horseshoe_calls_no_rectangle_a_square():
-    caption = " ".join(caption_of("one", checked("horseshoe"))[2:])
-    assert "the middle set has its sides at -1 and 1" in caption and "square" not in caption
 
 
 def test_no_mark_of_a_twist_lies_outside_its_frame():
