@@ -27,9 +27,5 @@ DEAR &= {*MODULES}
 
 @pytest.mark.parametrize("name", [*(n for n in MODULES if n not in DEAR), *slowly(*sorted(DEAR))])
 def test_examples_are_true(name):
-    assert (
-        doctest.testmod(
-            importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE
-        ).failed
-        == 0
-    )
+    module = importlib.import_module(name)
+    assert doctest.testmod(module, optionflags=doctest.NORMALIZE_WHITESPACE).failed == 0

@@ -62,9 +62,7 @@ def test_a_stale_pyc_is_not_run(src, printed):
 def test_a_comment_compiles_nothing_and_constants_do_whatever_is_cached(src, printed):
     """One constant stands in another module, one in a function that a stale .pyc holds."""
     kernel = src / "pseudorigid/kernel"
-    constants, callee, caller = (
-        kernel / f"{name}.py" for name in ("constants", "callee", "caller")
-    )
+    constants, callee, caller = (kernel / f"{n}.py" for n in ("constants", "callee", "caller"))
     constants.write_text("ONE = 1.0\n")
     callee.write_text("from .compiled import jit\n\n\n@jit\ndef one():\n    return 1.0\n")
     caller.write_text("""

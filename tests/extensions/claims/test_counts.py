@@ -15,9 +15,8 @@ def test_all_pages_count_the_statements_alike():
     names = "README.md", "CLAIMS.md", bar.FILE
     pages = {n: " ".join((ROOT / n).read_text(encoding="utf-8").split()) for n in names}
     for name in ("README.md", bar.FILE):
-        assert (
-            f"statements{' of the paper' * (name != bar.FILE)}: {bar.sentence(ROWS)}" in pages[name]
-        )
+        of = " of the paper" * (name != bar.FILE)
+        assert f"statements{of}: {bar.sentence(ROWS)}" in pages[name]
     for page in pages.values():
         found = re.findall(r"\b(\d+) (?:checkable )?statements", page)
         assert found and {*found} == {str(ledger.checkable_count(ROWS))}

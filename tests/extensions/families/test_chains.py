@@ -24,13 +24,8 @@ def curves():
 
 def curve(curves, order, kind):
     """K and E/g^2 of the only curve of a kind of a chain."""
-    (part,) = (
-        part
-        for o, name, part in zip(
-            curves["order"].values, curves["kind"].values, rows(curves), strict=True
-        )
-        if (o, name) == (order, kind)
-    )
+    every = zip(curves["order"].values, curves["kind"].values, rows(curves), strict=True)
+    (part,) = (part for *named, part in every if named == [order, kind])
     return curves["k"].values[part], curves["energy"].values[part]
 
 

@@ -130,13 +130,9 @@ def test_a_step_to_a_neighbouring_curve_is_noticed():
             )
 
     for controls, separation, reason in (
-        (0.1, 1.0, "range"),
-        (0.3, 1.0, "blocked"),
-        (-0.3, 1.0, "blocked"),
-        (0.0, 0.7, "range"),
-        (0.0, 0.5, "blocked"),
-        (0.0, -1.0, "blocked"),
-    ):
+        (0.1, 1.0, "range"), (0.3, 1.0, "blocked"), (-0.3, 1.0, "blocked"),
+        (0.0, 0.7, "range"), (0.0, 0.5, "blocked"), (0.0, -1.0, "blocked"),
+    ):  # fmt: skip
         system = Jumping(line)
         system.controls, system.separation = controls, separation
         start = solve_at(system, (0.0, 0.0), 0.1)
@@ -173,10 +169,8 @@ def test_the_point_at_a_parameter_lies_between_its_neighbours(p):
         points, _ = continue_curve(system, solve_at(system, (q, 0.0), 1.0), 1.0, never)
         for a, b in pairwise(points):
             if (a.p < p) != (b.p < p):
-                found = at_parameter(system, a, b, p)
-                assert found.p == p and found.q == pytest.approx(
-                    np.copysign((1.0 - p * p) ** 0.5, a.q), abs=1e-14
-                )
+                found, true = at_parameter(system, a, b, p), np.copysign((1.0 - p * p) ** 0.5, a.q)
+                assert found.p == p and found.q == pytest.approx(true, abs=1e-14)
                 assert at_parameter(system, a, b, a.p) is a and at_parameter(system, a, b, b.p) is b
 
 
@@ -220,15 +214,9 @@ def test_resonances_are_found_where_children_are_short_and_always_the_strong_one
     system.period, system.traces, system.monitors = period, 1.0, []
     family = Family(system, [system.point((0.0, -2.0 + 0.01 * i)) for i in range(401)], [])
     _find_events(family, longest)
-    largest = max(4, longest // period)
-    pairs = {
-        (t, q)
-        for q in range(3, largest + 1)
-        for t in range(1, q)
-        if 2 * t < q and np.gcd(t, q) == 1
-    }
+    orders = range(3, max(4, longest // period) + 1)
+    pairs = {(t, q) for q in orders for t in range(1, (q + 1) // 2) if np.gcd(t, q) == 1}
     assert {(event.turns, event.order) for event in family.events} == pairs
     for event in family.events:
-        assert event.point.p == pytest.approx(
-            2.0 * np.cos(2.0 * np.pi * event.turns / event.order), abs=1e-14
-        )
+        trace = 2.0 * np.cos(2.0 * np.pi * event.turns / event.order)
+        assert event.point.p == pytest.approx(trace, abs=1e-14)

@@ -19,7 +19,6 @@ from extensions.proofs.search import curve as search
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of
 
-TEXT = SMALL.text()
 CURVES = [name for name, theorem in THEOREMS.items() if theorem.checker is curve.check]
 
 

@@ -10,14 +10,12 @@ from project import ROOT
 from slowly import slowly
 
 from extensions.proofs import THEOREMS, search_certificate
-from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
 from pipeline import config
 from pseudorigid.dynamics import fixed_point
 
-ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 HORSESHOES = ["horseshoe-outer", "horseshoe-inner"]
 CURVES = [n for n in THEOREMS if n.startswith("curve-")]
 DEAR = [*CURVES, "entropy", "horseshoe-inner", "horseshoe-smooth", "twist-one-zero"]  # to check
