@@ -9,13 +9,15 @@ import numpy as np
 import pytest
 from certificates import told
 from flint import acb, arb, ctx
+from sections import sea
 
 from extensions.proofs import Surface, proved_impacts
 from extensions.proofs.enclosure import jets, surface
 from extensions.proofs.enclosure.jets import Jet, algebra, square_root
 from extensions.proofs.enclosure.surface import ball_of, exact
+from pseudorigid.dynamics.variables import chart
 from pseudorigid.verified import reference_solver
-from pseudorigid.verified.flight import launch
+from pseudorigid.verified.flight import UndecidedError, launch
 
 PAPER, K, G = Surface("1/5", "1/25", "1/100"), Fraction(1, 5), Fraction(1, 25)
 OPERATIONS = {
@@ -162,6 +164,20 @@ def test_a_fraction_lies_in_its_ball_and_comes_back_from_its_midpoint(text):
             middle, radius = surface.fraction_of(ball), surface.fraction_of(arb(ball.rad()))
             assert abs(middle - value) <= radius <= abs(value) / 2 ** (bits - 2)
             assert jets.intersection(acb(ball), acb(arb(ball.mid(), 1))).real.contains(ball)
+
+
+def test_a_box_encloses_the_images_and_derivatives_of_its_points():
+    random = np.random.default_rng(8)
+    for x, y in chart(0.2, *sea(40)).T:
+        try:
+            rows, image = PAPER.jacobian(arb(x, 1e-4), arb(y, 1e-4))
+        except UndecidedError:
+            continue
+        for dx, dy in random.uniform(-1e-4, 1e-4, (5, 2)):
+            inner, point = PAPER.jacobian(arb(x + dx), arb(y + dy))
+            assert all(outer.contains(part) for outer, part in zip(image, point, strict=True))
+            for wide, thin in zip(rows, inner, strict=True):
+                assert all(a.contains(b) for a, b in zip(wide, thin, strict=True))
 
 
 def test_exact_numbers_are_fractions_decimals_and_text():
