@@ -204,16 +204,12 @@ def test_a_flight_that_is_too_long_is_an_error_for_one_state_and_nan_in_an_array
         assert np.isfinite(x.isel(orbit=1)).all()
 
 
-OF_A_BALL = [
-    *(
-        partial(function, state=START, impacts=100)
-        for function in (orbit, lyapunov_spectrum, rotation_number, classify_orbits)
-    ),
-    partial(motion, start=START, duration=1.0),
-    partial(symmetric_orbits, energy=0.01, period=1),
-    partial(periodic_orbits, energy=0.01, period=1),
-    partial(trace_manifold, energy=0.01, orbit=SADDLE),
-]
+OF_A_STATE = orbit, lyapunov_spectrum, rotation_number, classify_orbits
+OF_A_BALL = [partial(function, state=START, impacts=100) for function in OF_A_STATE]
+SEARCHES = symmetric_orbits, periodic_orbits
+OF_A_BALL += [partial(search, energy=0.01, period=1) for search in SEARCHES]
+OF_A_BALL += [partial(motion, start=START, duration=1.0)]
+OF_A_BALL += [partial(trace_manifold, energy=0.01, orbit=SADDLE)]
 
 
 @pytest.mark.parametrize(("name", "function", "allowed", "values"), [

@@ -47,11 +47,7 @@ def energy_of(found, p):
 
 def six_born_at(found, line, kind):
     """The period-six family from one line that ends in a kind of event below E = 0.01."""
-    (family,) = (
-        f
-        for f in found.families
-        if f.period == 6
-        and f.line == line
-        and any(e.kind == kind and found.parameter.energy(e.p) < 6.25 for e in f.ends)
-    )
+    six = [f for f in found.families if (f.period, f.line) == (6, line)]
+    energy = found.parameter.energy
+    (family,) = (f for f in six if any(e.kind == kind and energy(e.p) < 6.25 for e in f.ends))
     return family

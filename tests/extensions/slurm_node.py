@@ -102,13 +102,9 @@ class Cluster:
         """Start a daemon in a session of its own."""
         name = name or program
         with open(self.folder / f"{name}.out", "a", encoding="utf-8") as out:
-            self.running[name] = subprocess.Popen(
-                [shutil.which(program), *arguments],
-                env=os.environ | self.environment,
-                stdout=out,
-                stderr=out,
-                start_new_session=True,
-            )
+            how = {"stdout": out, "stderr": out, "env": os.environ | self.environment}
+            command = [shutil.which(program), *arguments]
+            self.running[name] = subprocess.Popen(command, start_new_session=True, **how)
 
     def stop(self, name):
         process = self.running.pop(name)
@@ -130,9 +126,7 @@ class Cluster:
 
     def states(self):
         """Node -> state."""
-        return dict(
-            line.split() for line in self.ask("sinfo", "-h", "-N", "-o", "%N %T").splitlines()
-        )
+        return dict(map(str.split, self.ask("sinfo", "-h", "-N", "-o", "%N %T").splitlines()))
 
 
 def free_ports(count):

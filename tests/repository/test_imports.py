@@ -232,12 +232,9 @@ def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():
 # What a drawing may import of the numerics: the logarithm of its axes, sine and cosine of the
 # section's outline, closed formulas, what the paper prints, and the names of variables.
 DRAWN_WITH = {
-    f"src/pseudorigid/{file}.py"
-    for folder, names in {
-        "dynamics": ("__init__", "paper", "variables"),
-        "kernel": ("__init__", "arithmetic", "closed_forms", "compiled"),
-    }.items()
-    for file in (f"{folder}/{name}" for name in names)
+    *(f"src/pseudorigid/dynamics/{n}.py" for n in ("__init__", "paper", "variables")),
+    *(f"src/pseudorigid/kernel/{n}.py" for n in ("__init__", "arithmetic", "closed_forms")),
+    "src/pseudorigid/kernel/compiled.py",
 }
 
 

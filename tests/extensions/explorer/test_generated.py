@@ -6,13 +6,12 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 from contextlib import nullcontext
 
 import numpy as np
 import pytest
-from project import ROOT, SHIPPED
+from project import ROOT, SHIPPED, run
 
 from extensions.explorer import command as explore
 from extensions.explorer import data, page
@@ -85,8 +84,7 @@ def test_only_the_scripts_of_the_page_may_run(text):
 def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     """Another folder, locale, time zone and order of sets."""
     tree = tmp_path / "another place"
-    machine_code = shutil.ignore_patterns("*.nb?")
-    shutil.copytree(ROOT / "src", tree / "src", ignore=machine_code)
+    shutil.copytree(ROOT / "src", tree / "src", ignore=shutil.ignore_patterns("*.nb?"))
     shutil.copytree(ROOT / "paper_figures", tree / "paper_figures")
     shutil.copytree(ROOT / "requirements", tree / "requirements")
     for file in ("pyproject.toml", "CITATION.cff"):
@@ -96,14 +94,9 @@ def test_the_bytes_are_the_same_elsewhere(text, tmp_path):
     pytest.importorskip("minify")
     program = "import sys, extensions.explorer.page as page\n"
     program += "sys.stdout.buffer.write(page._packed().encode())"
-    made = subprocess.run(
-        [sys.executable, "-c", program],
-        env=os.environ | {"PYTHONPATH": str(tree / "src")} | settings,
-        cwd=tmp_path,
-        check=True,
-        stdout=subprocess.PIPE,
-    )
-    assert made.stdout == page._packed().encode()
+    settings |= {"PYTHONPATH": str(tree / "src")}
+    how = {"env": os.environ | settings, "cwd": tmp_path, "text": False}
+    assert run(sys.executable, "-c", program, **how).stdout == page._packed().encode()
 
 
 def test_scenes_of_all_variants_open_unless_their_orbits_are_others(text):

@@ -25,16 +25,14 @@ def drawn():
         for j, kind in enumerate(KINDS):
             energy = 10 ** (-0.8 + 0.35 * i + 0.08 * j)
             lines[order, kind] = ([0.06, 0.3], [3.0 * energy, energy])
-    curves = xr.Dataset(
-        {
-            "order": ("curve", [order for order, _ in lines]),
-            "kind": ("curve", np.array([kind for _, kind in lines], dtype=object)),
-            "row_size": ("curve", [2] * len(lines)),
-            "k": ("point", np.ravel([k for k, _ in lines.values()])),
-            "energy": ("point", np.ravel([energy for _, energy in lines.values()])),
-        }
-    )
-    return chains.draw(SWEEP, data, curves), lines
+    curves = {
+        "order": ("curve", [order for order, _ in lines]),
+        "kind": ("curve", np.array([kind for _, kind in lines], dtype=object)),
+        "row_size": ("curve", [2] * len(lines)),
+        "k": ("point", np.ravel([k for k, _ in lines.values()])),
+        "energy": ("point", np.ravel([energy for _, energy in lines.values()])),
+    }
+    return chains.draw(SWEEP, data, xr.Dataset(curves)), lines
 
 
 def test_text_is_whole_and_apart():
