@@ -16,7 +16,7 @@ from random_documents import FUZZ, JSON, edited, spoilt
 from pipeline import config
 from pipeline.config.schema.parts import MAIN, SETS
 from pipeline.config.validation import document
-from pipeline.declaration import ONLY_SET
+from pipeline.declaration import ONLY_SET, SRC
 
 
 @pytest.mark.parametrize("document", [None, [], "text", 3, {}, {"ball": {}, "scenes": []}])
@@ -219,7 +219,8 @@ def test_a_run_of_the_paper_reads_its_set_alone_with_the_same_specifications(tmp
 
     def loaded(document, **environment):
         (file := tmp_path / "config.yaml").write_text(json.dumps(document))
-        return run(sys.executable, "-P", "-c", program, file, env=os.environ | environment)
+        environment = os.environ | environment | {"PYTHONPATH": str(SRC)}
+        return run(sys.executable, "-P", "-c", program, file, env=environment)
 
     given = yaml.safe_load(SHIPPED.read_text())
     whole, alone = (json.loads(loaded(given, **env).stdout) for env in ({}, {ONLY_SET: MAIN}))
