@@ -9,7 +9,6 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 import snakemake_logger_plugin_reproduce as plugin
 from pipeline.jobs import heartbeat
-from pipeline.jobs.job import _Stderr
 
 
 @pytest.fixture
@@ -79,11 +78,3 @@ def test_the_line_has_the_share_of_earlier_seconds_and_the_time_left(clock, caps
     plugin.PROGRESS["results/paper/b.nc"] = "60%, halving"
     assert handler.describe() == "1 of 2, 75%, 20 s left: fig2 b (60%, halving, 20 s)"
     assert capsys.readouterr().err == "fig2    a              20.0 s   1 of 2\n"
-
-
-def test_only_lines_about_its_progress_leave_the_stderr_of_a_job(capsys):
-    sent = []
-    stream = _Stderr(types.SimpleNamespace(send=sent.append), "fig2")
-    print("fig2: 60%, halving", file=stream, flush=True)
-    print("a warning", file=stream)
-    assert (sent, capsys.readouterr().err) == (["60%, halving"], "a warning\n")

@@ -1,9 +1,13 @@
 """Forked jobs: each ends as a program of its own would, also when many start at once."""
 
+import multiprocessing
+import os
+
 import pytest
 from project import fresh_tree
 
 from pipeline.jobs import forks
+from pipeline.records.provenance import BuildSpec
 
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
@@ -71,3 +75,14 @@ def test_jobs_are_new_pythons_where_no_process_can_fork_them(monkeypatch):
 
     monkeypatch.setattr(forks.forkserver, "ensure_running", refuse)
     assert forks.forking(data=False).get_start_method() == "spawn"
+
+
+def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys):
+    def make(spec, known, about):
+        os.write(2, f"fig: 60%, {known}\na warning\n".encode())
+
+    monkeypatch.setattr(forks.job, "make", make)
+    spec = BuildSpec("results/paper/1.nc", "fig", "step", {}, "", "", {}, [])
+    assert forks.run(multiprocessing.get_context("fork"), spec, "halving")
+    assert forks.PROGRESS.pop(spec.result) == "60%, halving"
+    assert capsys.readouterr().err == "a warning\n"

@@ -7,11 +7,12 @@ A new Python takes longer to load packages than most jobs take to compute. The e
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Mapping
 from contextlib import suppress
 from multiprocessing import forkserver
-from multiprocessing.connection import wait
+from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
 from typing import Any
@@ -40,28 +41,39 @@ def run(
 
     `known` and `about` are those of `job.make`.
     """
-    receiver, answer = context.Pipe(duplex=False)
-    process = context.Process(target=job.make_and_answer, args=(answer, spec, known, about))
-    made, reason = False, "it could not start"
-    with receiver, suppress(OSError, EOFError):
+    receiver, stderr = context.Pipe(duplex=False)
+    process = context.Process(target=_make, args=(stderr, spec, known, about))
+    lines = os.fdopen(receiver.fileno(), errors="replace", closefd=False)
+    with receiver, lines, suppress(OSError, EOFError):
         with _lock:
             process.start()
-        answer.close()
-        while isinstance(message := receiver.recv(), str):
-            PROGRESS[spec.result] = message
-        made = message
+        stderr.close()
+        for line in lines:
+            if line.startswith(prefix := f"{spec.scene}: "):
+                PROGRESS[spec.result] = line.removeprefix(prefix).rstrip()
+            else:
+                sys.stderr.write(line)
     if process.pid:
         wait([process.sentinel])
         with _lock:
             process.join()
-        status = process.exitcode or 0
-        reason = signal.Signals(-status).name if status < 0 else "it ended without a message"
-    log = Path(log_path(spec.result))
-    if not made and not log.exists():
+    status, log = process.exitcode, Path(log_path(spec.result))
+    if status != 0 and not log.exists():
+        reason = "it could not start" if status is None else f"exit status {status}"
+        reason = signal.Signals(-status).name if status and status < 0 else reason
         words = f"the job was killed ({reason}): memory may be short"
         with suppress(ValueError):  # the disk may be full
             write_whole(log, f"pseudorigid: {spec.scene}: {words}\n")
-    return made
+    return status == 0
+
+
+def _make(stderr: "Connection[Any, Any]", *given: Any) -> None:
+    """Make a result in this process, which ends afterwards; `stderr` gets what it writes there."""
+    os.dup2(stderr.fileno(), 2)
+    try:
+        job.make(*given)
+    except SystemExit:  # the log has its words
+        sys.exit(1)
 
 
 def forking(data: bool) -> ForkServerContext | SpawnContext:

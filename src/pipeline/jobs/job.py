@@ -10,7 +10,6 @@ import traceback
 from collections.abc import Mapping
 from contextlib import suppress
 from importlib import import_module
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -42,40 +41,6 @@ def make(
         with suppress(OSError, ValueError):  # the disk may be full
             write_whole(log, f"{traceback.format_exc()}\n{last_line}\n")
         sys.exit(last_line)
-
-
-class _Stderr:
-    """The stderr of a forked job: lines about its progress go to the process of the run."""
-
-    def __init__(self, answer: "Connection[str | bool, bool]", scene: str) -> None:
-        self.answer, self.prefix, self.stream = answer, f"{scene}: ", sys.stderr
-        self.sent = False  # the present line
-
-    def write(self, text: str) -> None:
-        """Send a line about the scene, and write anything else."""
-        before, self.sent = self.sent, text.startswith(self.prefix)
-        if self.sent:
-            with suppress(OSError):  # the run may have been killed
-                self.answer.send(text.removeprefix(self.prefix))
-        elif not (before and text == "\n"):
-            self.stream.write(text)
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.stream, name)
-
-
-def make_and_answer(answer: "Connection[str | bool, bool]", spec: BuildSpec, *given: Any) -> None:
-    """Make a result in this process, which ends afterwards, and send True once it is made.
-
-    Before that, texts are sent that say how far it is.
-    """
-    sys.stderr = _Stderr(answer, spec.scene)
-    try:
-        make(spec, *given)
-    except SystemExit:
-        sys.exit(1)
-    with suppress(OSError):  # the run may have been killed
-        answer.send(True)
 
 
 if __name__ == "__main__":
