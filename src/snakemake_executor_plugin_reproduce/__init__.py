@@ -18,7 +18,7 @@ class Executor(LocalExecutor):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.context = forking(data=True)
+        self.context = forking()
 
     def run_single_job(self, job: SingleJobExecutorInterface) -> Future[None]:
         """Start a job."""

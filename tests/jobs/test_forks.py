@@ -32,7 +32,7 @@ if __name__ == "__main__":
     count, *programs = sys.argv[1:]
     specs = [spec(i, name) for i, name in enumerate(programs * int(count))]
     with ThreadPoolExecutor(8) as pool:
-        print(*pool.map(partial(run, forking(data=True)), specs))
+        print(*pool.map(partial(run, forking()), specs))
 """
 
 
@@ -74,7 +74,7 @@ def test_jobs_are_new_pythons_where_no_process_can_fork_them(monkeypatch):
         raise OSError("AF_UNIX path too long")
 
     monkeypatch.setattr(forks.forkserver, "ensure_running", refuse)
-    assert forks.forking(data=False).get_start_method() == "spawn"
+    assert forks.forking().get_start_method() == "spawn"
 
 
 def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys):

@@ -76,16 +76,15 @@ def _make(stderr: "Connection[Any, Any]", *given: Any) -> None:
         sys.exit(1)
 
 
-def forking(data: bool) -> ForkServerContext | SpawnContext:
-    """Start the process that forks jobs; it imports what drawings need, or also what `data` do.
+def forking() -> ForkServerContext | SpawnContext:
+    """Start the process that forks jobs, which imports first what they need (preload.py).
 
     If it cannot start, because the temporary folder is full or has a name too long for a socket,
     each job is a new Python.
     """
     jobs = multiprocessing.get_context("forkserver")
-    wanted = "data" if data else ""
     before = dict(os.environ)
-    os.environ.update(dict.fromkeys(THREADS, "1") | {"PSEUDORIGID_PRELOAD": wanted})
+    os.environ.update(dict.fromkeys(THREADS, "1"))
     # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:

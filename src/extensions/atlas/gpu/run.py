@@ -32,7 +32,7 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
     blocks = [spec for spec in blocks if freshness.reason(spec.result)]
     if not blocks:
         return
-    context = forks.forking(data=True)  # before CUDA starts
+    context = forks.forking()  # before CUDA starts
     files = [*source_files(f"{__package__}.cells"), str(KERNEL.path.relative_to(ROOT))]
     way = {file: syntax_hash(ROOT / file) for file in files}
     card = Card(KERNEL.content())
