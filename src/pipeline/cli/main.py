@@ -6,67 +6,60 @@ from pathlib import Path
 
 from ..command_list import DEFAULT_COMMAND, all_commands
 from ..declaration import SourceError, imported
-from ..records.files import memory_is_short
+from ..records.files import FileError, memory_is_short
+from ..records.provenance import ChangedError
+from ..records.sources import ROOT
 from . import arguments
+from .errors import UsageError, print_error
+from .running import set_environment
 
 
 def main(words: list[str]) -> int:
-    """Run the command that the words name, by default `figures`, and return the exit status."""
+    """Run the command that the words name, by default `figures`, and return the exit status.
+
+    Errors that are meant for users become a line on stderr.
+    """
+    reason, status = None, 1
     try:
         try:
-            return _run(words)
+            return _run(arguments.read(words))
         finally:
             sys.stdout.flush()  # an error that comes at the end of the process cannot be reported
-    except BrokenPipeError:  # the reader has ended, for instance `| head`
-        reason = None
-    except SourceError as error:
-        reason = memory_is_short(error) or str(error)
+    except KeyboardInterrupt:
+        return 130
+    except (UsageError, FileError, ChangedError, SourceError) as error:
+        reason, status = memory_is_short(error) or str(error), getattr(error, "status", 1)
     except OSError as error:
-        reason = f"{error.filename or 'cannot write to stdout'}: {error.strerror}"
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the last flush
+        if not isinstance(error, BrokenPipeError):  # the reader has ended, for instance `| head`
+            reason = f"{error.filename or 'cannot write to stdout'}: {error.strerror}"
     except Exception as error:
-        if (reason := memory_is_short(error)) is None:
-            raise
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not (reason := memory_is_short(error)):
+            from ..config import ConfigError  # takes long: no mistake in the words waits for it
+
+            if not isinstance(error, ConfigError):
+                raise
+            print(error, file=sys.stderr)
     if reason:
-        print(f"reproduce: {reason}", file=sys.stderr)
-    return 1
+        print_error(reason)
+    return status
 
 
-def _run(words: list[str]) -> int:
-    """Run a command, and report errors that are meant for users."""
-    args = arguments.read(words)
-    # These imports take long: mistakes in the words are reported first.
-    from ..config import ConfigError
-    from ..records.files import FileError
-    from ..records.provenance import ChangedError
-    from ..records.sources import ROOT
-    from .errors import UsageError, print_error
-    from .running import set_environment
-
+def _run(args: arguments.Arguments) -> int:
+    """Run a command in the root, with the packages that it needs."""
     try:
         args.start = Path.cwd()
         str(ROOT).encode()  # netCDF4 and snakemake need names that are text
     except FileNotFoundError:
-        print_error("the current folder was deleted: go to another one")
-        return 1
+        raise UsageError("the current folder was deleted: go to another one") from None
     except UnicodeEncodeError:
-        print_error(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it")
-        return 1
+        raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it") from None
     os.chdir(ROOT)
     set_environment()
     command = all_commands().get(args.word, DEFAULT_COMMAND)
-    try:
-        if command.packages and not (command.runs_snakemake and args.makes_nothing):
-            from .packages import add_packages
+    if command.packages and not (command.runs_snakemake and args.makes_nothing):
+        from .packages import add_packages
 
-            add_packages(command.packages)
-        module = command.module or f"pipeline.cli.commands.{args.word}"
-        return int(imported(f"{module}.run")(args))
-    except ConfigError as error:
-        print(error, file=sys.stderr)
-    except (UsageError, FileError, ChangedError) as error:
-        print_error(str(error))
-        return getattr(error, "status", 1)
-    except KeyboardInterrupt:
-        return 130
-    return 1
+        add_packages(command.packages)
+    module = command.module or f"pipeline.cli.commands.{args.word}"
+    return int(imported(f"{module}.run")(args))
