@@ -20,6 +20,7 @@ from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import UsageError
 from pipeline.config import load
+from pipeline.records.files import FileError
 from pipeline.records.provenance import Freshness
 
 DRAWING = "results/paper/figures/fig3.png"
@@ -84,11 +85,11 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
     monkeypatch.setattr(publishing, "ROOT", tmp_path)
     with monkeypatch.context() as patch:
         patch.setattr(Path, "write_bytes", write_half)
-        problems, _ = publishing._publish({"published.png": "drawing.png"})
-    assert problems == {"published.png": "cannot be written: Input/output error"}
+        with pytest.raises(FileError, match=r"g: cannot be written: Input/output error$"):
+            publishing._publish("published.png", "drawing.png")
     assert published.read_text() == "before"
     assert sorted(tmp_path.iterdir()) == [drawing, published]
-    assert publishing._publish({"published.png": "drawing.png"})[0] == {}
+    assert publishing._publish("published.png", "drawing.png") == "it differed from drawing.png"
     assert published.read_text() == "after"
 
 

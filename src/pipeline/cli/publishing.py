@@ -1,17 +1,16 @@
 """Make the figures of a variant or set of scenes, publish them, and print the state of each."""
 
-import filecmp
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import PurePath
 
 from ..checks.published_sets import committed_state, unlisted_files
 from ..config import Config, unknown
 from ..config.results import drawn
 from ..config.schema.parts import PUBLISHED
-from ..records.files import FileError, read_bytes, why_not_a_file, write_whole
+from ..records.files import ABSENT, FileError, read_bytes, why_not_a_file, write_whole
 from ..records.provenance import (
     MISSING,
-    BuildSpec,
     Freshness,
     failure,
     read_record,
@@ -66,79 +65,64 @@ def make(
     left_out = {path: reasons[s] for path in drawings if (s := PurePath(path).stem) in reasons}
     drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
     results = [*drawings.values(), *data]
-    before = Freshness(ROOT, _specs_of(config, group, results))
+    before = Freshness(ROOT, config.build_specs())
     status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
-        notes = [f"{PurePath(path).stem}: {reason}" for path, reason in left_out.items()]
-        print(*notes, sep="\n", end="\n" * bool(notes))
+        for path, reason in left_out.items():
+            print(f"{PurePath(path).stem}: {reason}")
         return status
     old = before.outdated(results)
     now = Freshness(ROOT, before.build_specs) if old or args.options else before
     outdated = now.outdated(results)
-    refused = {path for path in outdated if now.refusal(path)}
-    if refused and refused == outdated.keys():
-        status = int(group in PUBLISHED)
-    elif outdated:
+    refused = [path for path in outdated if now.refusal(path)]
+    if missing := [PurePath(path).name for path in outdated if path not in refused]:
         status = status or 1
-        _print_missing([path for path in outdated if path not in refused], len(results))
-    made = {path: drawing for path, drawing in drawings.items() if drawing not in outdated}
-    unpublished, replaced = _publish(made)
-    _delete([*(refused & {*drawings.values()}), *left_out])  # the present config has none
-    rows = []
+        more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""
+        words = f"{len(missing)} of {len(results)} results not made, or not current"
+        print_error(f"{words}: {', '.join(missing[:3])}{more}")
+    elif refused:
+        status = int(group in PUBLISHED)
+    rows, notes = list[FileRow](), list[str]()
     for path, drawing in drawings.items():
+        size = compared = ""
         state = "recomputed" if drawing in old else "current"
         if drawing in outdated:
             state = _why_not_made(now, drawing)
-        elif path in unpublished:
-            state = f"not published: {unpublished[path]}"
-        elif state == "current" and path in replaced:
-            state = f"published again: {replaced[path]}"
+        else:
+            notes += _notes(now, drawing)
+            try:
+                how = _publish(path, drawing)
+                state = f"published again: {how}" if how and state == "current" else state
+                size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
+                if path.startswith(f"{PUBLISHED.get(group)}/"):
+                    compared = committed_state(ROOT, path)
+            except FileError as error:
+                status = status or 1
+                state = f"not published: {str(error).removeprefix(f'{ROOT / path}: ')}"
         if not (brief and state == "current"):
-            rows.append(_row(PUBLISHED.get(group), path, state))
-    rows += [_row(None, path, reason) for path, reason in left_out.items()]
-    if rows:
-        notes = [*_notes(now, made.values())]
-        notes += [f"{path}: {outdated[path]}" for path in sorted(refused - {*drawings.values()})]
-        if group in PUBLISHED:
-            figures = [PurePath(path).name for path in config.figures(group)]
-            notes += unlisted_files(ROOT, PUBLISHED[group], figures)
-        compared = any(cells[1] for _, _, cells in rows)
-        header = ("figure", "files", "state", "as committed" if compared else "")
-        print_files("", rows, header, notes)
-    return status or int(bool(unpublished))
-
-
-def _specs_of(config: Config, group: str, results: Iterable[str]) -> dict[str, BuildSpec]:
-    """Return the build specifications of a group, or all if some results are of other groups."""
-    specs = config.build_specs([group])
-    inputs = {path for spec in specs.values() for path in spec.inputs}
-    return specs if {*results, *inputs} <= specs.keys() else config.build_specs()
-
-
-def _print_missing(paths: Sequence[str], count: int) -> None:
-    """Print which of a number of results are missing or not current."""
-    names = [PurePath(path).name for path in paths]
-    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-    words = f"{len(names)} of {count} results not made, or not current"
-    print_error(f"{words}: {', '.join(names[:3])}{more}")
-
-
-def _delete(drawings: Iterable[str]) -> None:
-    """Delete drawings and their records."""
-    for drawing in drawings:
-        for file in (ROOT / drawing, ROOT / record_path(drawing)):
+            rows.append((path, size, (state, compared)))
+    for path in [*(path for path in refused if path in drawings.values()), *left_out]:
+        for file in (ROOT / path, ROOT / record_path(path)):  # the present config has none
             if not why_not_a_file(file):
                 file.unlink(missing_ok=True)
+    rows += [(path, "", (reason, "")) for path, reason in left_out.items()]
+    if rows:
+        lines = [*dict.fromkeys(notes)]
+        lines += [f"{p}: {outdated[p]}" for p in sorted({*refused} - {*drawings.values()})]
+        if group in PUBLISHED:
+            figures = [PurePath(path).name for path in config.figures(group)]
+            lines += unlisted_files(ROOT, PUBLISHED[group], figures)
+        title = "as committed" if any(cells[1] for _, _, cells in rows) else ""
+        print_files("", rows, ("figure", "files", "state", title), lines)
+    return status
 
 
-def _notes(freshness: Freshness, drawings: Iterable[str]) -> dict[str, None]:
-    """Return what the records behind drawings note: what axes hide, and missed impacts."""
-    notes = dict[str, None]()
-    for path in with_dependencies(freshness.build_specs, drawings):
+def _notes(freshness: Freshness, drawing: str) -> Iterator[str]:
+    """Yield what the records behind a drawing note: what axes hide, and missed impacts."""
+    for path in with_dependencies(freshness.build_specs, [drawing]):
         output = read_record(ROOT, record_path(path))["output"]
-        lines = [*output.get("hidden", ()), *output.get("notes", ())]
-        notes |= dict.fromkeys(f"{freshness.build_specs[path].scene}: {line}" for line in lines)
-    return notes
+        for line in [*output.get("hidden", ()), *output.get("notes", ())]:
+            yield f"{freshness.build_specs[path].scene}: {line}"
 
 
 def _why_not_made(freshness: Freshness, drawing: str) -> str:
@@ -152,30 +136,15 @@ def _why_not_made(freshness: Freshness, drawing: str) -> str:
     return "not made" if reason == MISSING else f"not current: {reason}"
 
 
-def _publish(drawings: Drawings) -> tuple[dict[str, str], dict[str, str]]:
-    """Copy drawings to their published files if these differ.
+def _publish(path: str, drawing: str) -> str:
+    """Copy a drawing to its published file if they differ, and return how they did, or "".
 
-    Returns the paths where that failed, with the reasons, and all that differed, with how.
+    Raises FileError if that fails.
     """
-    problems, replaced = dict[str, str](), dict[str, str]()
-    for path, drawing in drawings.items():
-        published = ROOT / path
-        if reason := why_not_a_file(published):
-            problems[path] = reason
-        elif not (published.is_file() and filecmp.cmp(published, ROOT / drawing, shallow=False)):
-            there = published.is_file()
-            replaced[path] = f"it differed from {drawing}" if there else "it was missing"
-            try:
-                write_whole(published, read_bytes(ROOT / drawing))
-            except FileError as error:
-                problems[path] = str(error).removeprefix(f"{published}: ")
-    return problems, replaced
-
-
-def _row(folder: str | None, path: str, state: str) -> FileRow:
-    """Return a file's row of the table; files in a published `folder` are compared."""
-    size = compared = ""
-    if state.startswith(("current", "recomputed", "published again")):
-        size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
-        compared = committed_state(ROOT, path) if path.startswith(f"{folder}/") else ""
-    return path, size, (state, compared)
+    content, before = read_bytes(ROOT / drawing), None
+    with suppress(*ABSENT):
+        before = read_bytes(ROOT / path)
+    if before == content:
+        return ""
+    write_whole(ROOT / path, content)
+    return "it was missing" if before is None else f"it differed from {drawing}"
