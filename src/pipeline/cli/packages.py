@@ -13,9 +13,11 @@ import ssl
 import subprocess
 import sys
 from collections.abc import Sequence
-from contextlib import chdir, suppress
+from contextlib import chdir, closing, suppress
 from pathlib import Path
+from typing import Any
 
+from ..jobs.heartbeat import Heartbeat
 from ..records.files import FileError, read_yaml, write_whole
 from ..records.sources import ROOT
 from .arguments import read
@@ -26,17 +28,12 @@ from .running import interruptible
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
-_GAP = 4.5  # seconds between two lines of an installation
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
 _FOLDER = "packages"  # of a tar with packages, unpacked; `reproduce` installs from it
 HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
-# The settings of pip that are kept. Others could install elsewhere, or other packages.
-_SETTINGS = (
-    *("index-url", "extra-index-url", "find-links", "trusted-host", "cert", "client-cert", "proxy"),
-    *("no-index", "timeout", "default-timeout", "retries", "keyring-provider"),
-)
-# Of these, those that choose where packages come from, and their names for uv.
-_SOURCES = {
+# The settings of pip that are kept, with their names for uv. Others could install elsewhere, or
+# other packages.
+_SETTINGS = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
     "find-links": "UV_FIND_LINKS",
@@ -44,6 +41,7 @@ _SOURCES = {
     "cert": "SSL_CERT_FILE",
     "client-cert": "SSL_CLIENT_CERT",
     "proxy": "ALL_PROXY",
+    **dict.fromkeys(("no-index", "timeout", "default-timeout", "retries", "keyring-provider"), ""),
 }
 _UV = (
     r"UV_(\w*INDEX|FIND_LINKS|KEYRING|INSECURE_HOST|SYSTEM_CERTS|NATIVE_TLS|HTTP|CACHE_DIR"
@@ -94,7 +92,7 @@ def set_up(stamp: str, *arguments: str) -> None:
     except KeyboardInterrupt:
         with suppress(OSError):  # Popen, if interrupted, leaves the process that it has started
             for child in Path("/proc/thread-self/children").read_text().split():
-                _end(int(child))
+                os.kill(int(child), signal.SIGKILL)
         print_error("interrupted: run it again to go on")
         sys.exit(130)
     except (UsageError, FileError, OSError) as error:
@@ -141,24 +139,22 @@ def _install(*names: str, again: bool = False) -> None:
             pip = [sys.executable, "-I", "-m", "pip", f"--python={PYTHON}"]
         else:
             _check(_run([PYTHON, "-I", "-m", "ensurepip"]))
-    settings = pip_settings(pip)
+    environment = installers_environment(pip)
     options = ["--require-hashes", "--no-build-isolation"]
     ours = ROOT / _FOLDER  # of a tar with packages, which has only the locked ones
     folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
     if folder:
         options += ["--no-index", f"--find-links={folder}"]
-    elif settings.get("no-index", "0").lower() in ("1", "true", "yes", "on"):
+    elif environment.get("PIP_NO_INDEX", "0").lower() in ("1", "true", "yes", "on"):
         options += ["--no-index"]
 
     def by_pip(name: str, *more: str) -> bool:
         command = [*pip, "install", "--no-compile", "--progress-bar=off", *options, *more]
-        environment = pip_environment(settings)
         return _run([*command, "-r", f"requirements/{name}.txt"], environment)
 
     own_uv = str(VENV / "bin" / "uv")
     uv = shutil.which(own_uv) or shutil.which("uv")
     uv = uv or (own_uv if by_pip("uv", "--only-binary=:all:", "--retries=1") else None)
-    environment = _uv_environment(settings)
     cache = VENV / "cache" / "uv"
     kept = "UV_CACHE_DIR" in environment  # its copy must not change with an edit of a package
     environment |= {"UV_LINK_MODE": "copy"} if kept else {"UV_CACHE_DIR": str(cache)}
@@ -170,45 +166,17 @@ def _install(*names: str, again: bool = False) -> None:
     shutil.rmtree(cache, ignore_errors=True)
 
 
-def _uv_environment(settings: dict[str, str]) -> dict[str, str]:
-    """Return the environment for uv: pip's settings, each overridden by uv's of the same name."""
-    own = {name: value for name, value in os.environ.items() if re.match(_UV, name)}
-    of_pip = {_SOURCES[name]: value for name, value in settings.items() if name in _SOURCES}
-    # As pip does, search all indexes for a version; its hash decides what is installed.
-    of_uv = {"UV_INDEX_STRATEGY": "unsafe-best-match"}
-    if ssl.get_default_verify_paths().cafile:
-        of_uv["UV_SYSTEM_CERTS"] = "1"
-    return _neutral_environment() | of_uv | of_pip | own
-
-
 def _run(command: Sequence[str | Path], environment: dict[str, str] | None = None) -> bool:
     """Run a command with its output in the log, and return whether it succeeded."""
-    with LOG.open("ab") as log:
-        child = subprocess.Popen(
-            command,
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=log,
-            env=environment or _neutral_environment(),
-            cwd=ROOT,
-            close_fds=False,  # it inherits the lock
-        )
-        try:
-            while True:
-                with suppress(subprocess.TimeoutExpired):
-                    return child.wait(_GAP) == 0
-                there = len([*VENV.glob("lib/*/site-packages/*.dist-info")])
-                print_error(f"installing: packages so far: {there}")
-        finally:
-            if child.returncode is None:
-                _end(child.pid)
 
+    def progress() -> str:
+        there = len([*VENV.glob("lib/*/site-packages/*.dist-info")])
+        return f"reproduce: installing: packages so far: {there}"
 
-def _end(process: int) -> None:
-    """Kill a child and reap it, without Popen: an interrupted wait may keep Popen's lock."""
-    with suppress(OSError):
-        os.kill(process, signal.SIGKILL)
-        os.waitpid(process, 0)
+    how: dict[str, Any] = {"stdin": subprocess.DEVNULL, "cwd": ROOT, "env": environment}
+    with LOG.open("ab") as log, closing(Heartbeat(progress, gap=4.5)):
+        # It inherits the lock.
+        return subprocess.call(command, stdout=log, stderr=log, close_fds=False, **how) == 0
 
 
 def _check(succeeded: bool) -> None:
@@ -224,33 +192,36 @@ def _check(succeeded: bool) -> None:
         raise UsageError(f"could not install the packages: {last} (log: .venv/install.log)")
 
 
-def pip_settings(pip: list[str]) -> dict[str, str]:
-    """Return the settings of pip that are kept; variables override its files."""
-    kept = ["PIP_CONFIG_FILE", *map(_variable, _SETTINGS)]
-    own = {name: os.environ[name] for name in os.environ if name in kept}
-    command, environment = [*pip, "config", "list"], _neutral_environment() | own
-    result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+def installers_environment(pip: list[str]) -> dict[str, str]:
+    """Return the environment for pip and uv, without variables that change what is installed.
+
+    pip reads no file of settings in it: of these, variables have those that are kept. uv has pip's
+    settings, each overridden by uv's of the same name.
+    """
+    dropped = r"PIP_|UV_|VIRTUAL_ENV$|CONDA_PREFIX$|SETUPTOOLS_|DISTUTILS_"
+    neutral = {name: value for name, value in os.environ.items() if not re.match(dropped, name)}
+    neutral["LC_ALL"] = "C.UTF-8"  # setuptools reads files in the locale's encoding
+    variables = {name: f"PIP_{name.upper().replace('-', '_')}" for name in _SETTINGS}
+    own = {"PIP_CONFIG_FILE", *variables.values()} & os.environ.keys()
+    result = subprocess.run(
+        [*pip, "config", "list"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=neutral | {name: os.environ[name] for name in own},
+    )
     settings = re.findall(r"^(global|install|:env:)\.([\w-]+)=(.+)$", result.stdout, re.M)
     settings.sort(key=lambda item: ("global", "install", ":env:").index(item[0]))
-    return {name: ast.literal_eval(value) for _, name, value in settings if name in _SETTINGS}
-
-
-def _variable(setting: str) -> str:
-    return f"PIP_{setting.upper().replace('-', '_')}"
-
-
-def _neutral_environment() -> dict[str, str]:
-    """Return the present environment without variables that change what is installed, or where."""
-    dropped = r"PIP_|UV_|VIRTUAL_ENV$|CONDA_PREFIX$|SETUPTOOLS_|DISTUTILS_"
-    kept = {name: value for name, value in os.environ.items() if not re.match(dropped, name)}
-    return kept | {"LC_ALL": "C.UTF-8"}  # setuptools reads files in the locale's encoding
-
-
-def pip_environment(settings: dict[str, str]) -> dict[str, str]:
-    """Return the environment for pip, in which it reads no file of settings."""
-    kept = {_variable(name): value for name, value in settings.items()}
-    kept |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
-    return _neutral_environment() | kept | {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    # As pip does, uv searches all indexes for a version; its hash decides what is installed.
+    environment = neutral | {"UV_INDEX_STRATEGY": "unsafe-best-match"}
+    if ssl.get_default_verify_paths().cafile:
+        environment["UV_SYSTEM_CERTS"] = "1"
+    for _, name, value in settings:
+        for variable in filter(None, [variables.get(name), _SETTINGS.get(name)]):
+            environment[variable] = ast.literal_eval(value)
+    environment |= {name: value for name, value in os.environ.items() if re.match(_UV, name)}
+    environment |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
+    return environment | {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
 
 
 def logical_lines(name: str) -> list[str]:

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable
 from shutil import get_terminal_size
 
-GAP = 30.0  # seconds without a line after which one is written, where there is no terminal
 CLEAR = "\r\033[K"  # clears the present line of a terminal
 
 
@@ -23,12 +22,15 @@ def clear_line() -> None:
 
 
 class Heartbeat(threading.Thread):
-    """Show what `describe` returns until `close`: on a terminal in one line, which changes."""
+    """Show what `describe` returns until `close`: on a terminal in one line, which changes.
 
-    def __init__(self, describe: Callable[[], str]) -> None:
+    Elsewhere a line is written after `gap` seconds without one.
+    """
+
+    def __init__(self, describe: Callable[[], str], gap: float = 30.0) -> None:
         super().__init__(daemon=True)
-        self.describe, self.closed = describe, threading.Event()
-        self.due = time.monotonic() + GAP
+        self.describe, self.gap, self.closed = describe, gap, threading.Event()
+        self.due = time.monotonic() + gap
         self.start()
 
     def run(self) -> None:
@@ -43,7 +45,7 @@ class Heartbeat(threading.Thread):
         """Print a line that stays."""
         clear_line()
         _write(f"{line}\n")
-        self.due = time.monotonic() + GAP
+        self.due = time.monotonic() + self.gap
 
     def close(self) -> None:
         """Show nothing any more."""

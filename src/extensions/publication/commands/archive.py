@@ -14,7 +14,7 @@ from packaging.markers import Marker
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import CommandLineError, UsageError, one_line
 from pipeline.cli.lock import locked
-from pipeline.cli.packages import HASH, logical_lines, pip_environment, pip_settings
+from pipeline.cli.packages import HASH, installers_environment, logical_lines
 from pipeline.cli.running import interruptible
 from pipeline.records.files import file_hash
 from pipeline.records.sources import ROOT
@@ -65,7 +65,7 @@ def download(folder: Path, python: str) -> list[Path]:
             capture_output=True,
             text=True,
             check=False,
-            env=pip_environment(pip_settings(pip)),
+            env=installers_environment(pip),
         )
     if result.returncode:
         errors = [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
