@@ -8,12 +8,12 @@ import re
 import sys
 from collections.abc import Iterable
 from functools import cached_property
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands
 from ..declaration import files, lacking
+from ..records.files import read_text
 from ..spelling import suggestion
 
 if TYPE_CHECKING:  # it needs packages
@@ -64,7 +64,18 @@ class _Parser(argparse.ArgumentParser):
         print(self.format_help(), end="", file=file)
 
     def error(self, message: str) -> NoReturn:
-        message = explain(self, message)
+        """End the process with the message, or with what an unknown argument may mean."""
+        if unknown := message.partition("unrecognized arguments: ")[2]:
+            name, after = unknown.split()[0], f": usage: {self.usage}"
+            if name.startswith("-"):
+                name = name.partition("=")[0]
+                owners = [word for word, c in all_commands().items() if name in c.arguments]
+                if "--cores" in self._option_string_actions:
+                    after = ": options of snakemake follow --"
+                after = f": {owners[0]} has it" if owners else after
+            message = f"no argument {name}{hint(name, self._option_string_actions) or after}"
+            if name == "--offline":
+                message = "--offline DIR comes first: ./reproduce --offline DIR ..."
         _refuse(message[0].lower() + message[1:], self.prog)
 
 
@@ -89,31 +100,12 @@ def read(arguments: list[str]) -> Arguments:
         own, options = own[:end], own[end + 1 :]
     args = _parser(word).parse_intermixed_args(own, Arguments())
     if word == "help":
-        if args.word not in (None, *commands):
-            _refuse(f"no command {args.word}{hint(args.word, commands)}")
-        return read(["--help"] if args.word is None else [args.word, "--help"])
+        return read([*filter(None, [args.word]), "--help"])
     if not word and args.version:
         print(_versions())
         sys.exit(0)
     args.word, args.options = word, options
     return args
-
-
-def explain(parser: argparse.ArgumentParser, message: str) -> str:
-    """Return a parser's message, with suggestions if it is about an unknown argument."""
-    unknown = message.partition("unrecognized arguments: ")[2]
-    if not unknown:
-        return message
-    first = unknown.split()[0]
-    if first.partition("=")[0] == "--offline":
-        return "--offline DIR comes first: ./reproduce --offline DIR ..."
-    if first.startswith("-"):
-        first = first.partition("=")[0]
-    known = [name for action in parser._actions for name in action.option_strings]
-    owners = [name for name, command in all_commands().items() if first in command.arguments]
-    after = ": options of snakemake follow --" if "--cores" in known and first[0] == "-" else ""
-    after = f": {owners[0]} has it" if owners and first[0] == "-" else after
-    return f"no argument {first}{hint(first, known) or after or f': usage: {parser.usage}'}"
 
 
 def hint(name: str, known: Iterable[str]) -> str:
@@ -147,16 +139,14 @@ def _parser(name: str | None) -> _Parser:
         unchanged = argparse.RawDescriptionHelpFormatter
         parser = _Parser("./reproduce", formatter_class=unchanged, allow_abbrev=False)
         parser.description = command.line
-        width = max(map(len, commands))
-        lines = list[str]()
-        for group, words in groupby(commands, lambda word: commands[word].group):
-            lines += [
-                f"{group}:",
-                *(f"  {word:{width}}  {commands[word].line}" for word in words),
-                "",
-            ]
+        width, lines, group = max(map(len, commands)), list[str](), ""
+        for word, each in commands.items():
+            if each.group != group:
+                group = each.group
+                lines += ["", f"{group}:"]
+            lines.append(f"  {word:{width}}  {each.line}")
         details = "./reproduce COMMAND --help shows a command's arguments."
-        parser.epilog = "\n".join([*lines, details, _OFFLINE, _SNAKEMAKE])
+        parser.epilog = "\n".join([*lines[1:], "", details, _OFFLINE, _SNAKEMAKE])
     for key, how in command.arguments.items():
         kind = {"action": "store_true"} if key.startswith("--") else {"nargs": "*"}
         parser.add_argument(key, **(kind | {"help": how} if isinstance(how, str) else how))
@@ -176,11 +166,9 @@ def _parser(name: str | None) -> _Parser:
 
 def _versions() -> str:
     """Return the versions of this project and of snakemake."""
-
-    def search(pattern: str, file: str) -> str:
-        text = (ROOT / file).read_text(encoding="utf-8")
-        return str(re.findall(pattern, text, re.MULTILINE)[0])
-
-    ours = search(r'^version = "(.+)"', "pyproject.toml")
-    snakemake = search("^snakemake==([^ ;]+)", "requirements/lock.txt")
+    pins = (
+        ('^version = "(.+)"', "pyproject.toml"),
+        ("^snakemake==([^ ;]+)", "requirements/lock.txt"),
+    )
+    ours, snakemake = (re.findall(p, read_text(ROOT / file), re.M)[0] for p, file in pins)
     return f"pseudorigid {ours}, snakemake {snakemake}"

@@ -20,8 +20,7 @@ def run(args: Arguments) -> int:
         os.environ[ONLY_SET] = MAIN
         if not {*args.figure} <= {"all", *args.config.scenes}:
             del os.environ[ONLY_SET], args.config
-    config = args.config
-    status, group = 0, args.word
+    config, status, group = args.config, 0, args.word
     if group in PUBLISHED:  # the command that makes these scenes has their name
         targets = {group: publishing.drawings_of(config, group)}
     else:
@@ -37,34 +36,29 @@ def run(args: Arguments) -> int:
 
 def _named(args: Arguments) -> dict[str, publishing.Drawings]:
     """Select every figure of the paper, or the named figures and files, by sets of scenes."""
-    published = {
-        group: publishing.drawings_of(args.config, group)
+    figures = [
+        (group, path, drawing)
         for group in PUBLISHED
         if group in args.config.variants
-    }
+        for path, drawing in publishing.drawings_of(args.config, group).items()
+    ]
     targets: dict[str, publishing.Drawings] = {}
-    other_results: list[str] = []
     for name in args.figure or ["all"]:
         # A path is relative to the root or to the user's folder.
         files = {os.path.normpath(name), os.path.relpath(args.start / name, ROOT)}
         found = [
-            (group, path)
-            for group, drawings in published.items()
-            for path, drawing in drawings.items()
+            (group, path, drawing)
+            for group, path, drawing in figures
             if name in (scene := PurePath(drawing).stem, f"{group}/{scene}")
             or path in files
             or (name, group) == ("all", MAIN)
         ]
-        if "/" not in name and len(groups := dict.fromkeys(group for group, _ in found)) > 1:
+        if "/" not in name and len(groups := dict.fromkeys(group for group, *_ in found)) > 1:
             full_names = " or ".join(f"{group}/{name}" for group in groups)
             raise CommandLineError(f"{name} is the name of several scenes: say {full_names}")
-        for group, path in found:
-            targets.setdefault(group, {})[path] = published[group][path]
-        if not found:
-            other_results += _results_among(files, name, args)
-    if other_results:
-        group = next(iter(targets), MAIN)
-        targets[group] = targets.get(group, {}) | {path: path for path in other_results}
+        found = found or [(MAIN, path, path) for path in _results_among(files, name, args)]
+        for group, path, drawing in found:
+            targets.setdefault(group, {})[path] = drawing
     return targets
 
 
