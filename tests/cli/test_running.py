@@ -22,7 +22,7 @@ from pipeline.cli import lock, running
 
 lock.ROOT = Path(sys.argv[1])
 with lock.locked():
-    running._wait(["sh", "-c", "echo $$; exec sleep 60"], False)
+    running._run(["sh", "-c", "echo $$; exec sleep 60"], False)
 """
 
 

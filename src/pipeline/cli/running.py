@@ -31,7 +31,6 @@ OPTIONS = (
 )
 
 _NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
-_LOGGER = ("--logger", "reproduce")
 
 
 def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
@@ -56,26 +55,39 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
     if words := disk_is_full(ROOT) or memory_is_short():
         raise UsageError(words)
     python, options = [sys.executable, "-P", "-m"], [*OPTIONS, "--cores", args.cores]
-    command = [*python, "snakemake", *options]
-    command += ["--dry-run"] if args.dry_run else []
-    if args.makes_nothing:  # its reader may close the pipe, as `head` does
-        result = subprocess.run([*command, *args.options, "--", *paths], stdout=-1, check=False)
-        sys.stdout.write(result.stdout.decode(errors="replace"))
-        return result.returncode
-    if args.options:  # jobs may run on other machines
-        return _run([*command, *_LOGGER, *args.options, "--", *paths], remote=True)
-    options += [*_LOGGER, "--executor", "reproduce", "--", *outdated]
-    return _run([*python, "pipeline.jobs.forked", *options], remote=False)
+    options += ["--dry-run"] * args.dry_run
+    options += [] if args.makes_nothing else ["--logger", "reproduce"]
+    if not args.options:
+        options += ["--executor", "reproduce", "--", *outdated]
+        return _run([*python, "pipeline.jobs.forked", *options], remote=False)
+    command = [*python, "snakemake", *options, *args.options, "--", *paths]
+    if not args.makes_nothing:
+        return _run(command, remote=True)
+    result = subprocess.run(command, stdout=subprocess.PIPE, check=False)
+    sys.stdout.write(result.stdout.decode(errors="replace"))  # to a reader that may end: `| head`
+    return result.returncode
 
 
 def _run(command: list[str], remote: bool) -> int:
-    """Run snakemake, whose jobs may be `remote`: on other machines."""
-    with interruptible(end=not remote) as caught:
+    """Run snakemake in a process group of its own, and return its exit status.
+
+    It inherits the lock, and its stdin closes when this process ends. If its jobs may be `remote`,
+    on other machines, it is asked to cancel them on Ctrl-C.
+    """
+    environment = os.environ if remote else os.environ | {RUN: "1"}
+    how: dict[str, Any] = {"stdin": subprocess.PIPE, "process_group": 0, "close_fds": False}
+    with (
+        suppress(KeyboardInterrupt),
+        interruptible(end=not remote) as caught,
+        subprocess.Popen(command, env=environment, **how) as child,
+    ):
         try:
-            status = _wait(command, remote)
+            status = child.wait()
         except KeyboardInterrupt:
-            if not caught:
-                raise
+            if remote:
+                child.send_signal(signal.SIGINT)
+                child.wait()
+            raise
     clear_line()  # of a snakemake that was killed
     if caught:
         print_error("interrupted: run it again to go on")
@@ -86,24 +98,6 @@ def _run(command: list[str], remote: bool) -> int:
         newest = logs[-1]  # names begin with the time
         print_error(f"snakemake's log: {newest.relative_to(ROOT)}")
     return status
-
-
-def _wait(command: list[str], remote: bool) -> int:
-    """Run a command in a process group of its own, and return its exit status.
-
-    The command inherits the lock, and its stdin closes when this process ends. If its jobs may be
-    `remote`, it is asked to cancel them on Ctrl-C.
-    """
-    environment = os.environ if remote else os.environ | {RUN: "1"}
-    options: dict[str, Any] = {"env": environment, "process_group": 0, "close_fds": False}
-    with subprocess.Popen(command, stdin=subprocess.PIPE, **options) as child:
-        try:
-            return child.wait()
-        except KeyboardInterrupt:
-            if remote:
-                child.send_signal(signal.SIGINT)
-                child.wait()
-            raise
 
 
 def _end_jobs() -> None:
