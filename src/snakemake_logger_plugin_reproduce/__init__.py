@@ -123,13 +123,14 @@ class LogHandler(LogHandlerBase):
 def _expected() -> dict[str, float]:
     """Map each result that this run makes to its seconds in an earlier run, or to a guess."""
     results = sys.argv[sys.argv.index("--") + 1 :] if RUN in os.environ else []
-    earlier = dict[str, float]()
+    seconds, earlier = dict[str, float](), dict[str, float]()
+    for part in parts().values():
+        seconds |= part.seconds
     for path in results:
         with suppress(provenance.RecordError, KeyError):  # not made yet, or refused
             earlier[path] = read_record(ROOT, record_path(path))["seconds"]
-    declared = {path: s for part in parts().values() for path, s in part.seconds.items()}
-    typical = mean(earlier.values() or [1.0])
-    return {path: earlier.get(path) or declared.get(path, typical) for path in results}
+    typical, seconds = mean(earlier.values() or [1.0]), seconds | earlier
+    return {path: seconds.get(path, typical) for path in results}
 
 
 @cache

@@ -61,35 +61,39 @@ def make(
     out figures that were current. A figure that cannot exist, for instance for want of its periodic
     orbit, is not made; if nothing else is missing, the status is 1 only for a published set.
     """
-    reasons = config.left_out.get(group, {})
-    left_out = {path: reasons[s] for path in drawings if (s := PurePath(path).stem) in reasons}
-    drawings = {path: drawing for path, drawing in drawings.items() if path not in left_out}
-    results = [*drawings.values(), *data]
-    before = Freshness(ROOT, config.build_specs())
+    left_out, before = config.left_out.get(group, {}), Freshness(ROOT, config.build_specs())
+    results = [path for path in (*drawings.values(), *data) if path in before.build_specs]
     status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
-        for path, reason in left_out.items():
-            print(f"{PurePath(path).stem}: {reason}")
+        for drawing in drawings.values():
+            if drawing not in before.build_specs:
+                scene = PurePath(drawing).stem
+                print(f"{scene}: {left_out[scene]}")
         return status
     old = before.outdated(results)
     now = Freshness(ROOT, before.build_specs) if old or args.options else before
     outdated = now.outdated(results)
-    refused = [path for path in outdated if now.refusal(path)]
-    if missing := [PurePath(path).name for path in outdated if path not in refused]:
+    if missing := [path for path in outdated if not now.refusal(path)]:
         status = status or 1
+        names = ", ".join(PurePath(path).name for path in missing[:3])
         more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""
         words = f"{len(missing)} of {len(results)} results not made, or not current"
-        print_error(f"{words}: {', '.join(missing[:3])}{more}")
-    elif refused:
+        print_error(f"{words}: {names}{more}")
+    elif outdated:
         status = int(group in PUBLISHED)
-    rows, notes = list[FileRow](), list[str]()
+    rows, notes = list[FileRow](), dict[str, None]()
     for path, drawing in drawings.items():
         size = compared = ""
         state = "recomputed" if drawing in old else "current"
-        if drawing in outdated:
+        if drawing not in before.build_specs or now.refusal(drawing):
+            state = outdated.get(drawing) or left_out[PurePath(drawing).stem]
+            for file in (ROOT / drawing, ROOT / record_path(drawing)):  # of another config
+                if not why_not_a_file(file):
+                    file.unlink(missing_ok=True)
+        elif drawing in outdated:
             state = _why_not_made(now, drawing)
         else:
-            notes += _notes(now, drawing)
+            notes |= dict.fromkeys(_notes(now, drawing))
             try:
                 how = _publish(path, drawing)
                 state = f"published again: {how}" if how and state == "current" else state
@@ -101,19 +105,15 @@ def make(
                 state = f"not published: {str(error).removeprefix(f'{ROOT / path}: ')}"
         if not (brief and state == "current"):
             rows.append((path, size, (state, compared)))
-    for path in [*(path for path in refused if path in drawings.values()), *left_out]:
-        for file in (ROOT / path, ROOT / record_path(path)):  # the present config has none
-            if not why_not_a_file(file):
-                file.unlink(missing_ok=True)
-    rows += [(path, "", (reason, "")) for path, reason in left_out.items()]
     if rows:
-        lines = [*dict.fromkeys(notes)]
-        lines += [f"{p}: {outdated[p]}" for p in sorted({*refused} - {*drawings.values()})]
+        for path in sorted(outdated.keys() - drawings.values()):
+            if now.refusal(path):
+                notes[f"{path}: {outdated[path]}"] = None
         if group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
-            lines += unlisted_files(ROOT, PUBLISHED[group], figures)
+            notes |= dict.fromkeys(unlisted_files(ROOT, PUBLISHED[group], figures))
         title = "as committed" if any(cells[1] for _, _, cells in rows) else ""
-        print_files("", rows, ("figure", "files", "state", title), lines)
+        print_files("", rows, ("figure", "files", "state", title), notes)
     return status
 
 
@@ -126,13 +126,11 @@ def _notes(freshness: Freshness, drawing: str) -> Iterator[str]:
 
 
 def _why_not_made(freshness: Freshness, drawing: str) -> str:
-    """Return the state of a drawing that is outdated after a run."""
-    reason = str(freshness.reason(drawing))
-    if freshness.refusal(drawing):
-        return reason
+    """Return the state of a drawing that could exist and is outdated after a run."""
     behind = with_dependencies(freshness.build_specs, [drawing])
     if failures := [*filter(None, map(failure, behind))]:
         return f"not made: {failures[0]}"
+    reason = freshness.reason(drawing)
     return "not made" if reason == MISSING else f"not current: {reason}"
 
 

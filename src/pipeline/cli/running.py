@@ -145,8 +145,8 @@ def set_environment() -> None:
     Settings stay that say whether numba compiles, for which processor, and where it keeps the code.
     """
     caches = ROOT / ".venv" / "cache"
-    for name in [name for name in os.environ if name.startswith(("SNAKEMAKE_", "NUMBA_"))]:
-        if name not in _NUMBA_SETTINGS:
+    for name in [*os.environ]:
+        if name.startswith(("SNAKEMAKE_", "NUMBA_")) and name not in _NUMBA_SETTINGS:
             del os.environ[name]
     os.environ |= {"PYTHONPATH": str(ROOT / "src"), "XDG_CACHE_HOME": str(caches)}
     os.environ["MPLCONFIGDIR"] = str(caches / "matplotlib")

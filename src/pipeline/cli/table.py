@@ -26,25 +26,27 @@ def print_files(
     The words that follow ": " in a cell stand below the table, once for all their files. If a cell
     says "differs", the last line says what to do.
     """
-    rows, folders = [*rows], dict[str, dict[tuple[str, ...], list[str]]]()
-    reasons = dict[str, list[str]]()
+    folders, reasons = dict[str, dict[tuple[str, ...], list[str]]](), dict[str, list[str]]()
+    differs = False
     for path, size, cells in rows:
         folder, name = os.path.split(path)
-        figure, suffix = PurePath(name).stem, PurePath(name).suffix[1:]
+        row = [PurePath(name).stem]
         for cell in cells:
-            if ": " in cell:
+            state, _, reason = cell.partition(": ")
+            row.append(state)
+            if reason:
                 reasons.setdefault(cell, []).append(path)
-        row = figure, *(cell.partition(": ")[0] for cell in cells)
-        file = f"{suffix} {size}".rstrip()
-        folders.setdefault(folder, {}).setdefault(row, []).append(file)
+        differs |= "differs" in row
+        file = f"{PurePath(name).suffix[1:]} {size}".rstrip()
+        folders.setdefault(folder, {}).setdefault(tuple(row), []).append(file)
     for folder, figures in folders.items():
         between = "  " if header else " "
         table = [(row[0], between.join(files), *row[1:]) for row, files in figures.items()]
         print(f"\n{title}{folder}/")
         print_lines(columns([header, *table] if header else table))
     explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    to_do = [WHAT_TO_DO] if any("differs" in cells for _, _, cells in rows) else []
-    print_lines(line for note in (*explained, *notes, *to_do) for line in wrapped(note))
+    for line in (*explained, *notes, *[WHAT_TO_DO] * differs):
+        print_lines(wrapped(line))
 
 
 def wrapped(text: str, width: int = 10**6) -> list[str]:

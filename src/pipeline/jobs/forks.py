@@ -22,8 +22,10 @@ from ..records.provenance import BuildSpec, log_path
 from . import job
 
 # Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
-_LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "NUMEXPR")
-THREADS = [*(f"{name}_NUM_THREADS" for name in _LIBRARIES), "VECLIB_MAXIMUM_THREADS"]
+THREADS = (
+    *("OMP_NUM_THREADS", "GOTO_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
+    *("NUMEXPR_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"),
+)
 
 # To start a process, multiprocessing asks for the status of all others. A status can be read once:
 # if two threads ask for it, it is lost.

@@ -18,7 +18,7 @@ def on_terminal() -> bool:
 def clear_line() -> None:
     """Clear the line that changes, before others are printed."""
     if on_terminal():
-        _write(CLEAR)
+        print(CLEAR, end="", file=sys.stderr, flush=True)
 
 
 class Heartbeat(threading.Thread):
@@ -37,14 +37,15 @@ class Heartbeat(threading.Thread):
         """Look a few times a second what there is to show."""
         while not self.closed.wait(0.2):
             if on_terminal():
-                _write(CLEAR + self.describe()[: get_terminal_size().columns - 1])
+                line = self.describe()[: get_terminal_size().columns - 1]
+                print(f"{CLEAR}{line}", end="", file=sys.stderr, flush=True)
             elif time.monotonic() >= self.due:
                 self.print(self.describe())
 
     def print(self, line: str) -> None:
         """Print a line that stays."""
         clear_line()
-        _write(f"{line}\n")
+        sys.stderr.write(f"{line}\n")  # at once: another thread may print a line
         self.due = time.monotonic() + self.gap
 
     def close(self) -> None:
@@ -52,8 +53,3 @@ class Heartbeat(threading.Thread):
         self.closed.set()
         self.join()
         clear_line()
-
-
-def _write(text: str) -> None:
-    sys.stderr.write(text)  # at once: another thread may print a line
-    sys.stderr.flush()
