@@ -4,10 +4,7 @@ import os
 import sys
 
 import pytest
-from packaging.markers import Marker
 from project import fresh_tree, of_scenes, run
-
-from pipeline.cli.packages import logical_lines
 
 # Python runs this file at each start. It takes away what macOS lacks, and the user's name.
 SITE = """
@@ -61,20 +58,19 @@ def test_a_run_needs_neither_linux_nor_a_user_with_a_name_and_a_home(tmp_path):
 
 # Packages that exist as pure source alone, which installs anywhere.
 PURE_SOURCES = {"connection-pool"}
-MAC = {"sys_platform": "darwin", "platform_system": "Darwin", "platform_machine": "arm64"}
+MAC = {
+    "sys_platform": "darwin", "platform_system": "Darwin", "platform_machine": "arm64",
+    "python_version": "3.12",
+}  # fmt: skip
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", [("uv", "build", "lock"), ("test",), ("article",)])
 def test_the_locked_packages_have_wheels_for_macos_on_apple_processors(tmp_path, names):
     """Pip evaluates conditions for the machine that runs it, so that they are decided here."""
-    wanted = []
-    for line in (line for name in names for line in logical_lines(name)):
-        pin, _, hashes = line.partition(" --hash")
-        pin, _, marker = pin.partition(";")
-        on_mac = not marker or Marker(marker.strip()).evaluate(MAC | {"python_version": "3.12"})
-        if on_mac and pin.partition("==")[0] not in PURE_SOURCES:
-            wanted.append(f"{pin.strip()} --hash{hashes}\n")
+    archive = pytest.importorskip("extensions.publication.commands.archive")
+    lines = [line for name in names for line in archive.requirements_for(name, MAC)]
+    wanted = [f"{line}\n" for line in lines if line.partition("==")[0] not in PURE_SOURCES]
     (tmp_path / "wanted.txt").write_text("".join(wanted))
     options = ["--dry-run", "--no-deps", "--require-hashes", "--only-binary=:all:"]
     options += ["--platform=macosx_15_0_arm64", "--python-version=3.12", f"--target={tmp_path}/to"]

@@ -30,7 +30,6 @@ PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
 _FOLDER = "packages"  # of a tar with packages, unpacked; `reproduce` installs from it
-HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
 # The settings of pip that are kept, with their names for uv. Others could install elsewhere, or
 # other packages.
 _SETTINGS = {
@@ -222,10 +221,3 @@ def installers_environment(pip: list[str]) -> dict[str, str]:
     environment |= {name: value for name, value in os.environ.items() if re.match(_UV, name)}
     environment |= {"PIP_CONFIG_FILE": os.devnull, "PIP_USER": "0", "PIP_NO_INPUT": "1"}
     return environment | {"PIP_DISABLE_PIP_VERSION_CHECK": "1"}
-
-
-def logical_lines(name: str) -> list[str]:
-    """Return the requirements of requirements/NAME.txt, each on one line."""
-    text = (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8")
-    lines = text.replace("\\\n", "").splitlines()
-    return [" ".join(line.split()) for line in lines if re.match(r"[\w.-]+==", line)]

@@ -11,9 +11,8 @@ import pytest
 from project import ROOT, run
 
 from extensions.publication import archive
-from extensions.publication.commands.archive import download, requirements_for
+from extensions.publication.commands import archive as command
 from pipeline import config
-from pipeline.cli import packages
 from pipeline.cli.errors import UsageError
 
 PYTHON = ".".join(platform.python_version_tuple()[:2])
@@ -23,15 +22,16 @@ PYTHON = ".".join(platform.python_version_tuple()[:2])
 def test_the_conditions_of_requirements_are_those_of_the_other_python(
     python, tmp_path, monkeypatch
 ):
-    lines = requirements_for("lock", python)
+    target = {"python_version": python, "python_full_version": f"{python}.0"}
+    lines = command.requirements_for("lock", target)
     names = [line.partition("==")[0] for line in lines]
     assert "greenlet" in names and "pyreadline3" not in names
     assert all(" --hash=sha256:" in line and ";" not in line for line in lines)
     conditions = "a==1 ; python_version < '3.12'\nb==1 ; python_full_version < '3.12'\n"
     (tmp_path / "requirements").mkdir()
     (tmp_path / "requirements" / "lock.txt").write_text(conditions)
-    monkeypatch.setattr(packages, "ROOT", tmp_path)
-    assert len(requirements_for("lock", python)) == (2 if python == "3.11" else 0)
+    monkeypatch.setattr(command, "ROOT", tmp_path)
+    assert len(command.requirements_for("lock", target)) == (2 if python == "3.11" else 0)
 
 
 @pytest.mark.slow
@@ -43,7 +43,7 @@ def test_an_archive_with_packages_is_made_twice_and_refuses_a_damaged_one(accept
     checked, sums = config.load(tree.config), []
     for name in ("one.tar", "two.tar"):
         try:
-            packages = download(tmp_path / f"packages of {name}", PYTHON)
+            packages = command.download(tmp_path / f"packages of {name}", PYTHON)
         except UsageError as error:
             pytest.skip(str(error))
         sums.append(archive.write(tree.path, checked, tmp_path / name, packages))

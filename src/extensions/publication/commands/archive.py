@@ -4,6 +4,7 @@ An archive that runs without a network has the locked packages, which are downlo
 """
 
 import platform
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from packaging.markers import Marker
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import CommandLineError, UsageError, one_line
 from pipeline.cli.lock import locked
-from pipeline.cli.packages import HASH, installers_environment, logical_lines
+from pipeline.cli.packages import installers_environment
 from pipeline.cli.running import interruptible
 from pipeline.records.files import file_hash
 from pipeline.records.sources import ROOT
@@ -23,6 +24,7 @@ from .. import archive
 
 FOLDER = "results/archive"
 REQUIREMENTS = ("uv", "build", "lock")  # what an installation needs
+_HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
 
 
 def run(args: Arguments) -> int:
@@ -52,7 +54,8 @@ def download(folder: Path, python: str) -> list[Path]:
     UsageError, with pip's own message, if that fails.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    lines = [line for name in REQUIREMENTS for line in requirements_for(name, python)]
+    target = {"python_version": python, "python_full_version": f"{python}.0"}
+    lines = [line for name in REQUIREMENTS for line in requirements_for(name, target)]
     pip = [sys.executable, "-I", "-m", "pip"]
     options = ["--no-deps", "--require-hashes", "--quiet", "--progress-bar=off"]
     options += [f"--dest={folder}", f"--python-version={python}"]
@@ -71,23 +74,24 @@ def download(folder: Path, python: str) -> list[Path]:
         errors = [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
         message = (errors or result.stderr.splitlines() or ["pip failed"])[-1]
         raise UsageError(f"cannot download the packages: {message.removeprefix('ERROR: ')}")
-    wanted = set(HASH.findall("\n".join(lines)))
+    wanted = set(_HASH.findall("\n".join(lines)))
     files = [file for file in sorted(folder.iterdir()) if file_hash(file) in wanted]
     if len(files) != len(lines):
         raise UsageError(f"{folder} has {len(files)} packages of {len(lines)}: delete it and retry")
     return files
 
 
-def requirements_for(name: str, python: str) -> list[str]:
-    """Return the requirements for a version of Python on this machine, without their conditions.
+def requirements_for(name: str, target: dict[str, str]) -> list[str]:
+    """Return the lines of requirements/NAME.txt for a machine, without their conditions.
 
-    Pip would evaluate the conditions for the Python that runs it.
+    Pip would evaluate the conditions for the Python that runs it. `target` maps what they name to
+    the machine's values, if these are not those of this machine.
     """
-    target = {"python_version": python, "python_full_version": f"{python}.0"}
+    text = (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8")
     needed = []
-    for line in logical_lines(name):
-        pin, _, marker = line.partition(" --hash")[0].partition(";")
+    for line in re.findall(r"^[\w.-]+==.*", text.replace("\\\n", ""), re.MULTILINE):
+        pin, *hashes = line.split(" --hash")
+        pin, _, marker = pin.partition(";")
         if not marker or Marker(marker.strip()).evaluate(target):
-            hashes = " ".join(f"--hash=sha256:{digest}" for digest in HASH.findall(line))
-            needed.append(f"{pin.strip()} {hashes}")
+            needed.append(" --hash".join([pin.strip(), *map(str.strip, hashes)]))
     return needed
