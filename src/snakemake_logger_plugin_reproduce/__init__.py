@@ -44,7 +44,8 @@ class LogHandler(LogHandlerBase):
         self.expected = _expected()
         logging.raiseExceptions = False  # snakemake's own log may be on a full disk
         threading.Thread(target=_end_with_parent, daemon=True).start()
-        self.compiling = _compiling()
+        kernel = os.environ.get("NUMBA_CACHE_DIR") or ROOT / "src/pseudorigid/kernel/__pycache__"
+        self.compiling = not any(Path(kernel).glob("pseudorigid.*/*.nbc"))  # no machine code yet
         self.heartbeat = Heartbeat(self.describe)
 
     def emit(self, record: LogRecord) -> None:
@@ -108,9 +109,10 @@ class LogHandler(LogHandlerBase):
 
     def _print(self, job: int, *words: str) -> None:
         """Print a line about a job."""
-        scene, step = _names(self.results[job])
-        line = f"{scene:6}  {step:12}  " + "  ".join(f"{each:>7}" for each in words)
-        self.heartbeat.print(line.rstrip())
+        line = "{:6}  {:12}".format(*_names(self.results[job]))
+        for each in words:
+            line += f"  {each:>7}"
+        self.heartbeat.print(line)
 
     def _reason(self, result: str) -> str:
         """Return the last line of a failed job's log, or of snakemake's message."""
@@ -141,12 +143,6 @@ def _names(result: str) -> tuple[str, str]:
     except ValueError:  # all
         return "", "all of it"
     return spec.scene, spec.step
-
-
-def _compiling() -> bool:
-    """Return whether the kernel has to be compiled, as no machine code is stored yet."""
-    folder = os.environ.get("NUMBA_CACHE_DIR") or ROOT / "src/pseudorigid/kernel/__pycache__"
-    return not any(Path(folder).glob("pseudorigid.*/*.nbc"))
 
 
 def _end_with_parent() -> None:

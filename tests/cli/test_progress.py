@@ -62,10 +62,10 @@ def test_the_line_has_the_share_of_earlier_seconds_and_the_time_left(clock, caps
     seconds = {"results/paper/a.nc": 10.0, "results/paper/b.nc": 30.0}
     monkeypatch.setattr(plugin, "_expected", lambda: seconds)
     monkeypatch.setattr(plugin, "_names", lambda result: ("fig2", result[14]))
-    monkeypatch.setattr(plugin, "_compiling", lambda: False)
     monkeypatch.setattr(plugin.threading, "Thread", lambda **_: types.SimpleNamespace(start=int))
     handler = object.__new__(plugin.LogHandler)
     handler.__post_init__()
+    handler.compiling = False
     handler.emit(event(LogEvent.RUN_INFO, stats={"stage": 2, "total": 2}))
     for job, result in enumerate(seconds):
         handler.emit(event(LogEvent.JOB_INFO, jobid=job, output=[result]))

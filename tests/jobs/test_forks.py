@@ -78,7 +78,7 @@ def test_jobs_are_new_pythons_where_no_process_can_fork_them(monkeypatch):
 
 
 def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys):
-    def make(spec, known, about):
+    def make(spec, known):
         os.write(2, f"fig: 60%, {known}\na warning\n".encode())
 
     monkeypatch.setattr(forks.job, "make", make)

@@ -29,7 +29,6 @@ VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
 STAMP = VENV / "stamp"  # written last: a .venv without it is incomplete
-_FOLDER = "packages"  # of a tar with packages, unpacked; `reproduce` installs from it
 # The settings of pip that are kept, with their names for uv. Others could install elsewhere, or
 # other packages.
 _SETTINGS = {
@@ -140,7 +139,7 @@ def _install(*names: str, again: bool = False) -> None:
             _check(_run([PYTHON, "-I", "-m", "ensurepip"]))
     environment = installers_environment(pip)
     options = ["--require-hashes", "--no-build-isolation"]
-    ours = ROOT / _FOLDER  # of a tar with packages, which has only the locked ones
+    ours = ROOT / "packages"  # of a tar with packages, which has only the locked ones
     folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
     if folder:
         options += ["--no-index", f"--find-links={folder}"]

@@ -9,7 +9,6 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Mapping
 from contextlib import suppress
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
@@ -33,18 +32,10 @@ _lock = threading.Lock()
 PROGRESS: dict[str, str] = {}  # result -> what its job said last of its progress
 
 
-def run(
-    context: ForkServerContext | SpawnContext,
-    spec: BuildSpec,
-    known: Mapping[str, Any] | None = None,
-    about: Mapping[str, Any] | None = None,
-) -> bool:
-    """Make a result in a process of its own, and return whether it is made.
-
-    `known` and `about` are those of `job.make`.
-    """
+def run(context: ForkServerContext | SpawnContext, spec: BuildSpec, *given: Any) -> bool:
+    """Make a result in a process of its own by `job.make`, and return whether it is made."""
     receiver, stderr = context.Pipe(duplex=False)
-    process = context.Process(target=_make, args=(stderr, spec, known, about))
+    process = context.Process(target=_make, args=(stderr, spec, *given))
     lines = os.fdopen(receiver.fileno(), errors="replace", closefd=False)
     with receiver, lines, suppress(OSError, EOFError):
         with _lock:
