@@ -28,8 +28,7 @@ def one_line(prefix: str = "", kind: type[Exception] = ValueError) -> Iterator[N
         raise UsageError(prefix + str(error).replace(f"{ROOT}/", "")) from None
 
 
-def print_error(*lines: str) -> None:
-    """Print lines for the user to stderr."""
+def print_error(line: str) -> None:
+    """Print a line for the user to stderr."""
     sys.stdout.flush()  # keeps the order of lines if both streams go to one pipe
-    for line in lines:
-        print(f"reproduce: {line}", file=sys.stderr, flush=True)
+    print(f"reproduce: {line}", file=sys.stderr, flush=True)

@@ -44,8 +44,9 @@ def print_files(
         table = [(row[0], between.join(files), *row[1:]) for row, files in figures.items()]
         print(f"\n{title}{folder}/")
         print_lines(columns([header, *table] if header else table))
-    explained = [f"{', '.join(files)}: {reason}" for reason, files in reasons.items()]
-    for line in (*explained, *notes, *[WHAT_TO_DO] * differs):
+    for reason, files in reasons.items():
+        print_lines(wrapped(f"{', '.join(files)}: {reason}"))
+    for line in (*notes, *[WHAT_TO_DO] * differs):
         print_lines(wrapped(line))
 
 
@@ -62,7 +63,7 @@ def wrapped(text: str, width: int = 10**6) -> list[str]:
 
 def print_lines(lines: Iterable[str]) -> None:
     """Print lines, with verdicts in green and red for a person at a terminal."""
-    text = "".join(f"{line}\n" for line in lines)
+    text = "\n".join([*lines, ""])
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     if sys.stdout.isatty() and not plain:
         for colour, words in _VERDICTS.items():

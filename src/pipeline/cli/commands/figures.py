@@ -36,29 +36,27 @@ def run(args: Arguments) -> int:
 
 def _named(args: Arguments) -> dict[str, publishing.Drawings]:
     """Select every figure of the paper, or the named figures and files, by sets of scenes."""
-    figures = [
-        (group, path, drawing)
+    published = {
+        group: publishing.drawings_of(args.config, group)
         for group in PUBLISHED
         if group in args.config.variants
-        for path, drawing in publishing.drawings_of(args.config, group).items()
-    ]
+    }
     targets: dict[str, publishing.Drawings] = {}
     for name in args.figure or ["all"]:
         # A path is relative to the root or to the user's folder.
         files = {os.path.normpath(name), os.path.relpath(args.start / name, ROOT)}
-        found = [
-            (group, path, drawing)
-            for group, path, drawing in figures
-            if name in (scene := PurePath(drawing).stem, f"{group}/{scene}")
-            or path in files
-            or (name, group) == ("all", MAIN)
-        ]
-        if "/" not in name and len(groups := dict.fromkeys(group for group, *_ in found)) > 1:
-            full_names = " or ".join(f"{group}/{name}" for group in groups)
+        found: dict[str, publishing.Drawings] = {}
+        for group, drawings in published.items():
+            for path, drawing in drawings.items():
+                names = (scene := PurePath(drawing).stem, f"{group}/{scene}")
+                if name in names or path in files or (name, group) == ("all", MAIN):
+                    found.setdefault(group, {})[path] = drawing
+        if "/" not in name and len(found) > 1:
+            full_names = " or ".join(f"{group}/{name}" for group in found)
             raise CommandLineError(f"{name} is the name of several scenes: say {full_names}")
-        found = found or [(MAIN, path, path) for path in _results_among(files, name, args)]
-        for group, path, drawing in found:
-            targets.setdefault(group, {})[path] = drawing
+        found = found or {MAIN: {path: path for path in _results_among(files, name, args)}}
+        for group, drawings in found.items():
+            targets[group] = targets.get(group, {}) | drawings
     return targets
 
 
