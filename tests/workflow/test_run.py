@@ -100,7 +100,13 @@ def test_a_published_figure_that_is_not_its_drawing_is_published_again(done):
     words = "published again: it differed from results/paper/figures/fig3.png"
     assert f"paper_figures/fig3.png: {words}" in single.stdout.splitlines()
     assert contents(done) == before | {"fig7.svg": b"x"}
-    (done.path / "paper_figures/fig2.png").unlink()
+    fig2 = done.path / "paper_figures/fig2.png"
+    fig2.unlink()
+    fig2.mkdir()
+    refused = done.run("fig2")
+    words = "not published: a folder is in its place: move it away"
+    assert refused.returncode == 1 and f"paper_figures/fig2.png: {words}\n" in refused.stdout
+    fig2.rmdir()
     everything = done.run()
     again = [path for path, state in rows(everything.stdout).items() if state != "current"]
     assert again == ["paper_figures/fig2.png", "paper_figures/fig7.svg"]
