@@ -21,10 +21,7 @@ from ..records.provenance import BuildSpec, log_path
 from . import job
 
 # Read by numerical libraries when they are loaded: a job has one thread, or starts its own.
-THREADS = (
-    *("OMP_NUM_THREADS", "GOTO_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
-    *("NUMEXPR_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"),
-)
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 # To start a process, multiprocessing asks for the status of all others. A status can be read once:
 # if two threads ask for it, it is lost.
@@ -77,7 +74,7 @@ def forking() -> ForkServerContext | SpawnContext:
     """
     jobs = multiprocessing.get_context("forkserver")
     before = dict(os.environ)
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
     # Jobs inherit this: Ctrl-C is for this process alone, which then ends the jobs.
     handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
