@@ -27,7 +27,7 @@ def verified(tree, strict=False):
         name: [f"{layer}: {words}" for layer, words in layers.items()]
         for name, layers in findings.differences.items()
     }
-    status = any(each.fails(strict) for each in (findings, *others))
+    status = any([*each.why(strict)] for each in (findings, *others))
     lines = [*findings.report(), summary([findings])]
     return Found(int(status), wrong, findings.failures, findings.notes, lines)
 

@@ -10,10 +10,9 @@ from pathlib import Path
 
 import jinja2
 
-from .checks.published_sets import ChecksumError
 from .config import MAIN, ConfigError, reference
 from .config.schema.kinds import KINDS
-from .declaration import RENEW, SourceError, imported, parts
+from .declaration import RENEW, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
@@ -62,7 +61,7 @@ def main() -> int:
             (ROOT / name).parent.mkdir(exist_ok=True)
             write_whole(ROOT / name, texts[name])
             print(f"{name}: renewed")
-    except (ConfigError, ChecksumError, SourceError, ValueError) as error:
+    except (ConfigError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
     if not outdated:

@@ -129,7 +129,7 @@ def _expected() -> dict[str, float]:
     for part in parts().values():
         seconds |= part.seconds
     for path in results:
-        with suppress(provenance.RecordError, KeyError):  # not made yet, or refused
+        with suppress(ValueError, KeyError):  # not made yet, or refused
             earlier[path] = read_record(ROOT, record_path(path))["seconds"]
     typical, seconds = mean(earlier.values() or [1.0]), seconds | earlier
     return {path: seconds.get(path, typical) for path in results}

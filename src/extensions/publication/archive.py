@@ -23,7 +23,6 @@ from pipeline.checks.layers import Comparison
 from pipeline.checks.published_sets import (
     MANIFEST,
     SUMS,
-    ChecksumError,
     PublishedSet,
     committed_sets,
     format_sums,
@@ -35,8 +34,8 @@ from pipeline.records import files
 from pipeline.records.artifacts import ArtifactError, load
 from pipeline.records.differences import differing_data
 from pipeline.records.files import FileError, file_hash, read_bytes
-from pipeline.records.pictures import PictureError, picture_difference
-from pipeline.records.provenance import Freshness, RecordError, git, public_record, record_path
+from pipeline.records.pictures import picture_difference
+from pipeline.records.provenance import SHAPE, Freshness, git, read_record, record_path
 
 TOP = "pseudorigid"  # the folder in the tar
 ABOUT = "README.txt"
@@ -163,10 +162,11 @@ def _sources(root: Path) -> list[str]:
 def _public_record(root: Path, path: str) -> bytes:
     """Return the record of a result without commit and Python, which belong to one machine."""
     try:
-        record = public_record(root, path)
-    except RecordError:
+        record = read_record(root, record_path(path))
+    except FileError:
         return b""
-    return (json.dumps(record, sort_keys=True, indent=1) + "\n").encode()
+    public = {name: record[name] for name in ("function", *SHAPE) if name in record}
+    return (json.dumps(public, sort_keys=True, indent=1) + "\n").encode()
 
 
 def read(path: Path | str) -> Contents:
@@ -229,7 +229,7 @@ def _read_folder(folder: Path, config: Config) -> Contents:
         for name in _parsed(read_bytes(folder / SUMS)) if (folder / SUMS).is_file() else ():
             if name not in archived and _is_plain(name) and (folder / name).is_file():
                 archived[name] = read_bytes(folder / name)
-    except (ChecksumError, FileError) as error:
+    except FileError as error:
         expected = "no tree of this project, and no archive of it that was unpacked"
         raise ArchiveError(f"{folder} is {expected}: {error}") from None
     del archived[SUMS]
@@ -302,13 +302,13 @@ def _drawing_differences(
     image = root / published_set.results / "differences" / name
     layers: dict[str, str] = {}
     try:
-        with suppress(ChecksumError):
+        with suppress(FileError):
             committed = manifest.read(other, published_set.folder)
             freshness = Freshness(root, published_set.build_specs)
             layers = Comparison(freshness, published_set, committed).layers(name) or {}
         if "file" not in layers:
             words = picture_difference(root / path, other / path, image)[0]
             layers["drawing"] = f"{path}: {words}"
-    except (ArtifactError, PictureError, FileError) as error:
+    except (ArtifactError, FileError) as error:
         layers["drawing"] = str(error)
     return layers

@@ -9,16 +9,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..records.differences import differing_layers
+from ..records.artifacts import ArtifactError, load
+from ..records.differences import differing_data, differing_layers
 from ..records.files import FileError, file_hash, why_not_a_file
-from ..records.pictures import picture_difference
+from ..records.pictures import drawing_hash, picture_difference
 from ..records.provenance import Freshness, git
 from . import manifest
 from .published_sets import PublishedSet
 
 # A difference in these layers alone does not change the committed bytes.
 UPSTREAM = {"config", "source", "environment"}
-_COMPARED = "drawing", "sha256"
 _NO_COPY = "no copy of the committed one is at hand to count what differs"
 
 
@@ -30,7 +30,7 @@ class Comparison:
     ) -> None:
         self.freshness, self.published_set, self.committed = freshness, published_set, committed
         self.root, self.results = freshness.root, committed["results"]
-        self.present = cache(self._present)
+        self.data_difference = cache(self._data_difference)
 
     def layers(self, name: str) -> dict[str, str] | None:
         """Map each layer of a file that differs to the difference, the cause first.
@@ -44,40 +44,52 @@ class Comparison:
         data = [*self.published_set.data[Path(name).stem].values()]
         chain = manifest.upstream(self.committed, drawing)
         before = _joined([manifest.record_of(self.committed, path) for path in chain])
-        after = _joined([self.freshness.here(path) for path in (drawing, *data)])
-        known = [path for path in data if path in self.results]
-        before["inputs"] = {path: self.results[path]["output"] for path in known}
-        after["inputs"] = {path: self.present(path, path) for path in known}
-        after["output"] = output = self._output(name, drawing)
+        specs = self.freshness.build_specs
+        after = _joined([specs[path]._asdict() for path in (drawing, *data)])
         layers = differing_layers(before, after, "in the manifest", "in config.yaml")
-        if "drawing" in layers and "drawing" in output:
-            words = self._how_drawn(output["file"], name, before["output"]["sha256"])
-            layers["drawing"] = f"{output['file']}: {words}"
-        return layers
+        for path in data:
+            if path in self.results and (words := self.data_difference(path)):
+                layers.setdefault("data", words)
+        return layers | self._picture_difference(name, drawing)
 
-    def _published(self, name: str) -> str:
-        return f"{self.published_set.folder}/{name}"
+    def _data_difference(self, path: str) -> str | None:
+        """Describe how a dataset, if it is here, differs from the committed one."""
+        committed = self.results[path]["output"]
+        if self.freshness.digest(path) in (committed["sha256"], None):
+            return None
+        try:
+            here = manifest.describe_data(load(self.root / path))
+        except ArtifactError as error:
+            return str(error).replace(f"{self.root}/", "")
+        words = differing_data(committed, here)
+        return words and f"{path}: {words}"
 
-    def _present(self, path: str, result: str) -> dict[str, Any]:
-        """Describe a file; without the file, or if it has the committed bytes, as committed."""
-        committed, digest = self.results[result]["output"], self.freshness.digest(path)
-        if digest in (committed["sha256"], None):
-            return dict(committed)
-        return {"file": path, "sha256": digest} | manifest.describe(self.root, path)
-
-    def _output(self, name: str, drawing: str) -> dict[str, Any]:
-        """Describe a published file or its drawing, whichever is less like the committed one."""
-        published, committed = self._published(name), self.results[drawing]["output"]
+    def _picture_difference(self, name: str, drawing: str) -> dict[str, str]:
+        """Return the layer in which a published file differs, or in which its drawing does more."""
+        published, committed = (
+            f"{self.published_set.folder}/{name}",
+            self.results[drawing]["output"],
+        )
         if self.freshness.digest(published) is None:
             why = why_not_a_file(self.root / published)
             missing = f"{published} is missing: {self.published_set.command} makes it"
-            return {"sha256": None, "error": f"{published}: {why}" if why else missing}
-        outputs = [self.present(path, drawing) for path in (published, drawing)]
-        return max(outputs, key=lambda each: [each.get(k) != committed.get(k) for k in _COMPARED])
+            return {"file": f"{published}: {why}" if why else missing}
+        layers = dict[str, str]()
+        for path in (published, drawing):
+            if self.freshness.digest(path) in (committed["sha256"], None):
+                continue
+            try:
+                same = drawing_hash(self.root / path) == committed["drawing"]
+            except FileError as error:
+                return {"drawing": str(error).replace(f"{self.root}/", "")}
+            if not same:
+                return {"drawing": f"{path}: {self._how_drawn(path, name, committed['sha256'])}"}
+            layers.setdefault("file", f"{path}: the same picture in other bytes")
+        return layers
 
     def _how_drawn(self, path: str, name: str, digest: str) -> str:
         """Describe how a picture differs from the committed one, if there is a copy of this one."""
-        published = self._published(name)
+        published = f"{self.published_set.folder}/{name}"
         image = f"{self.published_set.results}/differences/{name}"
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder) / name

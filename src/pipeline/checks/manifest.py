@@ -12,25 +12,12 @@ from typing import Any
 
 import xarray as xr
 
-from ..records.artifacts import (
-    ArtifactError,
-    canonical_json,
-    canonical_values,
-    load,
-    plain_attributes,
-)
+from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
 from ..records.differences import CHUNK
-from ..records.files import file_hash
-from ..records.pictures import PictureError, drawing_hash
-from ..records.provenance import public_record, versions
-from .published_sets import (
-    MANIFEST,
-    SUMS,
-    ChecksumError,
-    PublishedSet,
-    format_sums,
-    read_published_text,
-)
+from ..records.files import ABSENT, FileError, file_hash, read_text
+from ..records.pictures import drawing_hash
+from ..records.provenance import read_record, record_path, versions
+from .published_sets import MANIFEST, SUMS, PublishedSet, format_sums
 from .quantities import facts
 
 _SHORT_DIGITS = 16  # hex digits of the hash of a chunk or an attribute
@@ -71,16 +58,6 @@ def _short_hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()[:_SHORT_DIGITS]
 
 
-def describe(root: Path, path: str) -> dict[str, Any]:
-    """Describe a dataset or a picture; of a damaged one, `error` says what is wrong."""
-    try:
-        if path.endswith(".nc"):
-            return describe_data(load(root / path))
-        return {"drawing": drawing_hash(root / path)}
-    except (ArtifactError, PictureError) as error:
-        return {"error": str(error).replace(f"{root}/", "")}
-
-
 def build(root: Path, published_set: PublishedSet) -> Manifest:
     """Return the manifest of a set's results; ValueError or OSError if one cannot be read."""
     described = dict[str, dict[str, Any]]()
@@ -89,17 +66,17 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
         described |= {path: describe_data(data[stage]) for stage, path in stages.items()}
         for path in (path for path in published_set.drawn.values() if Path(path).stem == scene):
             known = facts(published_set.build_specs[path].config, data)
-            described[path] = known | describe(root, path)
+            described[path] = known | {"drawing": drawing_hash(root / path)}
     shared, sources, results = versions(), dict[str, str](), dict[str, dict[str, Any]]()
     for path, content in sorted(described.items()):
-        record = public_record(root, path)
+        record = read_record(root, record_path(path))
         sources |= record["sources"]
         files = [*record["sources"]]
         same = next((p for p, entry in results.items() if entry["sources"] == files), files)
-        further = {n: v for n, v in record["environment"].items() if n not in shared}
-        entry = record | {"sources": same, "output": record["output"] | content}
-        del entry["environment"], entry["function"]  # which sources decide
-        results[path] = entry | ({"environment": further} if further else {})
+        entry = {"sources": same, "output": record["output"] | content}
+        results[path] = entry | {name: record[name] for name in ("config", "inputs")}
+        if further := {n: v for n, v in record["environment"].items() if n not in shared}:
+            results[path]["environment"] = further
     texts = {path: file_hash(root / path) for path in published_set.text_files}
     return {"environment": shared, "texts": texts, "sources": sources, "results": results}
 
@@ -129,17 +106,21 @@ def published(manifest: Manifest) -> dict[str, str]:
 
 
 def read(root: Path, folder: str) -> Manifest:
-    """Return a folder's manifest; raises ChecksumError if it is missing, broken or was edited."""
+    """Return a folder's manifest; raises FileError if it is missing, broken or was edited."""
     name = f"{folder}/{MANIFEST}"
     try:
-        manifest = json.loads(read_published_text(root, name))
+        manifest = json.loads(read_text(root / name))
         # The checksum covers every entry, so that no entry can be lost or changed unnoticed.
         if not isinstance(manifest, dict) or manifest.pop("checksum", None) != _checksum(manifest):
-            raise ChecksumError(f"{name}: was edited: its content does not fit its own checksum")
+            raise FileError(f"{name}: was edited: its content does not fit its own checksum")
         for path in manifest["results"]:
             record_of(manifest, path)
+    except ABSENT:
+        raise FileError(f"{name}: missing") from None
+    except FileError as error:
+        raise FileError(str(error).replace(f"{root}/", "")) from None
     except (ValueError, TypeError, LookupError, RecursionError) as error:
-        raise ChecksumError(f"{name}: broken: {error}") from None
+        raise FileError(f"{name}: broken: {error}") from None
     return manifest
 
 

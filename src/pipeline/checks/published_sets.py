@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..config import MAIN, Config
 from ..config.results import SHOWN, drawn, is_measured
 from ..config.schema.parts import PUBLISHED, SETS
-from ..records.files import ABSENT, file_hash, read_text
+from ..records.files import file_hash, read_text
 from ..records.provenance import BuildSpec, git, git_refuses, with_dependencies
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
@@ -21,10 +21,6 @@ MANIFEST = "MANIFEST.json"
 IDENTICAL = "identical"  # to the committed one
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
-
-
-class ChecksumError(Exception):
-    """One line about a checksum list or manifest that cannot be read; it names the file."""
 
 
 class PublishedSet(NamedTuple):
@@ -101,8 +97,8 @@ def format_sums(sums: Mapping[str, str]) -> str:
 def read_sums(root: Path, folder: str) -> dict[str, str]:
     """Return file name -> SHA-256 from a folder's checksum list; empty if it cannot be read."""
     try:
-        lines = read_published_text(root, f"{folder}/{SUMS}").splitlines()
-    except ChecksumError:
+        lines = read_text(root / folder / SUMS).splitlines()
+    except (OSError, ValueError):
         return {}
     return {match[2]: match[1] for match in map(_LINE.fullmatch, lines) if match}
 
@@ -153,14 +149,3 @@ def unlisted_files(
         end = "change its scene" if why else "put its scene back"
         lines.append(f"{folder}/{name}: {words}: delete it, or {end}")
     return lines
-
-
-def read_published_text(root: Path, name: str) -> str:
-    """Read a checksum list or manifest; raises ChecksumError."""
-    try:
-        return read_text(root / name)
-    except ABSENT:
-        raise ChecksumError(f"{name}: missing") from None
-    except ValueError as error:  # a folder or a device, or bytes that are not UTF-8
-        reason = str(error).removeprefix(f"{root / name}: ")
-        raise ChecksumError(f"{name}: {reason}") from None

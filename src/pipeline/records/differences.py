@@ -15,6 +15,8 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
     Of two lists, only the first entry that differs is reported, and the lengths if they differ.
     Values are compared as JSON: 1 differs from 1.0 and from true.
     """
+    if json.dumps(before, sort_keys=True) == json.dumps(after, sort_keys=True):
+        return
     if isinstance(before, dict) and isinstance(after, dict):
         for key in sorted({*before, *after}):
             where = f"{place}.{key}" if place else key
@@ -29,67 +31,44 @@ def differing_keys(before: Any, after: Any, place: str = "") -> Iterator[tuple[s
                 break
         if len(before) != len(after):
             yield f"{place}: number of entries", len(before), len(after)
-    elif json.dumps(before) != json.dumps(after):
+    else:
         yield place, before, after
 
 
 def differing_layers(
     before: Mapping[str, Any], after: Mapping[str, Any], was: str = "", now: str = ""
 ) -> dict[str, str]:
-    """Compare two records of one result: layer -> how `after` differs, the cause first.
+    """Compare what makes one result in two records: layer -> how `after` differs, the cause first.
 
-    The layers are config, source, environment, data, drawing and file. Layers without a difference
-    are left out. An input is a hash or, as an output is, a mapping with `sha256` and maybe what
-    `manifest.describe` returns. With `was` and `now`, values of config and versions of packages are
-    named by where they stand.
+    The layers are config, source and environment, without those that have no difference. With `was`
+    and `now`, values of config and versions of packages are named by where they stand.
     """
     form = f"{{}}: {{}} {was}, {{}} {now}" if was else "{} {} -> {}"
     blocks = differing_keys(before["config"], after["config"])
-    packages = before["environment"], after["environment"]
+    old, new = before["environment"], after["environment"]
+    packages = (
+        f"{name} {old.get(name)} {was or 'then'}, {new.get(name) or 'not installed'} here"
+        for name in differing_names(old, new)
+    )
     layers = {
         "config": "; ".join(form.format(key, brief(old), brief(new)) for key, old, new in blocks),
         "source": _differing_files(before["sources"], after["sources"]),
-        "environment": _differing_packages(*packages, was or "then"),
-        "data": next(_differing_inputs(before["inputs"], after["inputs"]), ""),
-        **_differing_output(before["output"], after["output"]),
+        "environment": "; ".join(packages),
     }
     return {layer: words for layer, words in layers.items() if words}
 
 
-def _differing_names(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[str]:
+def differing_names(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[str]:
     """Return the sorted keys whose values differ; None stands for no value."""
     return [key for key in sorted({*before, *after}) if before.get(key) != after.get(key)]
 
 
 def _differing_files(before: Mapping[str, str | None], after: Mapping[str, str | None]) -> str:
     """Name the first file whose hash differs, or return "". A hash of None says: gone."""
-    path, *others = _differing_names(before, after) or [""]
+    path, *others = differing_names(before, after) or [""]
     verb = "is new" if path not in before else "is gone" if after.get(path) is None else "differs"
     more = f" (and {len(others)} more)" if others else ""
     return path and f"{path} {verb}{more}"
-
-
-def _differing_packages(before: Mapping[str, Any], after: Mapping[str, Any], was: str) -> str:
-    """Describe every package whose version differs."""
-    here = {name: f"{version} here" for name, version in after.items() if version}
-    return "; ".join(
-        f"{name} {before.get(name)} {was}, {here.get(name, 'not installed here')}"
-        for name in _differing_names(before, after)
-    )
-
-
-def _differing_inputs(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[str]:
-    """Yield each input of another hash, and the difference of each with another description."""
-    for path in dict.fromkeys([*after, *before]):
-        old, new = before.get(path), after.get(path)
-        if old == new:
-            continue
-        if not isinstance(old, Mapping) or not isinstance(new, Mapping):
-            yield path
-        elif "error" in new:
-            yield new["error"]
-        elif words := differing_data(old, new):
-            yield f"{path}: {words}"
 
 
 def differing_data(before: Mapping[str, Any], after: Mapping[str, Any]) -> str | None:
@@ -98,7 +77,7 @@ def differing_data(before: Mapping[str, Any], after: Mapping[str, Any]) -> str |
     for name in sorted({*old, *new}):
         if words := _differing_variable(old.get(name), new.get(name)):
             return f"variable {name}{words}"
-    names = _differing_names(before.get("attributes", {}), after["attributes"])
+    names = differing_names(before.get("attributes", {}), after["attributes"])
     verb = "attributes {} differ" if len(names) > 1 else "attribute {} differs"
     return verb.format(", ".join(names)) if names else None
 
@@ -117,19 +96,6 @@ def _differing_variable(old: Mapping[str, Any] | None, new: Mapping[str, Any] | 
     chunk = next((i for i, (a, b) in enumerate(pairs) if a != b), 0)
     first, size = chunk * CHUNK, math.prod(new["shape"])
     return f" differs from value {first:,} of {size:,} on"
-
-
-def _differing_output(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, str]:
-    """Return the layer in which the file of a result differs; empty without a difference."""
-    if before["sha256"] == after["sha256"]:
-        return {}
-    if "error" in after:
-        return {"file" if after["sha256"] is None else "drawing": after["error"]}
-    if "drawing" not in after:
-        return {"file": DAMAGED}
-    if after["drawing"] != before.get("drawing"):
-        return {"drawing": f"{after['file']}: another picture"}
-    return {"file": f"{after['file']}: the same picture in other bytes"}
 
 
 def brief(value: Any) -> str:

@@ -8,19 +8,15 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
-from .files import open_regular, write_whole
+from .files import FileError, open_regular, write_whole
 
 _Path = str | os.PathLike[str]
-
-
-class PictureError(ValueError):
-    """A file that is no picture; the message names it."""
 
 
 def pixels(path: _Path) -> npt.NDArray[np.uint8]:
     """Return the pixels of a PNG, shape (height, width, 3), or of a GIF, whose frames are stacked.
 
-    Raises PictureError for other files.
+    Raises FileError for other files.
     """
     from PIL import Image, ImageSequence
 
@@ -29,7 +25,7 @@ def pixels(path: _Path) -> npt.NDArray[np.uint8]:
             frames = [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(image)]
             return np.concatenate(frames)
     except Exception as error:  # Pillow raises many types, among them SyntaxError
-        raise PictureError(f"{path}: damaged, or not a picture") from error
+        raise FileError(f"{path}: damaged, or not a picture") from error
 
 
 def _elements(path: _Path) -> list[str]:
@@ -41,12 +37,12 @@ def _elements(path: _Path) -> list[str]:
         with open_regular(path) as file:
             text = ElementTree.canonicalize(from_file=file, strip_text=True)
     except (ElementTree.ParseError, ValueError, LookupError, RecursionError) as error:
-        raise PictureError(f"{path}: damaged, or not SVG ({error})") from error
+        raise FileError(f"{path}: damaged, or not SVG ({error})") from error
     return text.replace("<", "\n<").split("\n")
 
 
 def drawing_hash(path: _Path) -> str:
-    """Return a hash of a PNG's or GIF's pixels or an SVG's elements; raises PictureError."""
+    """Return a hash of a PNG's or GIF's pixels or an SVG's elements; raises FileError."""
     if Path(path).suffix == ".svg":
         return hashlib.sha256("\n".join(_elements(path)).encode()).hexdigest()
     image = pixels(path)
@@ -57,7 +53,7 @@ def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tupl
     """Describe how a drawing differs from its reference, and whether an image was saved.
 
     For two PNGs or GIFs of one size, `image_path` gets the reference in pale grey, with the
-    differing pixels in red. Raises PictureError if a file is no picture.
+    differing pixels in red. Raises FileError if a file is no picture.
     """
     if Path(path).suffix == ".svg":
         return _differing_elements(_elements(path), _elements(reference)), False

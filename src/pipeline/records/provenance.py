@@ -24,8 +24,8 @@ from typing import Any, NamedTuple
 
 from ..declaration import parts
 from ..loading import LOADED
-from .differences import differing_layers
-from .files import ABSENT, FileError, file_hash, read_text, why_not_a_file, write_whole
+from .differences import DAMAGED, differing_layers, differing_names
+from .files import ABSENT, FileError, file_hash, read_bytes, read_text, why_not_a_file, write_whole
 from .sources import ROOT, syntax_hash
 
 SHAPE = ("config", "sources", "inputs", "environment", "output")  # the mappings of a record
@@ -38,19 +38,14 @@ CURRENT = "current"
 MISSING = "missing"
 REFUSED = "cannot exist: "  # how the reason begins then
 _FROM_CONFIG = "made from another config:"
-# Differing layer -> the beginning of the reason to recompute a result, the first reason first.
+# Differing layer -> the beginning of the reason to recompute a result.
 _MADE = {
-    "file": "",
     "config": f"{_FROM_CONFIG} ",
     "source": "made by other code than this tree's: ",
     "environment": "made with ",
     "data": "made from another ",
 }
 _MOST_CAUSES = 4  # in one line
-
-
-class RecordError(ValueError):
-    """A record that cannot be read; the message says why."""
 
 
 class ChangedError(ValueError):
@@ -104,23 +99,17 @@ def failure(result: str | os.PathLike[str]) -> str | None:
 
 
 def read_record(root: Path, path: str) -> dict[str, Any]:
-    """Read a record, with the mappings of SHAPE; raises RecordError."""
+    """Read a record, with the mappings of SHAPE; raises FileError, whose message says why."""
     try:
         record: dict[str, Any] = json.loads(read_text(root / path))
         if not all(isinstance(record[name], dict) for name in SHAPE):
             raise TypeError
         str(record["output"]["sha256"])
     except FileNotFoundError:
-        raise RecordError("no record of what made it") from None
+        raise FileError("no record of what made it") from None
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        raise RecordError(f"its record {path} cannot be read") from None
+        raise FileError(f"its record {path} cannot be read") from None
     return record
-
-
-def public_record(root: Path, result: str) -> dict[str, Any]:
-    """Return the record of a result without what belongs to one machine; raises RecordError."""
-    record = read_record(root, record_path(result))
-    return {name: record[name] for name in ("function", *SHAPE) if name in record}
 
 
 @contextmanager
@@ -137,7 +126,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     hashes = {path: file_hash(path) for path in sorted([*spec.sources, *spec.inputs])}
     for path, meaning in spec.sources.items():
         if syntax_hash(path) != meaning:
-            raise ChangedError(_changed(path))
+            raise _changed(path)
     installed = versions(spec.result)
     for package, version in spec.environment.items():
         if installed[package] != version:
@@ -149,36 +138,31 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
         "dirty": dirty,
         "function": spec.function,
         "config": spec.config,
-        "inputs": {path: hashes[path] for path in sorted(spec.inputs)},
+        "inputs": {path: hashes[path] for path in spec.inputs},
         "sources": dict(spec.sources),
         "environment": installed,
         "python": platform.python_version(),
     }
     require_unchanged(hashes)
-    start = time.monotonic()
+    start, refusal = time.monotonic(), None
     output: dict[str, Any] = {"file": spec.result}
     try:
         yield output
+        record["seconds"] = time.monotonic() - start
     except ValueError as error:
         if not getattr(error, "lasting", type(error) is ValueError):
             raise
-        require_unchanged(hashes)
-        _write(spec, record, {"sha256": None, "refused": str(error)})
-        raise
-    record["seconds"] = time.monotonic() - start
+        refusal, output = error, {"refused": str(error)}
     require_unchanged(hashes)
-    output["sha256"] = file_hash(spec.result)
-    _write(spec, record, output)
-
-
-def _write(spec: BuildSpec, record: dict[str, Any], output: dict[str, Any]) -> None:
-    """Write the record of a result with a description of its output."""
+    output["sha256"] = None if refusal else file_hash(spec.result)
     text = json.dumps(record | {"output": output}, sort_keys=True, indent=1)
     write_whole(record_path(spec.result), f"{text}\n")
+    if refusal:
+        raise refusal
 
 
-def _changed(path: str) -> str:
-    return f"{path} changed during the run; run ./reproduce again"
+def _changed(path: str) -> ChangedError:
+    return ChangedError(f"{path} changed during the run; run ./reproduce again")
 
 
 def require_unchanged(hashes: Mapping[str, str | None]) -> None:
@@ -189,7 +173,7 @@ def require_unchanged(hashes: Mapping[str, str | None]) -> None:
     for path, digest in hashes.items():
         loaded = LOADED.get(os.path.realpath(path), set())
         if file_hash(path) != digest or loaded - {digest}:
-            raise ChangedError(_changed(path))
+            raise _changed(path)
 
 
 def require_loaded_unchanged() -> None:
@@ -233,10 +217,10 @@ def _commit() -> tuple[str | None, bool | None]:
     # Another repository may contain this folder.
     if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
         return None, None
-    published = [each.folder for part in parts().values() for each in part.sets.values()]
-    others = [f":!{folder}" for folder in published if folder]
+    sets = [each for part in parts().values() for each in part.sets.values() if each.folder]
+    others = (f":!{each.folder}" for each in sets)
     changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
-    return commit.decode().strip(), None if changed is None else bool(changed.strip())
+    return commit.decode().strip(), None if changed is None else bool(changed)
 
 
 # -- which results are current ---------------------------------------------------------------------
@@ -254,10 +238,8 @@ def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str
 class Freshness:
     """Tells which results of a tree have to be recomputed, and why.
 
-    Two cached methods take a result, and return None if there is no such reason:
-
-    - `reason(path)`: why it has to be recomputed (MISSING if it is not there)
-    - `refusal(path)`: why it cannot exist
+    The cached method `reason(path)` returns why a result has to be recomputed: MISSING if it is not
+    there, REFUSED and why if it cannot exist, None if it is current.
     """
 
     def __init__(self, root: Path, build_specs: Mapping[str, BuildSpec]) -> None:
@@ -265,7 +247,6 @@ class Freshness:
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.reason = cache(self._reason)
-        self.refusal = cache(self._refusal)
         packages = versions()
         self.build_specs = {
             path: spec._replace(
@@ -284,7 +265,7 @@ class Freshness:
         """
         for path, spec in self.build_specs.items():  # inputs come first
             file, text = self.root / spec_path(path), f"{json.dumps(spec._asdict(), indent=1)}\n"
-            if not file.is_file() or read_text(file) != text:
+            if not file.is_file() or read_bytes(file) != text.encode():
                 write_whole(file, text)
             for each in (file, self.root / path, self.root / record_path(path)):
                 _touch(each)
@@ -299,12 +280,17 @@ class Freshness:
         results = self.build_specs if paths is None else paths
         return {path: why for path in results if (why := self.reason(path))}
 
+    def refusal(self, path: str) -> str | None:
+        """Return why a result cannot exist, or None."""
+        reason = self.reason(path) or ""
+        return reason.removeprefix(REFUSED) if reason.startswith(REFUSED) else None
+
     def state(self, path: str) -> str:
         """Say whether a result is current, missing, stale and why, or cannot exist and why."""
         reason = self.reason(path) or CURRENT
         if reason in (CURRENT, MISSING) or self.refusal(path):
             return reason
-        return f"stale: {self._why(self.outdated(with_dependencies(self.build_specs, [path])))}"
+        return f"stale: {self._why([*self.outdated(with_dependencies(self.build_specs, [path]))])}"
 
     def to_make(self, paths: Iterable[str]) -> list[str]:
         """Return a line for each scene with outdated results: the reasons and the steps."""
@@ -317,9 +303,8 @@ class Freshness:
             lines.append(f"{scene}: {self._why(results)}: {', '.join(steps)}")
         return lines or ["nothing to make"]
 
-    def _why(self, paths: Iterable[str]) -> str:
+    def _why(self, paths: list[str]) -> str:
         """Join the reasons of outdated results, without those that follow from others."""
-        paths = list(paths)
         causes = dict.fromkeys(filter(None, map(self._own_reason, paths)))
         if len(causes) > 1:
             causes.pop(MISSING, None)
@@ -328,63 +313,48 @@ class Freshness:
         more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
         return "; ".join(shown + more) or str(self.reason(paths[0]))
 
-    def _refusal(self, path: str) -> str | None:
-        for used in self.build_specs[path].inputs:
-            if used in self.build_specs and (why := self.refusal(used)):
-                return why
-        with suppress(RecordError):
-            record = read_record(self.root, record_path(path))
-            refused = record["output"].get("refused")
-            if refused and not self._difference(
-                path, record | {"output": self.here(path)["output"]}
-            ):
-                return str(refused)
-        return None
-
     def _reason(self, path: str) -> str | None:
-        if why := self.refusal(path):
+        inputs = [used for used in self.build_specs[path].inputs if used in self.build_specs]
+        if why := next(filter(None, map(self.refusal, inputs)), None):
             return REFUSED + why
         if why := self._own_reason(path):
             return why
-        for used in self.build_specs[path].inputs:
-            if used in self.build_specs and (why := self.reason(used)):
+        for used in inputs:
+            if why := self.reason(used):
                 return f"made from {used}, which is {MISSING if why == MISSING else 'not current'}"
         return None
 
     def _own_reason(self, path: str) -> str | None:
         """Return why a result has to be recomputed even if its inputs are current."""
-        if self.digest(path) is None:
-            return why_not_a_file(self.root / path) or MISSING
+        digest, output, why = self.digest(path), dict[str, Any](), None
         try:
-            return self._difference(path, read_record(self.root, record_path(path)))
-        except RecordError as error:
-            return str(error)
+            record = read_record(self.root, record_path(path))
+        except FileError as error:
+            why = str(error)
+        else:
+            output, why = record["output"], self._made_otherwise(path, record)
+        if output.get("refused") and not why:
+            return f"{REFUSED}{output['refused']}"
+        if digest is None:
+            return why_not_a_file(self.root / path) or MISSING
+        return DAMAGED if output.get("sha256", digest) != digest else why
 
-    def _difference(self, path: str, record: dict[str, Any]) -> str | None:
-        """Return the first reason why a record is not the one that this tree would write."""
-        here, output = self.here(path), {"sha256": record["output"]["sha256"]}
+    def _made_otherwise(self, path: str, record: dict[str, Any]) -> str | None:
+        """Return the first difference between a record and what this tree makes a result from."""
+        spec = self.build_specs[path]
         # What was made another way, to the same bytes, says which further sources that has.
         way = record["output"].get("way", {})
-        before = record | {"sources": record["sources"] | way, "output": output}
-        here["sources"] |= {file: self.syntax_hash(file) for file in way}
-        before = {key: before.get(key) for key in here}
-        if json.dumps(before, sort_keys=True) == json.dumps(here, sort_keys=True):  # 1 is not 1.0
-            return None
-        other = f"function {before['function']} -> {here['function']}"
-        layers = differing_layers(before, here) or {"source": other}
-        return next(begin + layers[name] for name, begin in _MADE.items() if name in layers)
-
-    def here(self, path: str) -> dict[str, Any]:
-        """Return the record that this tree would write of a result, for the file that is there."""
-        spec = self.build_specs[path]
-        return {
-            "function": spec.function,
-            "config": spec.config,
-            "sources": dict(spec.sources),
-            "environment": spec.environment,
-            "inputs": {used: self.digest(used) for used in spec.inputs},
-            "output": {"sha256": self.digest(path)},
-        }
+        here = {file: self.syntax_hash(file) for file in way}
+        layers = differing_layers(
+            record | {"sources": record["sources"] | way},
+            spec._replace(sources={**spec.sources, **here})._asdict(),
+        )
+        inputs = {used: self.digest(used) for used in spec.inputs}
+        for used in differing_names(record["inputs"], inputs):
+            layers.setdefault("data", used)
+        if not layers and record.get("function") != spec.function:
+            layers["source"] = f"function {record.get('function')} -> {spec.function}"
+        return next((_MADE[layer] + words for layer, words in layers.items()), None)
 
 
 def _touch(path: Path) -> None:

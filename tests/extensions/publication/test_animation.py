@@ -10,7 +10,8 @@ from project import ROOT
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
 from pipeline.checks import manifest
-from pipeline.records.pictures import PictureError, drawing_hash, picture_difference
+from pipeline.records.files import FileError
+from pipeline.records.pictures import drawing_hash, picture_difference
 from pseudorigid import Ball, motion
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas.render import gif, pixels
@@ -89,5 +90,5 @@ def test_two_gifs_are_compared_frame_by_frame(content, data, tmp_path):
     assert drawing_hash(paths[0]) != drawing_hash(paths[1])
     words, saved = picture_difference(paths[0], paths[1], tmp_path / "difference.png")
     assert saved and "pixels differ" in words
-    with pytest.raises(PictureError, match="damaged"):
+    with pytest.raises(FileError, match="damaged"):
         drawing_hash(paths[2])

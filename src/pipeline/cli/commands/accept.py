@@ -7,7 +7,7 @@ from pathlib import Path
 from ...checks import manifest
 from ...checks.layers import UPSTREAM
 from ...checks.published_sets import MANIFEST, SUMS, committed_sets
-from ...checks.verify import Findings, inspect
+from ...checks.verify import Findings
 from ...config import Config
 from ...records.files import file_hash, read_bytes, write_whole
 from ...records.sources import ROOT
@@ -32,7 +32,7 @@ def accept(root: Path, config: Config) -> int:
         results, command = published_set.build_specs, published_set.command
         if published_set.on_request and not any((root / path).exists() for path in results):
             continue
-        findings = inspect(root, published_set)
+        findings = Findings(root, published_set)
         print(*findings.left_out, sep="\n", end="\n" * bool(findings.left_out))
         problem = findings.not_published(root)
         if problem is None:

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from pathlib import PurePath
 
-from ...checks.published_sets import ChecksumError, PublishedSet, committed_sets, committed_state
+from ...checks.published_sets import PublishedSet, committed_sets, committed_state
 from ...config.results import drawn, is_measured
 from ...config.schema.parts import SETS
 from ...records.differences import differing_layers
+from ...records.files import FileError
 from ...records.provenance import CURRENT, MISSING, Freshness
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
@@ -65,14 +66,14 @@ def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Fi
 
     try:
         committed = manifest.read(ROOT, published_set.folder)
-    except ChecksumError:
+    except FileError:
         committed = {"results": {}}
     for name, drawing in published_set.drawn.items():
         path = f"{published_set.folder}/{name}"
         state, made = committed_state(ROOT, path), freshness.state(drawing)
         if made == MISSING and drawing in committed["results"]:
             record = manifest.record_of(committed, drawing)
-            words = differing_layers(record, freshness.here(drawing)).get("config")
+            words = differing_layers(record, freshness.build_specs[drawing]._asdict()).get("config")
             made = f"stale: {words}" if words else MISSING
         known = state == MISSING or made in (CURRENT, MISSING)
         yield path, "", (state if known else made,)

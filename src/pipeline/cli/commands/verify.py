@@ -11,8 +11,8 @@ def run(args: Arguments) -> int:
     findings, lines = verify(ROOT, args.config, args.committed), list[str]()
     for each in findings:
         lines += [f"{each.published_set.folder}/", *each.report(), ""]
-    failed = [each for each in findings if each.fails(args.strict)]
-    lines += [summary(findings), *(line for each in failed for line in each.why(args.strict))]
-    lines += [WHAT_TO_DO] if any(each.differences for each in failed) else []
+    failed = [line for each in findings for line in each.why(args.strict)]
+    lines += [summary(findings), *failed]
+    lines += [WHAT_TO_DO] if any(each.differences for each in findings) else []
     print_lines(part for line in lines for part in wrapped(line, 80) or [""])
     return int(bool(failed))
