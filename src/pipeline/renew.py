@@ -58,7 +58,6 @@ def main() -> int:
         texts = generated()
         outdated = [n for n in texts if not (ROOT / n).exists() or read_text(ROOT / n) != texts[n]]
         for name in outdated:
-            (ROOT / name).parent.mkdir(exist_ok=True)
             write_whole(ROOT / name, texts[name])
             print(f"{name}: renewed")
     except (ConfigError, ValueError) as error:

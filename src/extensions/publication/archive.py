@@ -93,8 +93,8 @@ def refuse_unpublished(root: Path, config: Config) -> list[str]:
         published_set = findings.published_set
         if problem := findings.not_published(root, partial=published_set.on_request):
             raise ArchiveError(f"{problem}: run {published_set.command}")
-        if unlisted := published_set.unlisted(root):
-            raise ArchiveError(unlisted[0])  # which accept does not mend
+        if findings.unlisted:
+            raise ArchiveError(findings.unlisted[0])  # which accept does not mend
         if problems := [*findings.problems, *_uncommitted(findings)]:
             raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
         left_out += findings.left_out

@@ -5,7 +5,7 @@ the pictures of extensions.
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -18,7 +18,6 @@ from ..records.provenance import BuildSpec, git, git_refuses, with_dependencies
 
 SUMS = "SHA256SUMS"  # the checksum list of a folder of published files
 MANIFEST = "MANIFEST.json"
-IDENTICAL = "identical"  # to the committed one
 # A name that contains a folder could lead out of this folder.
 _LINE = re.compile(r"([0-9a-f]{64})  (?!\.\.?$)([^/]+)")
 
@@ -39,25 +38,18 @@ class PublishedSet(NamedTuple):
     data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
     measured: tuple[str, ...]  # published files without a checksum: they show times
-    impossible: Mapping[str, str] = {}  # scene that is left out -> why it cannot exist
 
-    def without(self, scenes: Mapping[str, str]) -> "PublishedSet":
-        """Return the set without some scenes, which cannot exist for the given reasons."""
+    def without(self, scenes: Collection[str]) -> "PublishedSet":
+        """Return the set without some scenes, which cannot exist."""
         return self._replace(
             drawn={n: path for n, path in self.drawn.items() if Path(n).stem not in scenes},
             data={scene: stages for scene, stages in self.data.items() if scene not in scenes},
             build_specs={p: s for p, s in self.build_specs.items() if s.scene not in scenes},
-            impossible=scenes,
         )
 
     def is_committed(self, root: Path) -> bool:
         """Return whether the folder has a manifest or a checksum list."""
         return any((root / self.folder / name).exists() for name in (MANIFEST, SUMS))
-
-    def unlisted(self, root: Path) -> list[str]:
-        """Return a line for each picture in the folder that no scene of the set makes."""
-        names = {*self.drawn, *self.measured}
-        return unlisted_files(root, self.folder, names, self.impossible)
 
 
 def committed_sets(config: Config) -> list[PublishedSet]:
@@ -114,7 +106,7 @@ def committed_state(root: Path, path: str) -> str:
         return "missing"
     if name not in sums:
         return "not committed"
-    state = IDENTICAL if digest == sums[name] else "differs"
+    state = "identical" if digest == sums[name] else "differs"
     why = edited_lists(root).get(f"{folder}/{SUMS}")
     return f"unknown: {state} by {SUMS}, which is {why}" if why else state
 
@@ -134,18 +126,17 @@ def edited_lists(root: Path) -> dict[str, str]:
 
 
 def unlisted_files(
-    root: Path, folder: str, names: Iterable[str], impossible: Mapping[str, str] = {}
+    root: Path, folder: str, names: Collection[str], impossible: Mapping[str, str] = {}
 ) -> list[str]:
     """Return a line for each picture in a published folder whose name is not in `names`.
 
     `impossible` maps scenes that cannot exist to the reasons.
     """
-    files = (root / folder).glob("[!.]*")
-    pictures = {path.name for path in files if path.suffix[1:] in SHOWN}
     lines = []
-    for name in sorted(pictures - set(names)):
-        why = impossible.get(Path(name).stem)
-        words = f"its scene cannot exist: {why}" if why else "no scene makes it"
-        end = "change its scene" if why else "put its scene back"
-        lines.append(f"{folder}/{name}: {words}: delete it, or {end}")
+    for path in sorted((root / folder).glob("[!.]*")):
+        if path.suffix[1:] in SHOWN and path.name not in names:
+            why = impossible.get(path.stem)
+            words = f"its scene cannot exist: {why}" if why else "no scene makes it"
+            end = "change its scene" if why else "put its scene back"
+            lines.append(f"{folder}/{path.name}: {words}: delete it, or {end}")
     return lines

@@ -14,26 +14,27 @@ from ..records.artifacts import load
 from ..records.sources import ROOT
 from .captions import CAPTIONS, caption_of
 
-
-def measured(
-    root: Path, config: Config, variant: str, scene: str,
-    measure: Callable[[dict[str, Any], dict[str, Any]], dict[str, Any]] | None = None,
-) -> dict[str, Any]:  # fmt: skip
-    """Measure a scene, by default its quantities, in its datasets; ValueError names wrong files."""
-    block, own = config.variants[variant][scene], config.data_of(variant, scene)
-    data = {stage: load(root / file) for stage, file in own.items()}
-    try:
-        return (measure or reported)(block.as_mapping(), data)
-    except (LookupError, TypeError, AttributeError, ArithmeticError):
-        wrong = ", ".join(own.values())
-        raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
+# A function f(block, data), where `data` maps stages to datasets.
+_Measure = Callable[[dict[str, Any], dict[str, Any]], dict[str, Any]]
 
 
 def reported(block: dict[str, Any], data: dict[str, Any]) -> dict[str, str]:
     """Measure the quantities that a picture reports; `data` maps stages to datasets."""
     kind = KINDS[block["picture"]]
-    quantities: dict[str, str] = imported(kind.reported_by)(block, **data) if kind.headline else {}
-    return quantities
+    return dict(imported(kind.reported_by)(block, **data)) if kind.headline else {}
+
+
+def measured(
+    root: Path, config: Config, variant: str, scene: str, measure: _Measure = reported
+) -> dict[str, Any]:
+    """Measure a scene, by default its quantities, in its datasets; ValueError names wrong files."""
+    block, own = config.variants[variant][scene], config.data_of(variant, scene)
+    data = {stage: load(root / file) for stage, file in own.items()}
+    try:
+        return measure(block.as_mapping(), data)
+    except (LookupError, TypeError, AttributeError, ArithmeticError):
+        wrong = ", ".join(own.values())
+        raise ValueError(f"not datasets of {scene}: delete {wrong} and run again") from None
 
 
 def hidden(block: dict[str, Any], data: dict[str, Any]) -> list[str]:

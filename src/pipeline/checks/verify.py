@@ -8,7 +8,7 @@ A tree fails in these cases, and other differences are notes:
 """
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
 from ..config import Config
@@ -17,7 +17,7 @@ from ..records.files import FileError, file_hash, why_not_a_file
 from ..records.provenance import MISSING, Freshness, failure
 from . import manifest, published_sets
 from .layers import UPSTREAM, Comparison
-from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists
+from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists, unlisted_files
 
 _UNCOMPUTED = "not computed here: run ./reproduce, or verify --committed for committed files alone"
 NEW = "new: ./reproduce accept adds it to the manifest"
@@ -32,6 +32,8 @@ class Findings:
     ----------
     published_set : PublishedSet
         The set without the scenes that cannot be made, about which `left_out` has lines.
+    unlisted : list of str
+        Lines about pictures in the folder that no scene of the set makes.
     committed : dict or None
         The manifest, if it can be read.
     layers : dict
@@ -55,6 +57,8 @@ class Findings:
             if why := freshness.refusal(drawing):
                 refused[Path(name).stem] = why
         self.published_set = published_set = published_set.without(refused)
+        folder, names = published_set.folder, {*published_set.drawn, *published_set.measured}
+        self.unlisted = unlisted_files(root, folder, names, refused)
         self.left_out = [
             f"{scene} is left out, because it cannot exist: {why}" for scene, why in refused.items()
         ]
@@ -62,13 +66,14 @@ class Findings:
         self.committed: manifest.Manifest | None = None
         self.layers: dict[str, dict[str, str] | None] = {}
         try:
-            self.committed = manifest.read(root, published_set.folder)
+            self.committed = manifest.read(root, folder)
         except FileError as error:
             self.problems = [str(error)]
         else:
             comparison = Comparison(freshness, published_set, self.committed)
             self.layers = {name: comparison.layers(name) for name in published_set.drawn}
-            self.problems = [*_other_files(root, published_set, self.committed)]
+            self.problems = [*_other_files(root, published_set, self.committed, refused)]
+            self.problems += self.unlisted
         self._sort_layers(edited_lists(root))
         self._sort_results(partial)
 
@@ -174,25 +179,23 @@ def verify(root: Path, config: Config, committed: bool = False) -> list[Findings
 
 
 def _other_files(
-    root: Path, published_set: PublishedSet, committed: manifest.Manifest
+    root: Path, published_set: PublishedSet, committed: manifest.Manifest, refused: Collection[str]
 ) -> Iterator[str]:
-    """Yield a line for each file that nothing makes, and each list or text not as committed."""
+    """Yield a line for each name in the manifest, list or text that is not as it should be."""
     folder = published_set.folder
     for name in manifest.published(committed):
         if name not in published_set.drawn:
-            cannot = Path(name).stem in published_set.impossible
+            cannot = Path(name).stem in refused
             words = "whose scene cannot exist" if cannot else "which config.yaml does not publish"
             yield f"{folder}/{MANIFEST}: lists {name}, {words}: ./reproduce accept takes it out"
-    yield from published_set.unlisted(root)
     for path in published_set.text_files:
         if file_hash(root / path) != committed["texts"].get(path):
             yield f"{path}: not the committed one: {published_set.command} writes it"
-    sums = f"{folder}/{SUMS}"
-    expected = hashlib.sha256(manifest.files_of(committed)[SUMS].encode()).hexdigest()
-    if file_hash(root / sums) != expected:
-        there = (root / sums).exists()
-        other = f"is not as {MANIFEST} has it" if there else "missing"
-        yield f"{sums}: {why_not_a_file(root / sums) or other}"
+    sums = root / folder / SUMS
+    expected = manifest.files_of(committed)[SUMS].encode()
+    if file_hash(sums) != hashlib.sha256(expected).hexdigest():
+        other = f"is not as {MANIFEST} has it" if sums.exists() else "missing"
+        yield f"{folder}/{SUMS}: {why_not_a_file(sums) or other}"
 
 
 def _grouped(pairs: Iterable[tuple[str, str]]) -> list[str]:

@@ -48,21 +48,22 @@ def why_not_a_file(path: _Path) -> str | None:
     return f"{_KINDS.get(kind, 'no file')} is in its place: move it away"
 
 
-def open_regular(path: _Path) -> BufferedReader:
+@contextmanager
+def open_regular(path: _Path) -> Iterator[BufferedReader]:
     """Open a regular file to read its bytes.
 
     Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end. Raises
-    FileNotFoundError or NotADirectoryError without a file, else FileError.
+    FileNotFoundError or NotADirectoryError without a file, else FileError, also while it is read.
     """
     if words := why_not_a_file(path):
         raise FileError(f"{path}: {words}")
     try:
-        return open(path, "rb")
+        with open(path, "rb") as file:
+            yield file
     except ABSENT:
         raise
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise FileError(f"{path}: cannot be read: {reason}") from None
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read: {error.strerror or error}") from None
 
 
 def read_bytes(path: _Path) -> bytes:
@@ -79,7 +80,7 @@ def read_text(path: _Path) -> str:
 def read_yaml(path: Path) -> str:
     """Return the text of a YAML file; ValueError if it is none, as far as its text shows that."""
     try:
-        if path.is_file() and path.stat().st_size > LARGEST_YAML:
+        if path.stat().st_size > LARGEST_YAML:
             raise ValueError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_YAML}")
         text = read_text(path)
     except OSError as error:
@@ -99,8 +100,9 @@ def read_yaml(path: Path) -> str:
 def disk_is_full(path: _Path) -> str | None:
     """Say how little space is left if the disk of `path` is full, else return None."""
     path = Path(path).absolute()
-    folder = next(folder for folder in (path, *path.parents) if folder.is_dir())
-    usage = shutil.disk_usage(folder)
+    while not path.is_dir():
+        path = path.parent
+    usage = shutil.disk_usage(path)
     free = usage.free / 1e6
     # Some file systems, /proc among them, have no size.
     return f"the disk is full, {free:.1f} MB are left" if usage.total and free < _FULL_MB else None
@@ -154,12 +156,7 @@ def write_whole(path: _Path, data: str | bytes) -> None:
 
 def file_hash(path: _Path) -> str | None:
     """Return the SHA-256 of a regular file in hex, or None without one; raises FileError."""
-    if why_not_a_file(path):
-        return None
-    try:
-        with open_regular(path) as file:
+    if os.path.isfile(path):
+        with suppress(*ABSENT), open_regular(path) as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
-    except ABSENT:
-        return None
-    except OSError as error:
-        raise FileError(f"{path}: cannot be read: {error.strerror}") from None
+    return None

@@ -217,8 +217,9 @@ def _commit() -> tuple[str | None, bool | None]:
     # Another repository may contain this folder.
     if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
         return None, None
-    sets = [each for part in parts().values() for each in part.sets.values() if each.folder]
-    others = (f":!{each.folder}" for each in sets)
+    others = list[str]()
+    for part in parts().values():
+        others += [f":!{each.folder}" for each in part.sets.values() if each.folder]
     changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
     return commit.decode().strip(), None if changed is None else bool(changed)
 
@@ -227,11 +228,12 @@ def _commit() -> tuple[str | None, bool | None]:
 
 
 def with_dependencies(build_specs: Mapping[str, BuildSpec], wanted: Iterable[str]) -> list[str]:
-    """Return the results `wanted` and all that they are made from, each after its inputs."""
+    """Return those of the results `wanted` that have specifications, each after its inputs."""
     results: dict[str, None] = {}
     for path in wanted:
-        inputs = [used for used in build_specs[path].inputs if used in build_specs]
-        results |= dict.fromkeys([*with_dependencies(build_specs, inputs), path])
+        if path in build_specs:
+            behind = with_dependencies(build_specs, build_specs[path].inputs)
+            results |= dict.fromkeys([*behind, path])
     return list(results)
 
 
@@ -247,14 +249,11 @@ class Freshness:
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.reason = cache(self._reason)
-        packages = versions()
-        self.build_specs = {
-            path: spec._replace(
-                sources={file: self.syntax_hash(file) for file in spec.sources},
-                environment=versions(path) if path.endswith(".gif") else packages,
-            )
-            for path, spec in build_specs.items()
-        }
+        self.build_specs, packages = dict[str, BuildSpec](), versions()
+        for path, spec in build_specs.items():
+            sources = {file: self.syntax_hash(file) for file in spec.sources}
+            environment = versions(path) if path.endswith(".gif") else packages
+            self.build_specs[path] = spec._replace(sources=sources, environment=environment)
 
     def set_times(self) -> None:
         """Write all specifications, and set times of files so that they say what is current.
@@ -263,17 +262,24 @@ class Freshness:
         of another result becomes newer than the result, which is touched too, as its time may be in
         the future. Raises FileError if that cannot be done.
         """
-        for path, spec in self.build_specs.items():  # inputs come first
-            file, text = self.root / spec_path(path), f"{json.dumps(spec._asdict(), indent=1)}\n"
-            if not file.is_file() or read_bytes(file) != text.encode():
-                write_whole(file, text)
-            for each in (file, self.root / path, self.root / record_path(path)):
-                _touch(each)
-        for path in self.outdated():
-            file, result = self.root / spec_path(path), self.root / path
-            while result.exists() and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
-                time.sleep(0.001)
-                _touch(file)
+        outdated = self.outdated()
+        try:
+            for path, spec in self.build_specs.items():  # inputs come first
+                file, result = self.root / spec_path(path), self.root / path
+                text = f"{json.dumps(spec._asdict(), indent=1)}\n"
+                if not file.is_file() or read_bytes(file) != text.encode():
+                    write_whole(file, text)
+                for each in (file, result, self.root / record_path(path)):
+                    with suppress(*ABSENT):
+                        os.utime(each)  # its owner may be another user
+            for path in outdated:
+                file, result = self.root / spec_path(path), self.root / path
+                while result.exists() and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
+                    time.sleep(0.001)
+                    os.utime(file)
+        except OSError as error:
+            words = f"its time cannot be set: {error.strerror}"
+            raise FileError(f"{error.filename}: {words}") from None
 
     def outdated(self, paths: Iterable[str] | None = None) -> dict[str, str]:
         """Map each result in `paths` (default: all) that has to be recomputed to the reason."""
@@ -314,7 +320,9 @@ class Freshness:
         return "; ".join(shown + more) or str(self.reason(paths[0]))
 
     def _reason(self, path: str) -> str | None:
-        inputs = [used for used in self.build_specs[path].inputs if used in self.build_specs]
+        if path not in self.build_specs:
+            return None  # an input that is made by another command
+        inputs = self.build_specs[path].inputs
         if why := next(filter(None, map(self.refusal, inputs)), None):
             return REFUSED + why
         if why := self._own_reason(path):
@@ -344,24 +352,19 @@ class Freshness:
         spec = self.build_specs[path]
         # What was made another way, to the same bytes, says which further sources that has.
         way = record["output"].get("way", {})
-        here = {file: self.syntax_hash(file) for file in way}
-        layers = differing_layers(
-            record | {"sources": record["sources"] | way},
-            spec._replace(sources={**spec.sources, **here})._asdict(),
-        )
-        inputs = {used: self.digest(used) for used in spec.inputs}
-        for used in differing_names(record["inputs"], inputs):
+        before = record | {"sources": record["sources"] | way}
+        here = record | {
+            "function": spec.function,
+            "config": spec.config,
+            "sources": {**spec.sources, **{file: self.syntax_hash(file) for file in way}},
+            "environment": spec.environment,
+            "inputs": {used: self.digest(used) for used in spec.inputs},
+        }
+        if json.dumps(before, sort_keys=True) == json.dumps(here, sort_keys=True):  # 1 is not 1.0
+            return None
+        layers = differing_layers(before, here)
+        for used in differing_names(before["inputs"], here["inputs"]):
             layers.setdefault("data", used)
-        if not layers and record.get("function") != spec.function:
-            layers["source"] = f"function {record.get('function')} -> {spec.function}"
-        return next((_MADE[layer] + words for layer, words in layers.items()), None)
-
-
-def _touch(path: Path) -> None:
-    """Give a file, if it is there, the present time; its owner may be another user."""
-    try:
-        os.utime(path)
-    except ABSENT:
-        pass
-    except OSError as error:
-        raise FileError(f"{path}: its time cannot be set: {error.strerror}") from None
+        other = f"function {record.get('function')} -> {spec.function}"
+        layer, words = next(iter(layers.items()), ("source", other))
+        return _MADE[layer] + words

@@ -112,8 +112,7 @@ def _imported_modules(src: Path, file: Path, package: str) -> Iterator[str]:
 def _file(src: Path, name: str) -> Path | None:
     """Return the file of a module, or None if there is none."""
     path = src.joinpath(*name.split("."))
-    files = (path / "__init__.py", path.with_suffix(".py"))
-    return next((file for file in files if file.is_file()), None)
+    return next(filter(Path.is_file, (path / "__init__.py", path.with_suffix(".py"))), None)
 
 
 @cache
@@ -129,10 +128,12 @@ def machine_code_folder(src: Path, module: str) -> tuple[str, dict[Path, str]]:
 
     The name contains a hash of the sources, so that a changed constant compiles again.
     """
-    contents = {file: file.read_bytes() for file in import_closure(src, module)}
-    hashes = [parsed(file.name, data).syntax_hash for file, data in contents.items()]
-    name = f"{module}-{_sha256(' '.join(hashes).encode())[:16]}"
-    return name, {file: _sha256(data) for file, data in contents.items()}
+    meanings, digests = list[str](), dict[Path, str]()
+    for file in import_closure(src, module):
+        data = file.read_bytes()
+        meanings.append(parsed(file.name, data).syntax_hash)
+        digests[file] = _sha256(data)
+    return f"{module}-{_sha256(' '.join(meanings).encode())[:16]}", digests
 
 
 def compiled_subfolder(module: str, src: Path = SRC) -> str | None:

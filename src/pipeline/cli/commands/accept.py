@@ -55,9 +55,9 @@ def _renew(root: Path, findings: Findings) -> None:
     texts = manifest.files_of(manifest.build(root, published_set))
     files = {root / folder / name: text.encode() for name, text in texts.items()}
     if all(file_hash(file) == hashlib.sha256(text).hexdigest() for file, text in files.items()):
-        print(f"{folder}: nothing changed", *published_set.unlisted(root), sep="\n")
+        print(f"{folder}: nothing changed", *findings.unlisted, sep="\n")
         return
-    changes = [*_changes(findings), *published_set.unlisted(root)] or findings.problems
+    changes = [*_changes(findings), *findings.unlisted] or findings.problems
     for file, text in files.items():
         write_whole(file, text)
     print(*(changes or ["other changes behind the same pictures"]), sep="\n")
