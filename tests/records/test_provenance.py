@@ -8,9 +8,9 @@ from importlib import metadata
 
 import pytest
 
+from pipeline.records.files import FileError
 from pipeline.records.provenance import (
     BuildSpec,
-    ChangedError,
     Freshness,
     record_path,
     recorded,
@@ -164,10 +164,10 @@ def test_a_job_refuses_sources_and_packages_that_its_specification_does_not_have
     root, specs = made
     spec = Freshness(root, specs).build_specs[ORBITS]
     (root / "b.py").write_text("edited")
-    with pytest.raises(ChangedError, match=r"^b\.py changed during the run"), recorded(spec):
+    with pytest.raises(FileError, match=r"^b\.py changed during the run"), recorded(spec):
         raise AssertionError
     other = spec._replace(sources={}, environment={"numpy": "1.0"})
-    with pytest.raises(ChangedError, match=r"^numpy is .* here, not 1\.0"), recorded(other):
+    with pytest.raises(FileError, match=r"^numpy is .* here, not 1\.0"), recorded(other):
         raise AssertionError
     assert planned(made).startswith("made by other code than this tree's: b.py")
 

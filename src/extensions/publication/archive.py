@@ -307,8 +307,8 @@ def _drawing_differences(
             freshness = Freshness(root, published_set.build_specs)
             layers = Comparison(freshness, published_set, committed).layers(name) or {}
         if "file" not in layers:
-            words = picture_difference(root / path, other / path, image)[0]
-            layers["drawing"] = f"{path}: {words}"
+            words = picture_difference(root / path, other / path, image)
+            layers["drawing"] = f"{path}: {words}".replace(f"{root}/", "")
     except (ArtifactError, FileError) as error:
         layers["drawing"] = str(error)
     return layers

@@ -99,10 +99,10 @@ class Comparison:
             if reference is None:
                 return f"another picture; {_NO_COPY}"
             try:
-                words, saved = picture_difference(self.root / path, reference, self.root / image)
+                words = picture_difference(self.root / path, reference, self.root / image)
             except FileError:
                 return "another picture"  # and no place to show where it differs
-            return f"{words}: see {image}" if saved else words
+            return words.replace(f"{self.root}/", "")
 
 
 def _joined(records: list[dict[str, Any]]) -> dict[str, Any]:

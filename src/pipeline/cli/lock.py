@@ -22,7 +22,7 @@ def locked() -> Iterator[None]:
     snakemake has ended: before it ends, it may delete or restore the result of its last job.
 
     Without locks in the file system, says so once a command. Raises UsageError if another run holds
-    the lock for longer than LOCK_SECONDS, and ChangedError at the end if config.yaml or a loaded
+    the lock for longer than LOCK_SECONDS, and FileError at the end if config.yaml or a loaded
     module has changed.
     """
     try:

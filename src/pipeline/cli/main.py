@@ -7,7 +7,6 @@ from pathlib import Path
 from ..command_list import DEFAULT_COMMAND, all_commands
 from ..declaration import SourceError, imported
 from ..records.files import FileError, memory_is_short
-from ..records.provenance import ChangedError
 from ..records.sources import ROOT
 from . import arguments
 from .errors import UsageError, print_error
@@ -27,7 +26,7 @@ def main(words: list[str]) -> int:
             sys.stdout.flush()  # an error that comes at the end of the process cannot be reported
     except KeyboardInterrupt:
         return 130
-    except (UsageError, FileError, ChangedError, SourceError) as error:
+    except (UsageError, FileError, SourceError) as error:
         reason, status = memory_is_short(error) or str(error), getattr(error, "status", 1)
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the last flush

@@ -32,7 +32,7 @@ _KINDS = {
 
 
 class FileError(ValueError):
-    """A file that cannot be read or written: one line that names it."""
+    """A file that cannot be read or written, or that changed: one line that names it."""
 
 
 def why_not_a_file(path: _Path) -> str | None:

@@ -49,18 +49,18 @@ def drawing_hash(path: _Path) -> str:
     return hashlib.sha256(str(image.shape).encode() + image.tobytes()).hexdigest()
 
 
-def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tuple[str, bool]:
-    """Describe how a drawing differs from its reference, and whether an image was saved.
+def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> str:
+    """Describe how a drawing differs from its reference.
 
     For two PNGs or GIFs of one size, `image_path` gets the reference in pale grey, with the
-    differing pixels in red. Raises FileError if a file is no picture.
+    differing pixels in red, and the words name it. Raises FileError if a file is no picture.
     """
     if Path(path).suffix == ".svg":
-        return _differing_elements(_elements(path), _elements(reference)), False
+        return _differing_elements(_elements(path), _elements(reference))
     ours, theirs = pixels(path), pixels(reference)
     if ours.shape != theirs.shape:
         (height, width, _), (old_height, old_width, _) = ours.shape, theirs.shape
-        return f"{width} x {height} pixels instead of {old_width} x {old_height}", False
+        return f"{width} x {height} pixels instead of {old_width} x {old_height}"
     differs = np.any(ours != theirs, axis=2)
     shown = np.repeat(170 + theirs.mean(axis=2, keepdims=True) / 3, 3, axis=2).astype(np.uint8)
     shown[differs] = (220, 0, 0)
@@ -69,7 +69,7 @@ def picture_difference(path: _Path, reference: _Path, image_path: _Path) -> tupl
     write_whole(image_path, png(shown, 300))
     count = int(differs.sum())
     verb = "differs" if count == 1 else "differ"
-    return f"{count:,} of {differs.size:,} pixels {verb}", True
+    return f"{count:,} of {differs.size:,} pixels {verb}: see {image_path}"
 
 
 def _differing_elements(ours: list[str], theirs: list[str]) -> str:

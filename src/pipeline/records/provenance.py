@@ -48,10 +48,6 @@ _MADE = {
 _MOST_CAUSES = 4  # in one line
 
 
-class ChangedError(ValueError):
-    """A file that changed while something was made from it: one line."""
-
-
 class BuildSpec(NamedTuple):
     """The specification of a result."""
 
@@ -120,7 +116,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
 
     A ValueError in the body says that the result cannot exist (one of a subclass, such as
     FileError, only if it has the attribute `lasting`). The record has this refusal then. Raises
-    ChangedError, and writes no record, if a source is not as the specification has it, or if a
+    FileError, and writes no record, if a source is not as the specification has it, or if a
     source or an input changes.
     """
     hashes = {path: file_hash(path) for path in sorted([*spec.sources, *spec.inputs])}
@@ -131,7 +127,7 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     for package, version in spec.environment.items():
         if installed[package] != version:
             words = f"{package} is {installed[package]} here, not {version}"
-            raise ChangedError(f"{words}: run ./reproduce again")
+            raise FileError(f"{words}: run ./reproduce again")
     commit, dirty = _commit()
     record: dict[str, Any] = {
         "commit": commit,
@@ -161,12 +157,12 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
         raise refusal
 
 
-def _changed(path: str) -> ChangedError:
-    return ChangedError(f"{path} changed during the run; run ./reproduce again")
+def _changed(path: str) -> FileError:
+    return FileError(f"{path} changed during the run; run ./reproduce again")
 
 
 def require_unchanged(hashes: Mapping[str, str | None]) -> None:
-    """Raise ChangedError if a file does not have its hash, or did not when it was loaded.
+    """Raise FileError if a file does not have its hash, or did not when it was loaded.
 
     `hashes` maps a path, relative to the current folder, to its SHA-256, or None for no file.
     """
@@ -177,7 +173,7 @@ def require_unchanged(hashes: Mapping[str, str | None]) -> None:
 
 
 def require_loaded_unchanged() -> None:
-    """Raise ChangedError if a file of this tree has changed since this process loaded it."""
+    """Raise FileError if a file of this tree has changed since this process loaded it."""
     for path, digests in LOADED.items():
         for digest in digests if Path(path).is_relative_to(ROOT) else ():
             require_unchanged({os.path.relpath(path, ROOT): digest})

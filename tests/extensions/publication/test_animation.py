@@ -88,7 +88,8 @@ def test_two_gifs_are_compared_frame_by_frame(content, data, tmp_path):
     for path, written in zip(paths, contents, strict=True):
         path.write_bytes(written)
     assert drawing_hash(paths[0]) != drawing_hash(paths[1])
-    words, saved = picture_difference(paths[0], paths[1], tmp_path / "difference.png")
-    assert saved and "pixels differ" in words
+    image = tmp_path / "difference.png"
+    words = picture_difference(paths[0], paths[1], image)
+    assert words.endswith(f" pixels differ: see {image}") and image.is_file()
     with pytest.raises(FileError, match="damaged"):
         drawing_hash(paths[2])
