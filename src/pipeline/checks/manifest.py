@@ -20,8 +20,6 @@ from ..records.provenance import read_record, record_path, versions
 from .published_sets import MANIFEST, SUMS, PublishedSet, format_sums
 from .quantities import facts
 
-_SHORT_DIGITS = 16  # hex digits of the hash of a chunk or an attribute
-
 # `environment` (package -> version), `texts` and `sources` (path -> hash), and `results` (path ->
 # entry). The `sources` of an entry are files, or the result that has the same ones.
 Manifest = dict[str, Any]
@@ -55,7 +53,7 @@ def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
 
 
 def _short_hash(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:_SHORT_DIGITS]
+    return hashlib.sha256(data).hexdigest()[:16]
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:

@@ -20,51 +20,33 @@ from .layers import UPSTREAM, Comparison
 from .published_sets import MANIFEST, SUMS, PublishedSet, edited_lists, unlisted_files
 
 _UNCOMPUTED = "not computed here: run ./reproduce, or verify --committed for committed files alone"
-NEW = "new: ./reproduce accept adds it to the manifest"
 
 
 class Findings:
     """What differs between a tree and the committed state of one published set.
 
     Without `partial`, it is a finding that a drawing is missing in results.
-
-    Attributes
-    ----------
-    published_set : PublishedSet
-        The set without the scenes that cannot be made, about which `left_out` has lines.
-    unlisted : list of str
-        Lines about pictures in the folder that no scene of the set makes.
-    committed : dict or None
-        The manifest, if it can be read.
-    layers : dict
-        Name of each published file -> layer -> how it differs; None for a new file. Empty without a
-        manifest.
-    differences : dict
-        The layers of each file that is not the committed one.
-    stale : dict
-        Result -> why this tree makes another.
-    problems, failures : list of str
-        Lines about manifest, checksum list, text files and surplus files; and about all that fails
-        besides the files in `differences`.
-    notes : list of str
-        Lines about differences that leave the committed bytes.
     """
 
     def __init__(self, root: Path, published_set: PublishedSet, partial: bool = True) -> None:
         freshness = Freshness(root, published_set.build_specs)
-        refused = dict[str, str]()
+        refused = dict[str, str]()  # scene that cannot be made -> why
         for name, drawing in published_set.drawn.items():
             if why := freshness.refusal(drawing):
                 refused[Path(name).stem] = why
         self.published_set = published_set = published_set.without(refused)
-        folder, names = published_set.folder, {*published_set.drawn, *published_set.measured}
-        self.unlisted = unlisted_files(root, folder, names, refused)
         self.left_out = [
             f"{scene} is left out, because it cannot exist: {why}" for scene, why in refused.items()
         ]
+        folder, names = published_set.folder, {*published_set.drawn, *published_set.measured}
+        self.unlisted = unlisted_files(root, folder, names, refused)
         self.stale = freshness.outdated(published_set.build_specs)
-        self.committed: manifest.Manifest | None = None
+        self.committed: manifest.Manifest | None = None  # if it cannot be read
+        # Name of each published file -> layer -> how it differs; None for a new file. Empty without
+        # a manifest.
         self.layers: dict[str, dict[str, str] | None] = {}
+        # Lines about manifest, checksum list, text files and surplus files.
+        self.problems = [*self.unlisted]
         try:
             self.committed = manifest.read(root, folder)
         except FileError as error:
@@ -72,30 +54,27 @@ class Findings:
         else:
             comparison = Comparison(freshness, published_set, self.committed)
             self.layers = {name: comparison.layers(name) for name in published_set.drawn}
-            self.problems = [*_other_files(root, published_set, self.committed, refused)]
-            self.problems += self.unlisted
+            self.problems += _other_files(root, published_set, self.committed, refused)
         self._sort_layers(edited_lists(root))
         self._sort_results(partial)
 
     def _sort_layers(self, edited: dict[str, str]) -> None:
-        """Set which files are not the committed ones, and the notes on all others."""
-        folder, self.differences = self.published_set.folder, dict[str, dict[str, str]]()
-        notes = [item for item in edited.items() if item[0].rpartition("/")[0] == folder]
+        """Set the layers of files that are not the committed ones, and the notes on all others."""
+        published_set, self.differences = self.published_set, dict[str, dict[str, str]]()
+        notes = [each for each in edited.items() if each[0].startswith(f"{published_set.folder}/")]
         for name, layers in self.layers.items():
             # Another config does not matter once results made with it have the committed bytes.
-            stale = (
-                not self.published_set.on_request and self.published_set.drawn[name] in self.stale
-            )
+            current = published_set.on_request or published_set.drawn[name] not in self.stale
             if layers is None:
-                notes.append((name, NEW))
-            elif layers.keys() <= UPSTREAM - ({"config"} if stale else set()):
+                notes.append((name, "new: ./reproduce accept adds it to the manifest"))
+            elif layers.keys() <= (UPSTREAM if current else UPSTREAM - {"config"}):
                 notes += [(name, f"{layer}: {words}") for layer, words in layers.items()]
             else:
                 self.differences[name] = layers
         self.notes = [*self.left_out, *_grouped(notes)]
 
     def _sort_results(self, partial: bool) -> None:
-        """Set what fails, and what could not be checked without results."""
+        """Set lines about what fails besides files, and about what could not be checked."""
         drawn, run = self.published_set.drawn, self.published_set.command
         missing = [path for path, why in self.stale.items() if why == MISSING]
         stale = ((p, f"{why}: run {run}") for p, why in self.stale.items() if why != MISSING)

@@ -11,9 +11,8 @@ from types import FrameType
 from typing import Any
 
 from ..jobs.heartbeat import clear_line
-from ..records.differences import DAMAGED
 from ..records.files import disk_is_full, memory_is_short, why_not_a_file
-from ..records.provenance import Freshness, log_path, record_path, with_dependencies
+from ..records.provenance import DAMAGED, Freshness, log_path, record_path, with_dependencies
 from ..records.sources import ROOT
 from .arguments import Arguments
 from .errors import UsageError, print_error

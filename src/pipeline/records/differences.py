@@ -5,7 +5,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-DAMAGED = "changed after it was made"
 CHUNK = 1024  # values of a dataset that are hashed together, so that a difference can be located
 
 

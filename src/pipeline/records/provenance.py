@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 from ..declaration import parts
 from ..loading import LOADED
-from .differences import DAMAGED, differing_layers, differing_names
+from .differences import differing_layers, differing_names
 from .files import ABSENT, FileError, file_hash, read_bytes, read_text, why_not_a_file, write_whole
 from .sources import ROOT, syntax_hash
 
@@ -36,11 +36,11 @@ PACKAGES = (
 )
 CURRENT = "current"
 MISSING = "missing"
+DAMAGED = "changed after it was made"
 REFUSED = "cannot exist: "  # how the reason begins then
-_FROM_CONFIG = "made from another config:"
 # Differing layer -> the beginning of the reason to recompute a result.
 _MADE = {
-    "config": f"{_FROM_CONFIG} ",
+    "config": "made from another config: ",
     "source": "made by other code than this tree's: ",
     "environment": "made with ",
     "data": "made from another ",
@@ -311,7 +311,7 @@ class Freshness:
         if len(causes) > 1:
             causes.pop(MISSING, None)
         shown = ["not made yet" if cause == MISSING else cause for cause in causes][:_MOST_CAUSES]
-        shown = [cause.removeprefix(f"{_FROM_CONFIG} ") for cause in shown]
+        shown = [cause.removeprefix(_MADE["config"]) for cause in shown]
         more = [f"and {len(causes) - len(shown)} more"] if len(causes) > len(shown) else []
         return "; ".join(shown + more) or str(self.reason(paths[0]))
 

@@ -69,21 +69,18 @@ def import_closure(src: Path, *starts: str, leave_out: Iterable[str] = ()) -> li
     exist or is no Python, and ValueError if a name is imported from a package that imports its
     names lazily, which hides the module that defines the name.
     """
-    files, seen, pending = set(), set(leave_out), [*starts]
+    files, seen, pending = set[Path](), {"", *leave_out}, [*starts]
     while pending:
-        name = pending.pop()
-        parent = name.rpartition(".")[0]
-        pending += [parent] if parent and parent not in seen else []
-        if name in seen:
+        if (name := pending.pop()) in seen:
             continue
         seen.add(name)
-        file = _file(src, name)
+        file, parent = _file(src, name), name.rpartition(".")[0]
         if file is None:
             path = src.joinpath(*name.split(".")).with_suffix(".py")
             raise SourceError(path, f"no module {name}")
-        if file not in files:
-            files.add(file)
-            pending += _imported_modules(src, file, name if file.name == "__init__.py" else parent)
+        files.add(file)
+        package = name if file.name == "__init__.py" else parent
+        pending += [parent, *_imported_modules(src, file, package)]
     _store_results()
     return sorted(files)
 
