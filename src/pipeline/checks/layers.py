@@ -5,7 +5,6 @@ drawing decides the file: the first layer that differs is the cause of differenc
 """
 
 import tempfile
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,6 @@ class Comparison:
     ) -> None:
         self.freshness, self.published_set, self.committed = freshness, published_set, committed
         self.root, self.results = freshness.root, committed["results"]
-        self.data_difference = cache(self._data_difference)
 
     def layers(self, name: str) -> dict[str, str] | None:
         """Map each layer of a file that differs to the difference, the cause first.
@@ -48,7 +46,7 @@ class Comparison:
         after = _joined([specs[path]._asdict() for path in (drawing, *data)])
         layers = differing_layers(before, after, "in the manifest", "in config.yaml")
         for path in data:
-            if path in self.results and (words := self.data_difference(path)):
+            if path in self.results and (words := self._data_difference(path)):
                 layers.setdefault("data", words)
         return layers | self._picture_difference(name, drawing)
 

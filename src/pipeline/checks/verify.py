@@ -133,16 +133,15 @@ class Findings:
         return [*columns(rows), *self.failures, *notes, *self.unchecked]
 
 
-def summary(findings: Iterable[Findings]) -> str:
+def summary(findings: list[Findings]) -> str:
     """Return the closing line about all published sets."""
-    total = identical = failures = notes = 0
-    for each in findings:
-        total += len(each.layers)
-        identical += len(each.layers) - len(each.differences) - [*each.layers.values()].count(None)
-        failures, notes = failures + len(each.failures), notes + len(each.notes)
+    files = [layers for each in findings for layers in each.layers.values()]
+    others = files.count(None) + sum(len(each.differences) for each in findings)
+    failures = sum(len(each.failures) for each in findings)
+    notes = sum(len(each.notes) for each in findings)
     counts = {"other finding": failures, "note": notes}
-    others = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
-    return f"{identical} of {total} files identical{''.join(others)}"
+    words = [f"; {n} {noun}{'s' * (n > 1)}" for noun, n in counts.items() if n]
+    return f"{len(files) - others} of {len(files)} files identical{''.join(words)}"
 
 
 def verify(root: Path, config: Config, committed: bool = False) -> list[Findings]:

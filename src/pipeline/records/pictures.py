@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+from itertools import zip_longest
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -77,9 +78,6 @@ def _differing_elements(ours: list[str], theirs: list[str]) -> str:
 
     Lines are compared place by place: after one that is inserted, most others differ too.
     """
-    shared = min(len(ours), len(theirs))
-    different = [i for i in range(shared) if ours[i] != theirs[i]]
-    count = len(different) + abs(len(ours) - len(theirs))
-    first = ours[different[0]] if different else (ours + theirs)[shared]
-    first = first if len(first) <= 60 else first[:57] + "..."
-    return f"{count:,} of {len(theirs):,} elements differ, the first: {first}"
+    different = [a or b for a, b in zip_longest(ours, theirs) if a != b]
+    first = different[0] if len(different[0]) <= 60 else different[0][:57] + "..."
+    return f"{len(different):,} of {len(theirs):,} elements differ, the first: {first}"

@@ -268,9 +268,8 @@ class Freshness:
                 for each in (file, result, self.root / record_path(path)):
                     with suppress(*ABSENT):
                         os.utime(each)  # its owner may be another user
-            for path in outdated:
-                file, result = self.root / spec_path(path), self.root / path
-                while result.exists() and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
+                again = path in outdated and result.exists()
+                while again and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
                     time.sleep(0.001)
                     os.utime(file)
         except OSError as error:

@@ -19,11 +19,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..declaration import SourceError
+from ..declaration import SRC, SourceError
 from ..loading import LOADED, PACKAGES
 from .files import read_text, write_whole
 
-SRC = Path(__file__).resolve().parents[2]
 ROOT = SRC.parent
 # Modules that every job loads and that do not affect the bytes of a result: they write records and
 # whole files, hash, load modules and report failures. Tests plant a change in each.
