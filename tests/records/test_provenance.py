@@ -219,6 +219,9 @@ def test_times_say_what_is_outdated_whatever_they_were(made):
     make(root, edited, DRAWING)
     assert run_again((root, edited)) == []
     assert run_again(made) == [DRAWING]
+    make(root, specs, DRAWING)
+    (root / spec_path(DRAWING)).write_bytes(b"\xff")  # no text
+    assert run_again(made) == []
 
 
 def test_damage_of_a_result_or_a_record_is_outdated_and_a_copy_is_not(made):
