@@ -91,6 +91,7 @@ def set_up(stamp: str, *arguments: str) -> None:
         with suppress(OSError):  # Popen, if interrupted, leaves the process that it has started
             for child in Path("/proc/thread-self/children").read_text().split():
                 os.kill(int(child), signal.SIGKILL)
+                os.waitpid(int(child), 0)
         print_error("interrupted: run it again to go on")
         sys.exit(130)
     except (UsageError, FileError, OSError) as error:
