@@ -2,12 +2,14 @@
 
 import multiprocessing
 import os
+import sys
+from types import SimpleNamespace
 
 import pytest
 from project import fresh_tree
 
 from pipeline.jobs import forks
-from pipeline.records.provenance import BuildSpec
+from pipeline.records.provenance import BuildSpec, failure
 
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
@@ -86,3 +88,17 @@ def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys)
     assert forks.run(multiprocessing.get_context("fork"), spec, "halving")
     assert forks.PROGRESS.pop(spec.result) == "60%, halving"
     assert capsys.readouterr().err == "a warning\n"
+
+
+def test_a_job_without_a_log_says_if_the_disk_is_full(tmp_path, monkeypatch):
+    """It could not write one, which does not mean that memory was short."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(forks.job, "make", lambda spec: sys.exit(1))
+    spec = BuildSpec("results/paper/0.nc", "fig", "step", {}, "", "", {}, [])
+    context = multiprocessing.get_context("fork")
+    assert not forks.run(context, spec)
+    assert failure(spec.result) == "the job was killed (exit status 1): memory may be short"
+    (tmp_path / "results/paper/logs/0.nc.log").unlink()
+    monkeypatch.setattr("shutil.disk_usage", lambda path: SimpleNamespace(total=10**9, free=30_000))
+    assert not forks.run(context, spec)
+    assert failure(spec.result) == "the disk is full, 0.0 MB are left"

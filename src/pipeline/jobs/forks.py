@@ -16,7 +16,7 @@ from multiprocessing.context import ForkServerContext, SpawnContext
 from pathlib import Path
 from typing import Any
 
-from ..records.files import write_whole
+from ..records.files import disk_is_full, write_whole
 from ..records.provenance import BuildSpec, log_path
 from . import job
 
@@ -51,8 +51,9 @@ def run(context: ForkServerContext | SpawnContext, spec: BuildSpec, *given: Any)
     if status != 0 and not log.exists():
         reason = "it could not start" if status is None else f"exit status {status}"
         reason = signal.Signals(-status).name if status and status < 0 else reason
-        words = f"the job was killed ({reason}): memory may be short"
-        with suppress(ValueError):  # the disk may be full
+        killed = f"the job was killed ({reason}): memory may be short"
+        words = disk_is_full(log) or killed  # a job cannot write its log then
+        with suppress(ValueError):
             write_whole(log, f"pseudorigid: {spec.scene}: {words}\n")
     return status == 0
 
