@@ -224,6 +224,26 @@ def test_times_say_what_is_outdated_whatever_they_were(made):
     assert run_again(made) == []
 
 
+def test_times_of_files_of_another_owner_are_set_by_copies(made, monkeypatch):
+    """In a folder that one may write, after a run of root or of a member of the same group."""
+    root, specs = made
+    assert run_again(made) == []
+    contents = {root / p: p for p in specs}
+    foreign, utime = {*contents, *(root / spec_path(p) for p in specs)}, os.utime
+
+    def of_owner(path, *times):
+        if path in foreign:
+            foreign.remove(path)
+            raise PermissionError(1, "Operation not permitted")
+        utime(path, *times)
+
+    for file in [*foreign]:
+        utime(file, (4e9, 4e9))
+    monkeypatch.setattr(os, "utime", of_owner)
+    assert run_again(made) == [] and not foreign
+    assert {file: file.read_text() for file in contents} == contents
+
+
 def test_damage_of_a_result_or_a_record_is_outdated_and_a_copy_is_not(made):
     root, specs = made
     kept = {file: file.read_bytes() for p in specs for file in (root / p, root / record_path(p))}
