@@ -121,7 +121,8 @@ def contents(root: Path, config: Config, packages: Collection[Path] = ()) -> Con
             continue
         names = [*read_sums(root, published_set.folder), SUMS, MANIFEST]
         paths += [f"{published_set.folder}/{name}" for name in names]
-        data = {path for stages in published_set.data.values() for path in stages.values()}
+        # Also blocks of sweeps: without its inputs, a dataset is not current.
+        data = [path for path in published_set.build_specs if path.endswith(".nc")]
         present = sorted(path for path in data if (root / path).is_file())
         paths += present
         counts.append(f"{len(present)} of {len(data)} datasets of {published_set.command}")

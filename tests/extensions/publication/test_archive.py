@@ -8,15 +8,17 @@ import tarfile
 
 import pytest
 from archives import against
+from project import SHIPPED
 
 from extensions.explorer import page
 from extensions.publication import archive
 from extensions.publication.archive import EXPLORER
 from extensions.publication.commands import against as command
 from pipeline import config
+from pipeline.checks.published_sets import committed_sets
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import UsageError
-from pipeline.records.files import FileError
+from pipeline.records.files import FileError, write_whole
 
 FILE = "results/archive/pseudorigid.tar"
 
@@ -52,6 +54,21 @@ def test_contents_of_an_archive(accepted, packed, tmp_path):
     assert f"{len(data)} of {len(data)} datasets" in (folder / "README.txt").read_text()
     for place in (folder, folder / "paper_figures"):
         subprocess.run(["sha256sum", "--quiet", "-c", "SHA256SUMS"], cwd=place, check=True)
+
+
+def test_datasets_are_archived_with_what_they_are_made_from(tmp_path, monkeypatch):
+    """Else the unpacked archive of a tree with an atlas does not verify."""
+    checked = config.load(SHIPPED)
+    specs = {p: s for each in committed_sets(checked) for p, s in each.build_specs.items()}
+    datasets = {path for path in specs if path.endswith(".nc")}
+    lists = [f"{each.folder}/SHA256SUMS" for each in committed_sets(checked)]
+    for path in (*datasets, *lists):
+        write_whole(tmp_path / path, "")
+    monkeypatch.setattr(archive, "_explorer_page", lambda *_: {})
+    archived = archive.contents(tmp_path, checked)
+    made = [path for path in specs if path in archived]
+    assert any(specs[path].inputs for path in made)
+    assert {used for path in made for used in specs[path].inputs} <= archived.keys()
 
 
 def test_an_archive_does_not_depend_on_machine_and_settings(accepted, packed, tmp_path):
