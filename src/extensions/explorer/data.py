@@ -15,7 +15,7 @@ from urllib.parse import quote
 
 import yaml
 
-from pipeline.checks.captions import caption_of, further_text
+from pipeline.checks.captions import caption_of
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
 from pipeline.config.schema.kinds import KINDS
@@ -65,7 +65,7 @@ def presets(checked: Config) -> list[dict[str, str]]:
             if address(checked, variant, scene, mapping) == scene:
                 caption = caption_of(scene, mapping)
                 title = f"{caption.name}: {caption.title}"
-                see = further_text(mapping, "explorer") or caption.see
+                see = caption.explorer or caption.see
                 found.append({"name": scene, "title": title, "see": see})
     return found
 

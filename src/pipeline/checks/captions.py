@@ -20,13 +20,17 @@ for _file in files("captions.toml").values():
 
 
 class Caption(NamedTuple):
-    """The texts of a picture. `shows` and `see` are a few sentences, `details` are the rest."""
+    """The texts of a picture. `shows` and `see` are a few sentences, `details` are the rest.
+
+    `explorer` says what to see there, if that is something else.
+    """
 
     name: str
     title: str
     shows: str
     see: str
     details: str
+    explorer: str
 
 
 def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = None) -> Caption:
@@ -36,7 +40,7 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     `facts` are those of `quantities.facts`; without them, sentences that need one are left out.
     """
     kind = block["picture"]
-    templates = {"title": str(KINDS[kind].__doc__), "shows": "", "see": "", "details": ""}
+    templates = dict.fromkeys(Caption._fields, "") | {"title": str(KINDS[kind].__doc__)}
     templates |= CAPTIONS.get(kind, {})
     numbered = re.fullmatch(r"(?:.*/)?fig(\d+)", name)
     shown_name = f"Figure {numbered[1]}" if numbered else name
@@ -49,12 +53,6 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
         raise ValueError(f"{words}: run ./reproduce accept") from None
     hidden = [f"Note: {line}." for line in known["hidden"] or ()]
     return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
-
-
-def further_text(block: dict[str, Any], key: str) -> str:
-    """Return a further text of a complete scene in captions.toml, or an empty one."""
-    template = CAPTIONS.get(block["picture"], {}).get(key, "")
-    return " ".join(_ENVIRONMENT.from_string(template).render(s=block).split())
 
 
 def _with_commas(value: object) -> object:

@@ -64,10 +64,8 @@ class Comparison:
 
     def _picture_difference(self, name: str, drawing: str) -> dict[str, str]:
         """Return the layer in which a published file differs, or in which its drawing does more."""
-        published, committed = (
-            f"{self.published_set.folder}/{name}",
-            self.results[drawing]["output"],
-        )
+        published = f"{self.published_set.folder}/{name}"
+        committed = self.results[drawing]["output"]
         if self.freshness.digest(published) is None:
             why = why_not_a_file(self.root / published)
             missing = f"{published} is missing: {self.published_set.command} makes it"

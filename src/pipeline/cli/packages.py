@@ -110,9 +110,8 @@ def _make() -> None:
     """Make .venv from nothing; UsageError if there is one that ./reproduce did not make."""
     for folder in (str(ROOT), os.environ.get("PSEUDORIGID_WHEELS", "")):
         if refused := re.sub(r"[\w /.,+@=~()-]", "", folder):
-            raise UsageError(
-                f"{folder!r}: installers cannot take {refused[0]!r} in a folder's name"
-            )
+            words = f"installers cannot take {refused[0]!r} in a folder's name"
+            raise UsageError(f"{folder!r}: {words}")
     empty = VENV.is_dir() and not any(VENV.iterdir())
     if VENV.is_symlink() or (VENV.exists() and not (empty or LOG.is_file())):
         raise UsageError(f"{VENV} was not made by ./reproduce: please move it away")

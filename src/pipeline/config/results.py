@@ -110,10 +110,8 @@ def stage_parameters(scene: Picture) -> dict[str, YamlMapping]:
     for name in upstream(scene.stages):
         # A scan decides all stages that follow orbits, a method of a part those that it computes.
         decides = STAGES[name].follows and (not of_method or name in of_method)
-        method = ("method",) if decides else ()
-        parameters[name] = scene.as_mapping(
-            ("ball", "energy", *STAGES[name].fields.split(), *method)
-        )
+        fields = ["ball", "energy", *STAGES[name].fields.split(), *["method"] * decides]
+        parameters[name] = scene.as_mapping(fields)
     return parameters
 
 

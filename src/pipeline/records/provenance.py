@@ -266,8 +266,12 @@ class Freshness:
                 if not file.is_file() or read_bytes(file) != text.encode():
                     write_whole(file, text)
                 for each in (file, result, self.root / record_path(path)):
-                    with suppress(*ABSENT):
-                        _touch(each)
+                    try:
+                        os.utime(each)
+                    except ABSENT:
+                        pass
+                    except PermissionError:  # it belongs to another user: a copy replaces it
+                        write_whole(each, read_bytes(each))
                 again = path in outdated and result.exists()
                 while again and file.stat().st_mtime_ns <= result.stat().st_mtime_ns:
                     time.sleep(0.001)
@@ -363,11 +367,3 @@ class Freshness:
         other = f"function {record.get('function')} -> {spec.function}"
         layer, words = next(iter(layers.items()), ("source", other))
         return _MADE[layer] + words
-
-
-def _touch(path: Path) -> None:
-    """Give a file the present time; one of another user is replaced by a copy."""
-    try:
-        os.utime(path)
-    except PermissionError:
-        write_whole(path, read_bytes(path))
