@@ -300,7 +300,7 @@ def _drawing_differences(
 ) -> dict[str, str]:
     """Return layer -> how a published picture differs from its copy in the folder `other`."""
     name = os.path.basename(path)
-    image = root / published_set.results / "differences" / name
+    image = root / "results" / published_set.group / "differences" / name
     layers: dict[str, str] = {}
     try:
         with suppress(FileError):

@@ -86,7 +86,7 @@ class Comparison:
     def _how_drawn(self, path: str, name: str, digest: str) -> str:
         """Describe how a picture differs from the committed one, if there is a copy of this one."""
         published = f"{self.published_set.folder}/{name}"
-        image = f"{self.published_set.results}/differences/{name}"
+        image = f"results/{self.published_set.group}/differences/{name}"
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder) / name
             copy.write_bytes(git("show", f"HEAD:./{published}", root=self.root) or b"")

@@ -28,9 +28,8 @@ class PublishedSet(NamedTuple):
     The name of a published file is that of its scene and a suffix.
     """
 
-    group: str  # the name of its set of scenes, a key of config.variants
+    group: str  # the name of its set of scenes, a key of config.variants and a folder in results/
     folder: str  # of the published files
-    results: str  # the folder of the drawings and their data
     command: str  # that makes the files
     text_files: tuple[str, ...]  # other files that the command writes
     on_request: bool  # whether only its own command makes it; plain ./reproduce makes the paper's
@@ -67,7 +66,6 @@ def _published(config: Config, group: str) -> PublishedSet:
     return PublishedSet(
         group=group,
         folder=PUBLISHED[group],
-        results=f"results/{group}",
         command=SETS[group].command,
         text_files=SETS[group].texts,
         on_request=group != MAIN,

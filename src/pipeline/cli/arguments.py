@@ -166,9 +166,6 @@ def _parser(name: str | None) -> _Parser:
 
 def _versions() -> str:
     """Return the versions of this project and of snakemake."""
-    pins = (
-        ('^version = "(.+)"', "pyproject.toml"),
-        ("^snakemake==([^ ;]+)", "requirements/lock.txt"),
-    )
-    ours, snakemake = (re.findall(p, read_text(ROOT / file), re.M)[0] for p, file in pins)
+    pins = {"pyproject.toml": '^version = "(.+)"', "requirements/lock.txt": "^snakemake==([^ ;]+)"}
+    ours, snakemake = (re.findall(p, read_text(ROOT / file), re.M)[0] for file, p in pins.items())
     return f"pseudorigid {ours}, snakemake {snakemake}"

@@ -1,7 +1,6 @@
 """Make one result and its record, or say in one line why it cannot be made.
 
-`python -m pipeline.jobs.job results/paper/specs/orbits_fig2.nc.json` makes what a specification
-says.
+`python -m pipeline.jobs.job results/paper/specs/orbits_fig2.nc.json` makes what this file says.
 """
 
 import signal

@@ -37,7 +37,7 @@ def accept(root: Path, config: Config) -> int:
         problem = findings.not_published(root)
         if problem is None:
             for name in published_set.measured:
-                drawing = root / published_set.results / "figures" / name
+                drawing = root / "results" / published_set.group / "figures" / name
                 if drawing.is_file():
                     write_whole(root / published_set.folder / name, read_bytes(drawing))
             _renew(root, findings)

@@ -121,11 +121,8 @@ def _scenes_of_set(
     declared, found, mistakes = SETS[name], dict[str, Picture](), list[Mistake]()
     key = declared.key or name
     given = imported(declared.scenes)() if declared.scenes else mappings.get(key, {})
-    if declared.kind:
-        kind = {"picture": declared.kind}
-        given = {
-            s: kind | block if isinstance(block, dict) else block for s, block in given.items()
-        }
+    kind = {"picture": declared.kind} if declared.kind else {}
+    given = {s: kind | block if isinstance(block, dict) else block for s, block in given.items()}
     for scene, block in given.items():
         checked, more = scenes.check_scene(block, ball, (key, scene), given)
         mistakes += more
