@@ -10,9 +10,8 @@ from project import ROOT
 from pipeline import config, declaration
 from pipeline.command_list import COMMANDS
 
-DOCUMENTS = sorted(
-    str(file.relative_to(ROOT)) for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
-)
+PATTERNS = "*.md", "docs/**/*.md", "src/**/README.md", "src/extensions/*/*/*.md", "tests/README.md"
+DOCUMENTS = sorted({str(file.relative_to(ROOT)) for each in PATTERNS for file in ROOT.glob(each)})
 # Folders of the repository; results and .venv are left out.
 FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")
@@ -23,11 +22,6 @@ FILES = [
     if file.is_file()
 ]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
-PAGES = sorted(
-    str(file.relative_to(ROOT))
-    for pattern in ("src/**/README.md", "src/extensions/*/*/*.md", "tests/README.md")
-    for file in ROOT.glob(pattern)
-)
 
 
 def targets(text):
@@ -61,7 +55,7 @@ def blocks(document):
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip("\n") for block in found]
 
 
-@pytest.mark.parametrize("document", DOCUMENTS + PAGES)
+@pytest.mark.parametrize("document", DOCUMENTS)
 def test_links_lead_to_files(document):
     for link in targets(text_of(document)):
         path, _, place = link.partition("#")
@@ -78,7 +72,7 @@ def test_the_page_of_commands_has_those_of_parts():
             assert (name, part.commands[name].line) in rows, "add a row to docs/commands.md"
 
 
-@pytest.mark.parametrize("document", [n for n in DOCUMENTS + PAGES if n != "CHANGELOG.md"])
+@pytest.mark.parametrize("document", [n for n in DOCUMENTS if n != "CHANGELOG.md"])
 def test_named_files_exist(document):
     """Paths, and names in backquotes, are those of a file or the end of its path."""
     text = re.sub(r"https?://\S+|git show \S+", "", text_of(document))
