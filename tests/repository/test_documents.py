@@ -8,26 +8,17 @@ import yaml
 from project import ROOT
 
 from pipeline import config, declaration
-from pipeline.command_list import COMMANDS
+from pipeline.cli import arguments
+from pipeline.command_list import COMMANDS, all_commands
 
 PATTERNS = "*.md", "docs/**/*.md", "src/**/README.md", "src/extensions/*/*/*.md", "tests/README.md"
 DOCUMENTS = sorted({str(file.relative_to(ROOT)) for each in PATTERNS for file in ROOT.glob(each)})
 # Folders of the repository; results and .venv are left out.
 FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")
-FILES = [
-    str(file.relative_to(ROOT))
-    for files in (ROOT.glob("*"), *((ROOT / folder).rglob("*") for folder in FOLDERS))
-    for file in files
-    if file.is_file()
-]
+PATHS = [*ROOT.glob("*"), *(path for folder in FOLDERS for path in (ROOT / folder).rglob("*"))]
+FILES = [str(path.relative_to(ROOT)) for path in PATHS if path.is_file()]
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
-
-
-def targets(text):
-    """The links of a document to files and to places in them or in itself."""
-    found = re.findall(r"\]\(([^)\s]+)\)", text)
-    return [link for link in found if not link.startswith(("http:", "https:"))]
 
 
 def anchors(text):
@@ -57,7 +48,7 @@ def blocks(document):
 
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_links_lead_to_files(document):
-    for link in targets(text_of(document)):
+    for link in re.findall(r"\]\((?!https?:)([^)\s]+)\)", text_of(document)):
         path, _, place = link.partition("#")
         file = (ROOT / document).parent / path if path else ROOT / document
         assert file.exists() or is_absent(path), link
@@ -67,9 +58,16 @@ def test_links_lead_to_files(document):
 
 def test_the_page_of_commands_has_those_of_parts():
     rows = re.findall(r"\| `\./reproduce (\w+)` \| (.*) \|\n", text_of("docs/commands.md"))
-    for part in declaration.parts().values():
-        for name in part.commands.keys() - COMMANDS.keys():
-            assert (name, part.commands[name].line) in rows, "add a row to docs/commands.md"
+    for name in all_commands().keys() - COMMANDS.keys():
+        assert (name, all_commands()[name].line) in rows, "add a row to docs/commands.md"
+
+
+@pytest.mark.parametrize("document", [n for n in DOCUMENTS if n != "CHANGELOG.md"])
+def test_arguments_of_commands_are_known(document):
+    other = "help|.*--(?:help|version|offline)"  # what ends with a help, or is read by sh
+    pattern = rf"(?:^    |`)\./reproduce( (?!{other})[^`#&\n]*)"
+    for words in re.findall(pattern, text_of(document), re.M):
+        arguments.read(words.split())
 
 
 @pytest.mark.parametrize("document", [n for n in DOCUMENTS if n != "CHANGELOG.md"])

@@ -1,8 +1,8 @@
 """MANIFEST.json: the records of the results behind the published files of a folder.
 
-The entry of a result is its record without what belongs to one machine, and with what `describe`
-says of its file. What records share stands once: environment, hashes of sources, lists of sources.
-Nothing in a manifest depends on the day, the folder or the commit.
+The entry of a result is its record without what belongs to one machine. It also describes the data,
+or the drawing and what its caption says. What records share stands once: environment, hashes of
+sources, lists of sources. Nothing in a manifest depends on the day, the folder or the commit.
 """
 
 import hashlib
