@@ -2,7 +2,12 @@
 
 import getpass
 import os
+import signal
 import sys
+
+# Ctrl-C ends `python -m` without a traceback while there is nothing to clean up, so from here on.
+if sys.argv[:1] == ["-m"] and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 from .loading import Finder
 

@@ -173,6 +173,7 @@ VALUES = {
     ("  low:", "  paper:", "line 16: variants: 'paper' is not allowed"),
     ("KEY", "scnes", "line 22: scnes: unknown key: did you mean scenes?"),
     ("ball: {k: 0.2, g: 0.04}", "", "ball: missing"),
+    (DOCUMENT, "[]", "[] is not allowed: expected a mapping with the keys ball and scenes\n"),
 ])  # fmt: skip
 def test_a_mistake_names_the_line_of_its_key(tmp_path, mark, value, words):
     """In mappings, lists, variants and what `<<` repeats."""
@@ -185,7 +186,7 @@ def test_a_mistake_names_the_line_of_its_key(tmp_path, mark, value, words):
     path.write_text(text)
     with pytest.raises(config.ConfigError) as raised:
         config.load(path)
-    assert raised.value.lines[0].startswith(f"config.yaml: {words}")
+    assert f"{raised.value.lines[0]}\n".startswith(f"config.yaml: {words}")
     if mark == "STARTS":  # repeated below
         assert raised.value.lines[1].startswith("config.yaml: line 8: scenes.again.starts[2]")
 

@@ -70,6 +70,7 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(edited, accepted):
     assert "Traceback" not in output and "Traceback" in (edited.path / log).read_text()
     (named,) = re.findall(r"^reproduce: snakemake's log: (.*)$", output, re.MULTILINE)
     assert (edited.path / named).is_file()
+    assert "snakemake's log" not in edited.run("fig3", "--", "--nonsense").stdout  # it has none
     assert contents(edited)["fig5.png"] == contents(accepted)["fig5.png"]
 
 
@@ -93,7 +94,7 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
     assert published.read_text() == "after"
 
 
-@pytest.mark.parametrize("file", ["src/pipeline/config/__init__.py", "src/snakemake/cli.py"])
+@pytest.mark.parametrize("file", ["src/pipeline/loading.py", "src/snakemake/cli.py"])
 def test_interrupting_the_start_is_no_traceback(tree, file):
     reached = tree.path / "reached"
     path = tree.path / file

@@ -28,7 +28,7 @@ OPTIONS = (
     *("--rerun-triggers", "mtime", "--max-checksum-file-size", "0", "--keep-going"),
     *("--scheduler", "greedy"),
 )
-
+_LOGS = ".snakemake/log/*.log"  # one of each run
 _NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
 
 
@@ -73,6 +73,7 @@ def _run(command: list[str], remote: bool) -> int:
     It inherits the lock, and its stdin closes when this process ends. If its jobs may be `remote`,
     on other machines, it is asked to cancel them on Ctrl-C.
     """
+    before = {*ROOT.glob(_LOGS)}
     environment = os.environ if remote else os.environ | {RUN: "1"}
     how: dict[str, Any] = {"stdin": subprocess.PIPE, "process_group": 0, "close_fds": False}
     with (
@@ -93,9 +94,8 @@ def _run(command: list[str], remote: bool) -> int:
         return INTERRUPTED
     if status < 0:
         print_error(f"snakemake was killed ({signal.Signals(-status).name}): memory may be short")
-    if status and (logs := sorted(ROOT.glob(".snakemake/log/*.log"))):
-        newest = logs[-1]  # names begin with the time
-        print_error(f"snakemake's log: {newest.relative_to(ROOT)}")
+    if status and (logs := {*ROOT.glob(_LOGS)} - before):  # none if it refuses its arguments
+        print_error(f"snakemake's log: {logs.pop().relative_to(ROOT)}")
     return status
 
 

@@ -64,7 +64,7 @@ def _located(path: Path, mistake: Mistake | str) -> str:
             name = path.name if file == path else os.path.relpath(file, SRC.parent)
             name += f": line {found[-1]}"
             break
-    owners = [each.command for n, each in SETS.items() if n != MAIN and each.key == key]
+    owners = [each.command for n, each in SETS.items() if key and n != MAIN and each.key == key]
     owners += [f"the part {BLOCKS[key].__module__.split('.')[-2]}"] if key in BLOCKS else []
     of = "".join(f" (this concerns {each} alone)" for each in owners)
     return f"{name}: {mistake}{of}"
