@@ -62,6 +62,7 @@ def test_the_page_of_commands_has_those_of_parts():
         assert (name, all_commands()[name].line) in rows, "add a row to docs/commands.md"
 
 
+@pytest.mark.skipif(len(declaration.parts()) < 9, reason="it starts from all parts")
 @pytest.mark.parametrize("document", [n for n in DOCUMENTS if n != "CHANGELOG.md"])
 def test_arguments_of_commands_are_known(document):
     other = "help|.*--(?:help|version|offline)"  # what ends with a help, or is read by sh
