@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands
 from ..declaration import files, lacking
 from ..records.files import read_text
+from ..records.sources import ROOT
 from ..spelling import suggestion
 
 if TYPE_CHECKING:  # it needs packages
     from ..config import Config
 
-ROOT = Path(__file__).resolve().parents[3]
 USAGE_STATUS = 2
 # Options with which snakemake makes nothing.
 _PRINTS = {
@@ -28,8 +28,6 @@ _PRINTS = {
     *("-S", "--summary", "-D", "--detailed-summary", "-t", "--touch", "--unlock"),
     *("-v", "--version", "-h", "--help"),
 }
-
-
 _OFFLINE = "./reproduce --offline DIR ... installs packages from a folder, offline."
 _SNAKEMAKE = "What follows -- goes to snakemake as it is: ./reproduce fig3 -- --dag"
 

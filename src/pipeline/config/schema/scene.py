@@ -44,11 +44,12 @@ def _tag(value: Any) -> str:
 
 
 _WORDS = ["a mapping with the keys scan and tolerance", *map("{{{}: true}}".format, METHODS)]
-_EITHER: Any = Annotated[Scan, fields.FIRST]
-for _block in METHODS.values():
-    _EITHER |= Annotated[_block, fields.SECOND]
-_BY_TAG = [Discriminator(_tag)] if METHODS else []
-Method: Any = Annotated[_EITHER, *_BY_TAG, allowed(", or ".join(_WORDS))]
+_EITHER: Any = Scan
+if METHODS:
+    (_block,) = METHODS.values()  # the second of two tags
+    _TAGGED: Any = Annotated[Scan, fields.FIRST] | Annotated[_block, fields.SECOND]
+    _EITHER = Annotated[_TAGGED, Discriminator(_tag)]
+Method: Any = Annotated[_EITHER, allowed(", or ".join(_WORDS))]
 
 
 class Picture(fields.Block):
