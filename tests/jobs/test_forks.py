@@ -6,7 +6,7 @@ import sys
 from types import SimpleNamespace
 
 import pytest
-from project import fresh_tree
+from project import ROOT, fresh_tree, run
 
 from pipeline.jobs import forks
 from pipeline.records.provenance import BuildSpec, failure
@@ -102,3 +102,23 @@ def test_a_job_without_a_log_says_if_the_disk_is_full(tmp_path, monkeypatch):
     monkeypatch.setattr("shutil.disk_usage", lambda path: SimpleNamespace(total=10**9, free=30_000))
     assert not forks.run(context, spec)
     assert failure(spec.result) == "the disk is full, 0.0 MB are left"
+
+
+def test_the_libraries_of_jobs_start_no_threads_and_the_run_keeps_its_settings(monkeypatch):
+    seen = {}
+    monkeypatch.setenv("OMP_NUM_THREADS", "7")
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    before = dict(os.environ)
+    monkeypatch.setattr(forks.forkserver, "ensure_running", lambda: seen.update(os.environ))
+    assert forks.forking().get_start_method() == "forkserver"
+    assert (seen["OMP_NUM_THREADS"], seen["OPENBLAS_NUM_THREADS"]) == ("1", "1")
+    assert dict(os.environ) == before
+
+
+def test_a_broken_specification_is_one_line(tmp_path):
+    (tmp_path / "broken.json").write_text("{")
+    for name, words in (("broken", "Expecting property name"), ("missing", "No such file")):
+        command = [sys.executable, "-P", "-m", "pipeline.jobs.job", f"{name}.json"]
+        result = run(*command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
+        assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+        assert result.stderr.startswith("pseudorigid: ") and words in result.stderr

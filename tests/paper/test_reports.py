@@ -4,6 +4,7 @@ import statistics
 
 import numpy as np
 import pytest
+import xarray as xr
 from samples import exponents
 
 from paper.figures import reports
@@ -54,3 +55,21 @@ def test_a_motions_period_strain_and_impacts_within_the_axes():
     times = motion["impact_t"].values
     assert int(within["impacts drawn"]) == np.sum((times >= 1) & (times <= 10))
     assert within["time"] == "1 to 10"
+
+
+def test_branches_meet_where_an_unstable_one_crosses_the_axis_but_not_in_a_saddle(monkeypatch):
+    """A branch passes the axis between two points; in a saddle it has a point on it."""
+    monkeypatch.setattr("paper.figures.tangle.drawn", lambda *_: (None, ["marks"]))
+    sides = {
+        "crosses": (0, [0.0, 1.0, 2.0, -1.0, -2.0]), "passes a saddle": (0, [1.0, 2.0, 0.0, -1.0]),
+        "is stable": (1, [1.0, -1.0]), "stays": (0, [1.0, 2.0, 1.0]),
+        "ends beyond": (0, [1.0, 1.0, 1e-8, -1e-8]), "ends on it": (0, [1.0, 1e-10, -1e-10]),
+    }  # fmt: skip
+    stable, ys = zip(*sides.values(), strict=True)
+    y = np.concatenate(ys)  # = xdot - k udot
+    state = {"x": 0.0 * y, "xdot": y + 0.2, "udot": y**0}
+    data = xr.Dataset({name: ("vertex", values) for name, values in state.items()})
+    data["row_size"] = "branch", [len(y) for y in ys]
+    data["stable"], data["side"] = ("branch", [*stable]), ("branch", [*sides])
+    found = reports.tangle_facts(BLOCK, None, None, data)
+    assert found == {"seen": ["marks"], "meeting": ["crosses", "ends beyond"]}
