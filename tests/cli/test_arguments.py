@@ -1,13 +1,11 @@
 """The command line: commands, names and the reports of mistakes, without a run."""
 
-import os
 import re
-import sys
 
 import pytest
 from commands import answer, mistake
 from documents import complaint
-from project import run
+from project import path_of_bare_python, run
 
 from pipeline.cli import arguments
 from pipeline.command_list import all_commands
@@ -92,10 +90,9 @@ def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
 
 def test_help_without_a_venv_installs_nothing(tree, tmp_path):
     before = sorted(tree.path.rglob("*"))
-    (tmp_path / "python3").symlink_to(sys.executable)
+    path = path_of_bare_python(tmp_path / "bin")
     for words in ("help verify", "--help", "-h", "help"):
-        environment = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
-        result = run(tree.path / "reproduce", *words.split(), env=environment, cwd="/")
+        result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
         assert (result.returncode, result.stderr) == (0, ""), result
         assert result.stdout.startswith("usage: ./reproduce")
     assert sorted(tree.path.rglob("*")) == before
