@@ -68,6 +68,15 @@ def run(*command, **how):
     return subprocess.run([*map(str, command)], check=False, **how)
 
 
+def path_of_bare_python(folder):
+    """Return a PATH whose python3, written to a folder, has the standard library alone (-S)."""
+    folder.mkdir(exist_ok=True)
+    python = folder / "python3"
+    python.write_text(f'#!/bin/sh\nexec "{sys.base_prefix}/bin/python3" -S "$@"\n')
+    python.chmod(0o755)
+    return f"{folder}:/usr/bin:/bin"
+
+
 def check_jsonschema(*arguments):
     """Return the exit status of check-jsonschema, called in this process, and what it prints."""
     import pytest  # an emulated processor imports this module without these packages

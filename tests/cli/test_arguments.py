@@ -1,14 +1,14 @@
 """The command line: commands, names and the reports of mistakes, without a run."""
 
-import os
 import re
-import sys
+from importlib import metadata
 
 import pytest
 from commands import answer, mistake
 from documents import complaint
-from project import run
+from project import path_of_bare_python, run
 
+import pseudorigid
 from pipeline.cli import arguments
 from pipeline.command_list import all_commands
 from pipeline.config.schema.parts import SETS
@@ -92,10 +92,9 @@ def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
 
 def test_help_without_a_venv_installs_nothing(tree, tmp_path):
     before = sorted(tree.path.rglob("*"))
-    (tmp_path / "python3").symlink_to(sys.executable)
+    path = path_of_bare_python(tmp_path / "bin")
     for words in ("help verify", "--help", "-h", "help"):
-        environment = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
-        result = run(tree.path / "reproduce", *words.split(), env=environment, cwd="/")
+        result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
         assert (result.returncode, result.stderr) == (0, ""), result
         assert result.stdout.startswith("usage: ./reproduce")
     assert sorted(tree.path.rglob("*")) == before
@@ -106,3 +105,22 @@ def test_no_scene_has_the_name_of_a_command():
     for key in filter(None, (each.key for each in SETS.values())):
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
         assert complaint(given).startswith(f"{key}: 'verify' is not allowed")
+
+
+def test_a_command_of_a_part_that_is_not_there_says_which(capsys, monkeypatch):
+    monkeypatch.setattr(arguments, "lacking", {"verify": "claims"}.get)
+    assert mistake(capsys, "verify") == ": verify needs the part claims, which is not in src"
+
+
+def test_the_help_of_a_command_has_its_arguments_and_a_required_name_no_brackets(capsys):
+    for word, usage in (("verify", "[--strict]"), ("variant", "NAME [figure ...]")):
+        _, out, _ = answer(capsys, "help", word)
+        assert out == answer(capsys, word, "--help")[1]
+        assert out.startswith(f"usage: ./reproduce {word} ") and usage in " ".join(out.split())
+    assert "[NAME]" not in out
+
+
+def test_the_versions_are_the_projects_and_that_of_snakemake(capsys):
+    snakemake = metadata.version("snakemake")
+    line = f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}\n"
+    assert answer(capsys, "--version") == (0, line, "")

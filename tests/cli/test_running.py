@@ -6,12 +6,13 @@ import shutil
 import signal
 import subprocess
 import sys
+import types
 
 import pytest
 from project import ROOT
 from verdicts import commit
 
-from pipeline.cli import lock
+from pipeline.cli import lock, running
 from pipeline.records.provenance import git
 
 RUN = """
@@ -143,3 +144,40 @@ def test_no_warning_about_killed_processes_follows_an_interrupt():
         [sys.executable, "-c", INTERRUPTED], check=False, capture_output=True, text=True
     )
     assert (run.stdout, run.stderr) == ("[1]\n", "")
+
+
+def test_the_lock_waits_for_a_run_that_ends_soon(tmp_path, monkeypatch):
+    monkeypatch.setattr(lock, "ROOT", tmp_path)
+    times = iter([0.0, 0.0, 1.0, 4.9, 5.1])  # the first is of the lock that is held
+    clock = types.SimpleNamespace(monotonic=lambda: next(times), sleep=lambda seconds: None)
+    monkeypatch.setattr(lock, "time", clock)
+    with lock.locked():
+        with pytest.raises(lock.UsageError, match="another"), lock.locked():
+            pass
+        assert [*times] == []  # it has waited for five seconds
+
+
+def test_a_killed_snakemake_and_its_new_log_are_named(tmp_path, monkeypatch, capsys):
+    logs = tmp_path / ".snakemake/log"
+    logs.mkdir(parents=True)
+    (logs / "of an earlier run.log").touch()
+    monkeypatch.setattr(running, "ROOT", tmp_path)
+    run = f"touch {logs}/new.log; kill -9 $$"
+    for command, status, lines in (
+        ("exit 2", 2, []), ("exit 0", 0, []),
+        (run, -9, ["reproduce: snakemake was killed (SIGKILL): memory may be short",
+                   "reproduce: snakemake's log: .snakemake/log/new.log"]),
+    ):  # fmt: skip
+        assert running._run(["sh", "-c", command], False) == status
+        assert capsys.readouterr().err.splitlines() == lines
+
+
+def test_settings_of_a_users_shell_do_not_reach_a_run(monkeypatch):
+    dropped = ("SNAKEMAKE_PROFILE", "NUMBA_NUM_THREADS", "NUMBA_OPT", "MPLBACKEND", running.RUN)
+    for name in (*dropped, "NUMBA_CPU_NAME", "MPLCONFIGDIR", "XDG_CACHE_HOME", "PYTHONPATH"):
+        monkeypatch.setenv(name, "generic")
+    running.set_environment()
+    assert not {*dropped} & os.environ.keys() and os.environ["NUMBA_CPU_NAME"] == "generic"
+    assert os.environ["PYTHONPATH"] == str(ROOT / "src")
+    for name in ("MPLCONFIGDIR", "XDG_CACHE_HOME"):
+        assert os.environ[name].startswith(str(ROOT / ".venv"))

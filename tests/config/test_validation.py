@@ -7,7 +7,7 @@ import sys
 
 import pytest
 import yaml
-from documents import complaints, good
+from documents import changed, complaint, complaints, good
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from project import SHIPPED, run, shipped
@@ -231,3 +231,9 @@ def test_a_run_of_the_paper_reads_its_set_alone_with_the_same_specifications(tmp
     wrong = given | {key: {"x": {"picture": "y"}} for key in others}  # what a user wrote
     refused = loaded(wrong, **{ONLY_SET: MAIN}).stderr
     assert all(f"{key}.x.picture: 'y' is not allowed" in refused for key in others)
+
+
+def test_a_long_value_is_cut_to_sixty_characters_and_no_shorter_one():
+    for size, shown in ((58, f"'{'x' * 58}'"), (59, f"'{'x' * 56}...")):
+        words = f"scenes.a_portrait.energy: {shown} is not allowed"
+        assert complaint(changed("scenes.a_portrait.energy", "x" * size)).startswith(words)

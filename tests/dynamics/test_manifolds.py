@@ -98,6 +98,14 @@ def test_the_stable_branch_is_the_mirror_image(orbit, energy):
     assert np.max(distances(mirrored, found)) < 1e-4 * BALL.section(energy)[1]
 
 
+@pytest.mark.parametrize("stable", [True, False])
+def test_a_branch_starts_at_its_own_saddle(stable):
+    for saddle in range(6):
+        found = line(SADDLE, saddle, stable=stable, length=0.02, distance=0.02, bend=60)
+        own = states_of(SADDLE)[:, [saddle]]
+        assert np.max(np.abs(found[:, :1] - own)) < 1e-9 * RADIUS
+
+
 @pytest.mark.parametrize(("side", "other"), [SIDES, SIDES[::-1]])
 def test_an_inverse_hyperbolic_branch_changes_sides(side, other):
     """P^6 maps a branch to the other one, P^12 to itself, by the multiplier's square."""
@@ -162,6 +170,8 @@ def test_a_branch_is_interrupted_where_the_map_jumps():
             history.append(np.stack(BALL.inverse_impact(*history[-1])[:3]))
         assert min(np.max(np.abs(ends[:, 0] - ends[:, 1])) for ends in history) < 1e-3 * RADIUS
     assert np.nanmax(sides_of(points)) <= (0.01 + 1e-12) * RADIUS
+    length = np.nansum(sides_of(points)) / RADIUS  # without the jumps
+    assert length == pytest.approx(8.0, abs=0.01)
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -7,7 +7,7 @@ import pytest
 from sections import BALL
 
 from pseudorigid import classify_orbits, lyapunov_spectrum, motion, orbit
-from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.dynamics.orbits import scene_orbits, start_state
 
 NAMES = ("x", "xdot", "udot", "tau")
 FRACTIONS = np.array([[-0.44, -0.1, 0.142], [0.17, 0.53, 0.9]])
@@ -84,3 +84,18 @@ def test_the_motion_from_a_state_that_is_not_finite_is_nan():
     found = motion(BALL, (np.nan, 0.1, 0.3), 10.0)
     assert found.sizes["impact"] == 1
     assert np.isnan(found["position"]).all() and np.isnan(found["strain"]).all()
+
+
+def test_a_start_is_a_fraction_or_a_point_by_xdot_or_y():
+    x, v, w = BALL.start(0.3, 0.01)
+    y = v - BALL.k * w + 0.01
+    by_y, by_xdot = {"x": x, "y": y}, {"x": x, "xdot": v}
+    assert start_state(BALL, 0.01, 0.3) == (x, v, w)
+    assert start_state(BALL, 0.01, by_xdot) == BALL.state(x, v, 0.01)
+    found = start_state(BALL, 0.01, by_y)
+    assert found == BALL.state_xy(x, y, 0.01)
+    assert found[1] - BALL.k * found[2] == pytest.approx(y, abs=1e-15)
+    data = scene_orbits(BALL, 0.01, [0.3, by_y], 2)
+    assert data["start"].values.tolist() == [0.3, pytest.approx(np.nan, nan_ok=True)]
+    assert data["start_xdot"].values.tolist() == [v, found[1]]
+    assert "start_x" not in scene_orbits(BALL, 0.01, [0.3, 0.4], 2)

@@ -14,6 +14,7 @@ from sections import BALL
 from slowly import slowly
 
 from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics.periodic import _sign_changes
 from pseudorigid.dynamics.variables import of_type
 
 
@@ -122,3 +123,19 @@ def test_brute_force_finds_no_orbit_that_the_search_misses(k, g, energy, periods
         orbits = symmetric_orbits(ball, energy, period)
         found += compare_with_brute_force(ball, energy, orbits, symmetric=True)
     assert found > 0
+
+
+@pytest.mark.parametrize("root", [0.03, 0.27, 0.46, 0.5751])
+def test_a_sign_change_is_found_in_each_interval_up_to_the_ends_of_a_line(root):
+    """The line lasts from 0.02 to 0.58, between two of the parameters at each end."""
+
+    def value(parameters):
+        on_line = (parameters > 0.02) & (parameters < 0.58)
+        return np.where(on_line, parameters - root, np.nan)
+
+    for parameters in (np.linspace(0.0, 1.0, 11), np.linspace(0.05, 0.55, 6)):
+        low, high = _sign_changes(value, parameters)
+        if parameters[0] < root < parameters[-1]:
+            assert (low, high) == (pytest.approx([root]), np.nextafter(low, 1.0))
+        else:
+            assert low.size == high.size == 0

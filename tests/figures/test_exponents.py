@@ -116,3 +116,14 @@ def test_a_panel_without_data_is_left_out_and_its_axis_is_said_to_be_unused():
         assert line.startswith("axes.largest is not used: ") and line.endswith("largest out")
     scene, figure = drawn(exponents(), largest=largest)
     assert len(frames_of(figure)) == 2 and not [*hidden(scene, exponents())]
+
+
+@pytest.mark.parametrize("limits", [[0.232, 0.24], [0.22, 0.232]])
+def test_a_line_of_the_upper_panel_beyond_its_limits_is_left_out(limits):
+    axes = {"largest": {"limits": limits, "ticks": limits}}
+    scene = SCENES["exponents"] | {"axes": axes, "starts": [0.6, 0.62]}
+    varied = [[0.23 + 0.0002 * i, 0.0, -0.23] for i in range(20)]
+    data = history(varied[::-1], [[0.231, 0.0, -0.231]] * 20)
+    texts = [text.get_text() for text in module("exponents").draw(scene, data).texts]
+    expected = "the paper" if limits[1] > 0.235 else "largest at the end"
+    assert [t.partition(":")[0] for t in texts if ": 0.23" in t] == [expected]

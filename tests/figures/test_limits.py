@@ -8,7 +8,7 @@ from samples import DATA, KINDS, SCENES, module
 
 from pseudorigid.dynamics.variables import states_of
 from pseudorigid.figures.axes.box import Box
-from pseudorigid.figures.axes.limits import around, decades, of_data, refuse_empty, ticks
+from pseudorigid.figures.axes.limits import around, decades, linear, of_data, refuse_empty, ticks
 
 
 @pytest.mark.parametrize("low", [-0.37, 0.0, 1e-9, 12345.6])
@@ -117,3 +117,19 @@ def test_a_window_that_no_branch_passes_is_refused():
 def test_a_long_logarithmic_axis_has_few_ticks_at_even_distances(low, span):
     steps = np.diff([*decades((low, low + span)).ticks])
     assert 1 <= steps.size <= 9 and np.all(steps == steps[0]) and steps[0] % 1 == 0
+
+
+def test_long_labels_are_shortened_by_what_the_name_says():
+    axis = linear(12_345_600.0, 12_345_900.0, 3, "impacts")
+    base, power = axis.name.partition("less ")[2].split(", / $10^{")
+    unit = 10.0 ** int(power.rstrip("}$"))
+    values = [float(base) + float(label) * unit for label in axis.texts()]
+    assert values == pytest.approx([*axis.ticks], abs=1e-3)
+    small = linear(0.0, 3e-7, 3, "error")
+    assert small.name == r"error, / $10^{-7}$" and small.texts() == ["0", "2"]
+    assert linear(0.0, 3.0, 3, "n").name == "n"
+
+
+def test_an_axis_around_one_value_has_it_in_its_middle():
+    low, high = around(np.array([5.0, 5.0, np.nan]), 0.5, 4).limits
+    assert (low, high) == pytest.approx((4.98, 5.02))

@@ -2,11 +2,13 @@
 
 import multiprocessing
 import os
+import signal
 import sys
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
-from project import fresh_tree
+from project import ROOT, fresh_tree, run
 
 from pipeline.jobs import forks
 from pipeline.records.provenance import BuildSpec, failure
@@ -102,3 +104,56 @@ def test_a_job_without_a_log_says_if_the_disk_is_full(tmp_path, monkeypatch):
     monkeypatch.setattr("shutil.disk_usage", lambda path: SimpleNamespace(total=10**9, free=30_000))
     assert not forks.run(context, spec)
     assert failure(spec.result) == "the disk is full, 0.0 MB are left"
+
+
+def test_the_libraries_of_jobs_start_no_threads_and_the_run_keeps_its_settings(monkeypatch):
+    seen = {}
+    monkeypatch.setenv("OMP_NUM_THREADS", "7")
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    before = dict(os.environ)
+    monkeypatch.setattr(forks.forkserver, "ensure_running", lambda: seen.update(os.environ))
+    assert forks.forking().get_start_method() == "forkserver"
+    assert (seen["OMP_NUM_THREADS"], seen["OPENBLAS_NUM_THREADS"]) == ("1", "1")
+    assert dict(os.environ) == before
+
+
+def test_a_broken_specification_is_one_line(tmp_path):
+    (tmp_path / "broken.json").write_text("{")
+    for name, words in (("broken", "Expecting property name"), ("missing", "No such file")):
+        command = [sys.executable, "-P", "-m", "pipeline.jobs.job", f"{name}.json"]
+        result = run(*command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
+        assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+        assert result.stderr.startswith("pseudorigid: ") and words in result.stderr
+
+
+@pytest.mark.parametrize(("error", "words"), [
+    (ValueError("bad\ninput"), "bad input"),
+    (ZeroDivisionError("by zero"), "ZeroDivisionError: by zero (traceback in LOG)"),
+    (MemoryError(), "memory is short (traceback in LOG)"),
+])  # fmt: skip
+def test_an_error_a_bug_and_short_memory_are_a_line_of_the_log(tmp_path, monkeypatch, error, words):
+    monkeypatch.chdir(tmp_path)
+
+    def make(spec):
+        raise error
+
+    monkeypatch.setitem(sys.modules, "pipeline.jobs.made_up", SimpleNamespace(make=make))
+    monkeypatch.setattr(forks.job, "recorded", lambda spec: nullcontext({}))
+    spec = BuildSpec("results/paper/0.nc", "fig", "step", {}, "made_up", "", {}, [])
+    log = "results/paper/logs/0.nc.log"
+    with pytest.raises(SystemExit) as ended:
+        forks.job.make(spec)
+    assert ended.value.code == f"pseudorigid: fig: {words.replace('LOG', log)}"
+    text = (tmp_path / log).read_text()
+    assert text.startswith("Traceback") and text.endswith(f"\n{ended.value.code}\n")
+    monkeypatch.setattr(sys.modules["pipeline.jobs.made_up"], "make", lambda spec: None)
+    forks.job.make(spec)
+    assert not (tmp_path / log).exists()  # it was of an earlier run
+
+
+def test_a_job_that_a_signal_killed_names_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(forks.job, "make", lambda spec: os.kill(os.getpid(), signal.SIGKILL))
+    spec = BuildSpec("results/paper/0.nc", "fig", "step", {}, "", "", {}, [])
+    assert not forks.run(multiprocessing.get_context("fork"), spec)
+    assert failure(spec.result) == "the job was killed (SIGKILL): memory may be short"

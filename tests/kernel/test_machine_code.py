@@ -4,6 +4,7 @@ import math
 import os
 import re
 import sys
+from pathlib import Path
 
 import numba
 import numpy as np
@@ -13,6 +14,8 @@ from project import run
 from sections import sea
 
 from pseudorigid.kernel import arithmetic, impact, lanes, spectrum, tangents
+from pseudorigid.kernel.compiled import folder as machine_code
+from pseudorigid.kernel.compiled import jit
 
 # Flags with which the compiler may change the arithmetic.
 LOOSE = re.compile(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)")
@@ -82,3 +85,26 @@ def test_compilation_without_a_writable_folder(tmp_path):
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "file" / "cache")}
     result = run(sys.executable, "-c", program, env=environment)
     assert (result.stdout, result.stderr) == ("2\n", "")
+
+
+def test_machine_code_is_kept_in_a_folder_of_the_functions_module():
+    arithmetic.log(2.0)
+    folder = Path(arithmetic.log.stats.cache_path)  # none if nothing is kept
+    name = f"{arithmetic.__name__}-"
+    assert folder.parent == Path(machine_code()) and folder.name.startswith(name)
+    assert [*folder.glob("*log*.nbi")]
+
+
+def test_a_second_function_of_one_name_does_not_take_the_code_of_the_first():
+    """As functions made in a loop: only the first one's code is kept."""
+
+    def made(number):
+        def function(x):
+            return x + number
+
+        function.__module__, function.__qualname__ = arithmetic.__name__, "made_in_a_test"
+        return jit(function)
+
+    first, second = made(1.0), made(2.0)
+    assert (first(1.0), second(1.0)) == (2.0, 3.0)
+    assert (first.stats.cache_path is None, second.stats.cache_path) == (False, None)

@@ -4,9 +4,10 @@ import statistics
 
 import numpy as np
 import pytest
-from samples import exponents
+import xarray as xr
+from samples import SCENES, exponents, orbits
 
-from paper.figures import reports
+from paper.figures import portrait, reports
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.motion import scene_motion
 from pseudorigid.dynamics.periodic import symmetric_orbits
@@ -54,3 +55,95 @@ def test_a_motions_period_strain_and_impacts_within_the_axes():
     times = motion["impact_t"].values
     assert int(within["impacts drawn"]) == np.sum((times >= 1) & (times <= 10))
     assert within["time"] == "1 to 10"
+
+
+def test_branches_meet_where_an_unstable_one_crosses_the_axis_but_not_in_a_saddle(monkeypatch):
+    """A branch passes the axis between two points; in a saddle it has a point on it."""
+    monkeypatch.setattr("paper.figures.tangle.drawn", lambda *_: (None, ["marks"]))
+    sides = {
+        "crosses": (0, [0.0, 1.0, 2.0, -1.0, -2.0]), "passes a saddle": (0, [1.0, 2.0, 0.0, -1.0]),
+        "is stable": (1, [1.0, -1.0]), "stays": (0, [1.0, 2.0, 1.0]),
+        "ends beyond": (0, [1.0, 1.0, 1e-8, -1e-8]), "ends on it": (0, [1.0, 1e-10, -1e-10]),
+    }  # fmt: skip
+    stable, ys = zip(*sides.values(), strict=True)
+    y = np.concatenate(ys)  # = xdot - k udot
+    state = {"x": 0.0 * y, "xdot": y + 0.2, "udot": y**0}
+    data = xr.Dataset({name: ("vertex", values) for name, values in state.items()})
+    data["row_size"] = "branch", [len(y) for y in ys]
+    data["stable"], data["side"] = ("branch", [*stable]), ("branch", [*sides])
+    found = reports.tangle_facts(BLOCK, None, None, data)
+    assert found == {"seen": ["marks"], "meeting": ["crosses", "ends beyond"]}
+
+
+def test_a_motions_strain_and_only_the_impacts_within_both_axes_are_counted():
+    periodic = symmetric_orbits(BALL, 0.01, 1)
+    motion = scene_motion(BALL, 0.01, periodic, period=1, type="elliptic", duration=16)
+    height = -float(motion["impact_position"][0])
+    block = BLOCK | {"type": "elliptic"}
+    for limits, count in (
+        ([height - 0.01, height + 0.01], motion.sizes["impact"]), ([-height, 1.0 - height], 0),
+    ):  # fmt: skip
+        axes = {"t": {"limits": [0, 16]}, "displacement": {"limits": sorted(limits)}}
+        found = reports.motion(block | {"axes": axes}, periodic, motion)
+        assert found["impacts drawn"] == f"{count if abs(height) > 0.01 else 0}"
+    least, most = map(float, found["strain"].split(" to "))
+    ends = motion["strain"].values.min(), motion["strain"].values.max()
+    assert (least, most) == pytest.approx(ends, abs=6e-5)
+
+
+def test_an_orbit_has_its_rotation_number_or_its_multiplier():
+    six = symmetric_orbits(BALL, 0.01, 6)
+    for kind, name in (("elliptic", "rotation number"), ("hyperbolic", "multiplier")):
+        found = reports.about_orbit(six, BLOCK | {"type": kind})
+        (orbit,) = np.flatnonzero(six["type"].values == kind)
+        value = float(six[name.replace(" ", "_")][orbit])
+        assert found["orbit"] == f"{kind}, period 6" and float(found[name]) == pytest.approx(
+            value, abs=6e-7
+        )
+        assert [*found] == ["orbit", "energy", name]
+
+
+@pytest.mark.parametrize(("turns", "oscillates"), [(1.2, False), (1.9, False), (2.2, True)])
+def test_a_branch_oscillates_if_it_turns_by_more_than_two_whole_turns(
+    monkeypatch, turns, oscillates
+):
+    """In all: back and forth by a quarter of them each time. Straight lines do not."""
+    monkeypatch.setattr("paper.figures.closeup.drawn", lambda *_: (None, True))
+    angle = np.pi * turns / 2 * np.concatenate([np.arange(100), np.arange(100, -1, -1)] * 2) / 100
+    steps = np.array([np.cos(angle), np.sin(angle)])
+    line = np.hstack([np.zeros((2, 1)), np.cumsum(steps, axis=1)])
+    straight = np.outer([1.0, 1.0], np.arange(50.0))
+    x, xdot = np.hstack([straight, line])
+    data = xr.Dataset({"x": ("vertex", 2.0 * x), "xdot": ("vertex", 3.0 * xdot)})
+    data["row_size"] = "branch", [50, line.shape[1]]
+    data.attrs = {"window_x": [0.0, 2.0], "window_xdot": [0.0, 3.0]}
+    assert reports.closeup_facts({}, data) == {"oscillates": oscillates, "coincide": True}
+
+
+def test_facts_of_a_portrait_count_what_is_seen(monkeypatch):
+    monkeypatch.setattr("paper.figures.portrait.drawn", lambda *_: (None, np.array([7, 0, 5])))
+    data = xr.Dataset({"type": ("orbit", ["regular", "regular", "chaotic"])})
+    data["x"] = "point", np.zeros(20)
+    found = reports.portrait_facts({}, data)
+    assert (found["seen"], found["points"], found["unseen"]) == (12, 20, 1)
+    assert (found["regular"], found["chaotic"], found["undecided"]) == (1, 1, 0)
+
+
+def test_facts_of_exponents_have_the_ends_of_the_largest_chaotic_ones():
+    data = exponents()
+    data["exponent"] = data["exponent"] * [[1.0], [1.1], [1.3]]
+    ends = np.sort(data["exponent"].values[-1].max(axis=1))
+    scene = SCENES["exponents"]
+    found = reports.exponents_facts(scene, data)
+    assert found["largest"] == [f"{ends[0]:.4f}", f"{ends[-1]:.4f}"] and found["chaotic"] == 3
+    data["type"] = "orbit", ["regular", "chaotic", "regular"]
+    assert len(reports.exponents_facts(scene, data)["largest"]) == 1
+
+
+def test_two_regular_orbits_have_the_numbers_of_their_starts_and_one_has_none():
+    data = orbits()
+    figure = portrait.draw(SCENES["portrait"], data)
+    assert {"1", "2"} <= {text.get_text() for text in figure.texts}
+    data["type"] = "orbit", ["regular", "chaotic", "chaotic"]
+    figure = portrait.draw(SCENES["portrait"], data)
+    assert not {"1", "2"} & {text.get_text() for text in figure.texts}

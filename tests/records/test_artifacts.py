@@ -1,6 +1,7 @@
 """Datasets keep their content in files, always give the same bytes, and are written whole."""
 
 import os
+import shutil
 import subprocess
 import sys
 
@@ -124,6 +125,11 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
         file.createVariable("x", float, "point")  # values that are never written
     assert refusal(tmp_path / "empty.nc").endswith("fewer values than it declares")
     path = saved(dataset(), tmp_path / "a.nc")
+    for key, words in (("units", 'x has units None, not "1"'), ("long_name", "no long_name")):
+        shutil.copy(path, other := tmp_path / "other.nc")
+        with netCDF4.Dataset(other, "a") as file:
+            file["x"].delncattr(key)
+        assert refusal(other).endswith(words)
     whole = path.read_bytes()
     cut = [whole[:length] for length in range(0, len(whole), len(whole) // 40)]
     for content in (b"hello", *cut):

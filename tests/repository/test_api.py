@@ -2,9 +2,11 @@
 
 import inspect
 import math
+import tomllib
 
 import numpy as np
 import pytest
+from project import ROOT
 
 import pseudorigid
 from pseudorigid import Ball, symmetric_orbits
@@ -64,3 +66,10 @@ def test_bad_input_is_one_line(name, arguments, words):
     with pytest.raises(ValueError) as raised:
         getattr(pseudorigid, name)(*arguments)
     assert str(raised.value).startswith(words) and "\n" not in str(raised.value)
+
+
+def test_the_version_is_that_of_the_project_and_other_names_are_refused():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert pseudorigid.__version__ == project["version"] and "__version__" in dir(pseudorigid)
+    with pytest.raises(AttributeError, match="module 'pseudorigid' has no attribute 'Bal'"):
+        pseudorigid.Bal  # noqa: B018

@@ -153,4 +153,5 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
     assert step.endswith(f"not made: {words}")
     assert row.endswith("cannot exist")
     assert f"paper_figures/absent.png: cannot exist: {words}" in lines
-    assert "absent  periodic" not in edited.run("absent").stdout  # it is not tried again
+    again = edited.run("absent")
+    assert again.returncode == 1 and "absent  periodic" not in again.stdout  # it is not tried again

@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from project import ROOT, run, wait_for
+from project import ROOT, path_of_bare_python, run, wait_for
 from slowly import slowly
 
 
@@ -40,13 +40,13 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     ("--version", None, 0, "pseudorigid "),
 ])  # fmt: skip
 def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_installed(
-    tree, words, text, status, line
+    tree, tmp_path, words, text, status, line
 ):
     if text is None:
         tree.config.unlink()
     elif text:
         tree.config.write_bytes(text.encode(errors="surrogateescape"))
-    path = f"{Path(sys.base_prefix) / 'bin'}:/usr/bin:/bin"
+    path = path_of_bare_python(tmp_path / "bin")
     result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
     assert (result.returncode, result.stderr.count("\n")) == (status, int(status > 0))
     assert (result.stdout + result.stderr).startswith(line)
@@ -162,12 +162,12 @@ class SetUp:
         printed = "*sys.argv[1:], *sys.warnoptions, *['no caches'] * sys.dont_write_bytecode"
         main = f"import sys\nprint('handed over', {printed})\n"
         (self.tree / "src" / "pipeline" / "__main__.py").write_text(main)
-        (folder / "bin").mkdir()
+        path = path_of_bare_python(folder / "bin")
         (folder / "tmp").mkdir()
         self.slow = folder / "slow"
         self.environment = {
             "HOME": str(folder),
-            "PATH": f"{folder / 'bin'}:{Path(sys.base_prefix) / 'bin'}:/usr/bin:/bin",
+            "PATH": path,
             "PSEUDORIGID_WHEELS": str(self.wheels),
             "TMPDIR": str(folder / "tmp"),
             "SLOW": str(self.slow),
@@ -220,8 +220,11 @@ def with_uv(set_up):
 
 @pytest.fixture(params=["uv", *slowly("pip")])
 def with_either(request):
-    """A SetUp with uv, or with pip alone."""
+    """A SetUp with uv, or with pip alone, that of the base Python if it has one."""
     set_up = request.getfixturevalue("with_uv" if request.param == "uv" else "set_up")
+    if request.param == "pip":
+        python = set_up.folder / "bin/python3"
+        python.write_text(python.read_text().replace(" -S", ""))
     set_up.installer = request.param
     return set_up
 

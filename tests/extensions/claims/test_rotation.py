@@ -33,7 +33,9 @@ def test_plateaus_are_runs_of_one_fraction():
     turns[10:14] = 4.0 / 13.0
     turns[30:32] = 1.0 / 3.0  # too few starts
     assert rotation.plateaus(place, turns) == [(4, 13, 10.0, 13.0)]
-    turns[12] = 0.31
+    turns[20:24] = 0.5
+    assert rotation.plateaus(place, turns) == [(1, 2, 20.0, 23.0), (4, 13, 10.0, 13.0)]
+    turns[12], turns[22] = 0.31, 0.31
     assert rotation.plateaus(place, turns) == []
 
 
@@ -58,3 +60,8 @@ def test_changes_between_regular_and_chaotic_starts_are_counted_with_two_spacing
     numbers = discontinuous(data.assign_attrs(impacts=2)).numbers
     assert [*numbers["counts"], *numbers["fewer"]] == [7, 3, 0, 1]
     assert numbers["starts"] == 8
+
+
+def test_the_main_island_ends_before_two_chaotic_starts_or_nowhere():
+    for starts, size in (("rrcrccr", 4), ("rrcrcr", 6), ("ccr", 0), ("rrrcc", 3)):
+        assert rotation.island(np.array([each == "r" for each in starts])) == size

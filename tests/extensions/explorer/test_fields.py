@@ -82,3 +82,4 @@ def test_every_number_field_takes_fractions(person, text):
     person.set("fan-count", "4/2")
     person.run("document.getElementById('fan-form').requestSubmit()")
     assert [float(start) for start in person.starts()[1:]] == [-0.25, 0.25]
+    assert "A row of 2 orbits" in person.text("hint")  # no orbit of it takes its place

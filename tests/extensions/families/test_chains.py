@@ -119,3 +119,13 @@ def test_a_curve_is_known_where_it_passes_and_cut_at_the_plane():
     assert chains._wider(np.array([1.0, 2.0])) == pytest.approx((0.99, 2.01))
     assert chains._wider(np.array([1e-3, 2.0])) == pytest.approx((0.99e-3, 2.0 + 0.01 * 1.999))
     assert chains._wider(np.array([0.0, 2.0])) == pytest.approx((-0.02, 2.02))
+
+
+@pytest.mark.parametrize("rows", [[(0.1, 2.0), (0.3, 4.0)], [(0.3, 4.0), (0.1, 2.0)]])
+def test_a_curve_passes_through_a_point_in_either_direction(rows):
+    off = chains._SAME * 3.0
+    for k, energy, passes in (
+        (0.2, 3.0, True), (0.2, 3.0 + 0.9 * off, True), (0.2, 3.0 - 0.9 * off, True),
+        (0.2, 3.0 + 1.1 * off, False), (0.2, 3.0 - 1.1 * off, False), (0.4, 5.0, False),
+    ):  # fmt: skip
+        assert chains._passes(rows, k, energy) == passes

@@ -24,6 +24,23 @@ def test_every_end_has_a_name():
                 assert family.period == end.order * six.families[end.family].period
 
 
+def test_a_family_begins_at_each_pitchfork_doubling_and_resonance():
+    """It has the event's period times the order, and less symmetry beside a pitchfork."""
+    six = up_to_period_six()
+    begun = {
+        (end.family, end.kind, end.p): family for family in six.families for end in family.ends
+    }
+    kinds = set()
+    for parent in six.families:
+        for event in parent.events:
+            if event.kind != "fold" and event.order * parent.period <= six.longest:
+                family = begun[parent.number, event.kind, event.point.p]
+                assert family.period == event.order * parent.period
+                assert family.symmetric == (event.kind != "pitchfork")
+                kinds.add(event.kind)
+    assert kinds == {"pitchfork", "doubling", "resonance"}
+
+
 def test_families_go_on_where_an_impact_grazes():
     """From a level below the grazing, the search finds the family that begins there."""
     found = search.Search(Parameter(ENERGY, 0.2, rho(PAPER, 0.0115), rho(PAPER, 0.0135)), 6)

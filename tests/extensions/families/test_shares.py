@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from extensions.atlas.cell import cell
+from extensions.families import causes as causes_module
 from extensions.families import shares as shares_module
 from extensions.families.causes import causes, extrema
 from extensions.families.families import families
@@ -166,3 +168,15 @@ def test_a_curve_is_a_cause_if_it_breaks_near_and_half_of_the_change_was_beyond_
     curve = event, minimum[1][1] + place, np.array([beyond, 0.0, 0.0])
     ((row,), _) = caused(minimum, [curve])
     assert row["cause_event"] == (event if is_cause else "unexplained")
+
+
+def test_events_of_a_family_are_named_without_the_limits_of_its_range():
+    rows = {"event_family": [0, 1, 1], "event_turns": [1, 0, 1], "event_order": [5, 1, 6]}
+    data = xr.Dataset({name: ("event", values) for name, values in rows.items()})
+    data["event_kind"] = "event", ["resonance", "fold", "resonance"]
+    data["event_energy"] = "event", [0.1, 0.2, 0.3]
+    data["end_kind"] = ("family", "side"), [["range", "rim"], ["touch", "range"]]
+    data["end_energy"] = ("family", "side"), [[0.0, 0.4], [0.5, 1.0]]
+    found = [causes_module._events_of(data, "energy", number) for number in (0, 1)]
+    assert found[0] == [("resonance 1/5", 0.1), ("end: rim", 0.4)]
+    assert found[1] == [("fold", 0.2), ("resonance 1/6", 0.3), ("end: touch", 0.5)]

@@ -687,3 +687,14 @@ def test_the_area_is_that_of_all_curves_within_the_distance(made_up):
             result = made_up(distance=f"{factor * inside * section / size:.12e}", slope=slope)
             assert (result.verdict == "proved") == proved
             assert proved or "not proved to enclose" in result.line()
+
+
+@pytest.mark.parametrize(("rows", "reason"), [
+    ([[1, 0]] * 2, "has 2 coefficients, not 3 to"),
+    ([[1, 0]] * 3, ""), ([[1, 0]] * curve.MOST_MODES, ""),
+    ([[1, 0]] * (curve.MOST_MODES + 1), "coefficients, not 3 to"),
+    ([[1, 1]] * 3, "the coefficient of sin"),
+])  # fmt: skip
+def test_a_curve_has_a_bounded_number_of_coefficients(rows, reason):
+    with told(reason):
+        curve._first_curve(SimpleNamespace(numbers=lambda field, size: rows))
