@@ -11,8 +11,8 @@ import mpmath
 import numpy as np
 from independent_solver import condition, judge
 from mpmath import mpf
+from sections import ball_of
 
-from pseudorigid.dynamics.ball import Ball
 from pseudorigid.verified.reference_solver import first_root
 
 # Largest relative error of tau over max(1, condition), see Verdict; measured 4.1e-16 at 102,000
@@ -117,7 +117,7 @@ def proved(state):
 def error(state):
     """The relative error of tau over max(1, condition) at a state; inf for another root."""
     state = tuple(float(a) for a in state)
-    tau = Ball(*state[:2]).time_to_impact(*state[2:])
+    tau = ball_of(*state[:2]).time_to_impact(*state[2:])
     true = proved(state)
     if true is not None and true > 0 and tau > 0.0:
         off = abs(float((tau - true) / true))

@@ -27,7 +27,8 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
-from pipeline.config.schema.scene import CrossFieldError, Scan, Scene, as_decimal, entries
+from pipeline.config.schema.scene import CrossFieldError, Scan, Scene, entries
+from pseudorigid.dynamics.bounds import as_decimal
 from pseudorigid.figures.axes.direction import disproportion
 from pseudorigid.kernel.closed_forms import fixed_point, twice_energy_above_rest
 

@@ -93,7 +93,7 @@ def test_turns_are_those_of_the_angle_around_the_fixed_point():
     states = BALL.start(np.linspace(-0.99, 0.99, 30), 0.01)
     orbits, centre, expected = around_fixed_point(BALL, states)
     found = first_turn(BALL.k, orbits, centre, expected, 500)
-    x, v, w = np.moveaxis(Ball(BALL.k, 1.0).history(orbits, 500)[..., :3], -1, 0)
+    x, v, w = np.moveaxis(Ball.dimensionless(BALL.k).history(orbits, 500)[..., :3], -1, 0)
     p = np.column_stack([orbits[0], x]) - centre[0]
     q = np.column_stack([orbits[1] - 0.2 * orbits[2], v - 0.2 * w]) / 0.24**0.5
     turns = -np.diff(np.arctan2(q, p), axis=1) / (2.0 * np.pi)

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from flights import FAMILIES, by_mpmath, draw
 from independent_solver import judge
+from sections import ball_of
 from slowly import slowly
 
-from pseudorigid.dynamics.ball import Ball
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 from study import stages, states
 from study.methods import inflections
@@ -41,7 +41,7 @@ def tau(state, care):
 def test_inflections_march_and_an_independent_solver_agree(family, count, judged):
     """The solver decides wherever inflections and march differ, and at `judged` states."""
     for i, state in enumerate(draw(family, 7, count)):
-        march = Ball(*state[:2]).time_to_impact(*state[2:])
+        march = ball_of(*state[:2]).time_to_impact(*state[2:])
         times = march, tau(state, inflections.BEST), tau(state, inflections.SIMPLE)
         if i < judged or not all(abs(time - march) <= TAU * march for time in times):
             truth = judge(*state)
@@ -90,7 +90,7 @@ def test_a_touch_within_rounding_is_passed_by_the_march():
     b, k = -s - c, 0.2
     xdot, udot, _ = rebound(b, c, k, impact_coefficients(k))
     truth = judge(k, g, x, xdot, udot)
-    time = Ball(k, g).time_to_impact(x, xdot, udot)
+    time = ball_of(k, g).time_to_impact(x, xdot, udot)
     assert min(abs(time - root) for root in (truth.tau, truth.rival)) < 1e-6
     assert truth.depth < 1e-15
 

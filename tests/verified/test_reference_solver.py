@@ -6,9 +6,8 @@ from flights import FAMILIES, TAU, by_mpmath, draw
 from flint import arb, ctx
 from independent_solver import exact_map, judge
 from mpmath import mpf
-from sections import BALL
+from sections import BALL, ball_of
 
-from pseudorigid.dynamics.ball import Ball
 from pseudorigid.verified import reference_solver
 from pseudorigid.verified.flight import UndecidedError
 from pseudorigid.verified.reference_solver import first_root, orbit
@@ -21,7 +20,7 @@ def test_both_reference_solvers_agree(family):
     decided = 0
     for state in draw(family, 2, 500):
         true = judge(*state)
-        tau = Ball(*state[:2]).time_to_impact(*state[2:])
+        tau = ball_of(*state[:2]).time_to_impact(*state[2:])
         assert by_mpmath(tau, true) <= TAU, state
         try:
             root = first_root(*state)

@@ -20,8 +20,9 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.parts import STAGES
-from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture, as_decimal
+from pipeline.config.schema.scene import CompletionError, CrossFieldError, Picture
 from pipeline.records.provenance import BuildSpec
+from pseudorigid.dynamics.bounds import as_decimal
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 # Bounds of a sweep.

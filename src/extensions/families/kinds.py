@@ -7,7 +7,8 @@ from annotated_types import Predicate
 
 from extensions.atlas.kinds import Atlas
 from pipeline.config.schema.fields import Name, Range, allowed, distinct, whole
-from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, as_decimal
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene
+from pseudorigid.dynamics.bounds import as_decimal, energy_mistake, g_mistake
 
 MOST_CELLS = 2_000  # of the regular share
 
@@ -40,13 +41,12 @@ class Families(Scene):
     """Largest number of impacts of these orbits."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
-        """Check that the section exists over the whole span of k, and the number of values."""
+        """Check that a ball has this energy over the whole span of k, and the number of values."""
         yield from super().cross_field_errors()
-        g, energy = as_decimal(self.ball.g), as_decimal(self.energy)
         low, high = (as_decimal(value) for value in self.span)
-        sound = low > 0 and high <= 1 and g * g + 2 * high * energy > 0
-        if self.parameter == "k" and not sound:
-            yield ("span",), self.span, "numbers with 0 < k <= 1 and energy > -g^2/(2k)"
+        if self.parameter == "k" and not (low > 0 and high <= 1 and self._suits_each_k()):
+            words = "numbers with g < k <= 1 and -g^2/(2k) < energy < k/2 - g"
+            yield ("span",), self.span, words
         step = as_decimal(self.step)
         if high // step <= -(-low // step):
             yield ("step",), self.step, "one with two multiples or more in the span"
@@ -55,6 +55,11 @@ class Families(Scene):
             yield ("step",), self.step, f"at least {least:g}, {MOST_CELLS} values in the span"
         if self.drawn > self.period:
             yield ("drawn",), self.drawn, f"at most period = {self.period}"
+
+    def _suits_each_k(self) -> bool:
+        """Return whether balls with both ends of the span as k have the scene's g and energy."""
+        g = self.ball.g
+        return not any(g_mistake(k, g) or energy_mistake(k, g, self.energy) for k in self.span)
 
 
 class Residues(Picture):

@@ -19,8 +19,9 @@ from pipeline.config.schema.fields import (
     rising,
     whole,
 )
-from pipeline.config.schema.scene import CrossFieldError, Picture, Scene, as_decimal
+from pipeline.config.schema.scene import CrossFieldError, Picture, Scene
 from pseudorigid.dynamics import paper
+from pseudorigid.dynamics.bounds import as_decimal
 
 from .search.rotation_numbers import quotients_near
 

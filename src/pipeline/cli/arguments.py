@@ -16,6 +16,7 @@ from ..declaration import files, lacking
 from ..records.files import read_text
 from ..records.sources import ROOT
 from ..spelling import suggestion
+from .errors import print_once
 
 if TYPE_CHECKING:  # it needs packages
     from ..config import Config
@@ -51,7 +52,10 @@ class Arguments(argparse.Namespace):
         """The checked config.yaml."""
         from ..config import load  # needs packages
 
-        return load(ROOT / "config.yaml")
+        config = load(ROOT / "config.yaml")
+        if words := config.warning():
+            print_once(words)
+        return config
 
 
 class _Parser(argparse.ArgumentParser):

@@ -11,12 +11,14 @@ from functools import cache, cached_property
 from pathlib import PurePath
 from typing import Any
 
+from pseudorigid.dynamics.bounds import LARGEST_OF_SPHERES, NO_SPHERE
+
 from ..declaration import imported
 from ..records import sources
 from ..records.provenance import BuildSpec
 from .schema.fields import YamlMapping
 from .schema.parts import MAIN, PUBLISHED, SETS, STAGES, upstream
-from .schema.scene import Picture
+from .schema.scene import Picture, Scene
 
 SHOWN = ("png", "svg", "gif")  # formats that are published; pdf stays in results
 
@@ -52,6 +54,13 @@ class Config:
     def datasets(self) -> Datasets:
         """The path of each stage's dataset."""
         return dataset_paths(self.variants)
+
+    def warning(self) -> str:
+        """Return a line on balls that no sphere has, or an empty text."""
+        scenes = (scene for scenes in self.variants.values() for scene in scenes.values())
+        wide = {scene.ball.k for scene in scenes if isinstance(scene, Scene)}
+        numbers = ", ".join(str(k) for k in sorted(wide) if k > LARGEST_OF_SPHERES)
+        return f"config.yaml: k = {numbers}: {NO_SPHERE}" if numbers else ""
 
     def data_of(self, variant: str, scene: str) -> dict[str, str]:
         """Map each stage of a scene to the path of its dataset."""

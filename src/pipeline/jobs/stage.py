@@ -3,10 +3,12 @@
 import inspect
 import sys
 import time
+import warnings
 from collections.abc import Callable
 from typing import Any
 
 from pseudorigid.dynamics.ball import Ball
+from pseudorigid.dynamics.bounds import NO_SPHERE
 from pseudorigid.dynamics.ensemble import ImpactMap
 
 from ..declaration import imported
@@ -35,6 +37,7 @@ def make(spec: BuildSpec, **known: Any) -> dict[str, Any] | None:
     `declaration.Stage` says how the function is called. With a `method` that scans, the ball's map
     finds impacts by it, and the dataset says how many it missed. Returns notes for the user.
     """
+    warnings.filterwarnings("ignore", NO_SPHERE)  # the command said so when it read the config
     block, function = spec.config, imported(spec.function)
     fields = {key: block[key] for key in block.keys() - {"ball", "energy", "method"}} | known
     parameters = inspect.signature(function).parameters

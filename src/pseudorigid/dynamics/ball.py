@@ -1,14 +1,18 @@
 """Ball: its parameters, energy and section, and the impact map on numbers or arrays."""
 
+import math
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, SupportsFloat
+from typing import TYPE_CHECKING, Any, Self, SupportsFloat
 
 import numpy as np
 
 from ..kernel import formulas
 from ..kernel import impact as kernel
+from ..kernel.closed_forms import energy_bounds
 from ..kernel.formulas import impact_coefficients, rebound
+from . import bounds
 from .ensemble import ImpactMap
 from .inputs import Reals, coordinates, not_allowed, number, state_of, whole_number
 
@@ -18,6 +22,7 @@ State = tuple[Result, Result, Result]
 Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 NextState = tuple[Result, Result, Result, Result]
 Rows = tuple[tuple[float, float], tuple[float, float]]
+_ROUNDINGS = 1e-9  # of the energy of a state, over k: far above those of the longest orbits
 
 
 @dataclass(frozen=True)
@@ -36,17 +41,20 @@ class Ball:
     Parameters
     ----------
     k : float
-        Euler inertia, eq. (5), 0 < k <= 1 (1/5 for a solid sphere, 1/3 for a thin shell).
+        Euler inertia, eq. (5), 0 < k <= 1 (1/5 for a solid sphere, 1/3 for a thin shell). No sphere
+        has a larger k than 1/3, of which Python warns once.
     g : float
-        Gravity, eq. (20), g > 0.
+        Gravity, eq. (20), 0 < g < k: beyond it a ball at rest is flat. `Ball.dimensionless` is the
+        way to any E/g^2.
     map : ImpactMap, optional
         How the next impact is found; by default the march, which in exact arithmetic misses none.
 
     Raises
     ------
     ValueError
-        k or g is out of range. Methods raise it for a state with xdot + udot < 0, and `impact` for
-        one state whose flight is too long.
+        k or g is out of range. Methods raise it for a state with xdot + udot < 0, those that take
+        an energy for one outside `energy_bounds`, and `impact` for one state whose flight is too
+        long. Numbers are compared as decimals, as in config.yaml.
 
     References
     ----------
@@ -70,12 +78,32 @@ class Ball:
         def __init__(self, k: SupportsFloat, g: SupportsFloat, map: ImpactMap = ...) -> None: ...
 
     def __post_init__(self) -> None:
-        k = number("k", self.k, "0 < k <= 1", lambda v: 0.0 < v <= 1.0)
-        g = number("g", self.g, "g > 0, finite", lambda v: v > 0.0)
+        k = number("k", self.k, bounds.K_ALLOWED, lambda v: 0.0 < v <= 1.0)
+        g = number("g", self.g, bounds.G_ALLOWED, lambda v: v > 0.0)
+        if words := bounds.g_mistake(k, g):
+            raise not_allowed("g", self.g, words)
         object.__setattr__(self, "k", k)
         object.__setattr__(self, "g", g)
         if not isinstance(self.map, ImpactMap):
             raise not_allowed("map", self.map, "an ImpactMap")
+        if k > bounds.LARGEST_OF_SPHERES:
+            warnings.warn(bounds.NO_SPHERE, stacklevel=1)  # from one place: Python says it once
+
+    @classmethod
+    def dimensionless(cls, k: SupportsFloat) -> Self:
+        """Return a ball with lengths in g R, thus g = 1, and with energies E/g^2.
+
+        Its map is that of every ball with this k and E/g^2, apart from scale. Without R, eq. (31)
+        does not bound the energy; it has to be above -1/(2k).
+
+        >>> Ball.dimensionless(0.2).section(300.0)[0]
+        5.0
+        """
+        k = number("k", k, bounds.K_ALLOWED, lambda v: 0.0 < v <= 1.0)
+        ball = object.__new__(cls)
+        for name, value in {"k": k, "g": 1.0, "map": ImpactMap()}.items():
+            object.__setattr__(ball, name, value)
+        return ball
 
     @np.errstate(over="ignore", invalid="ignore")
     def energy(self, x: Reals, xdot: Reals, udot: Reals) -> Result:
@@ -85,26 +113,25 @@ class Ball:
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
     def energy_bounds(self) -> tuple[float, float]:
-        """Return the lowest energy and the paper's upper bound.
+        """Return the bounds of the energy, both of which are excluded, to the nearest double.
 
         They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1.
+        The latter bounds no `dimensionless` ball. Energies with flights longer than 10^6/omega are
+        refused too.
         """
-        return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
+        exact = energy_bounds(bounds.as_decimal(self.k), bounds.as_decimal(self.g))
+        lowest, highest = map(float, exact)
+        return lowest, highest if self.g < self.k else math.inf
 
-    @np.errstate(over="ignore")
     def section(self, energy: Reals) -> tuple[float, Any]:
-        """Return the section's centre and radius along y = 0; ValueError below the lowest energy.
+        """Return the section's centre and radius along y = 0; ValueError outside `energy_bounds`.
 
         There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
         the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
         """
         (energy,) = coordinates(energy=energy)
-        square = formulas.radius_squared(self.k, self.g, energy)
-        invalid = (square < 0.0) | np.isinf(square)
-        if np.any(invalid):
-            lowest = self.energy_bounds()[0]
-            raise not_allowed("energy", float(energy[invalid][0]), f"finite, at least {lowest:.6g}")
-        return self.g / self.k, _plain(np.sqrt(square))
+        self._require_energy(energy)
+        return self.g / self.k, _plain(np.sqrt(formulas.radius_squared(self.k, self.g, energy)))
 
     @np.errstate(over="ignore", invalid="ignore")
     def state(self, x: Reals, xdot: Reals, energy: Reals, branch: float = 1) -> State:
@@ -116,6 +143,7 @@ class Ball:
         """
         branch = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
         x, xdot, energy = coordinates(x=x, xdot=xdot, energy=energy)
+        self._require_energy(energy)
         square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
         if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, xdot and energy: too little kinetic energy")
@@ -131,6 +159,7 @@ class Ball:
         The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
+        self._require_energy(energy)
         square = formulas.contact_speed_squared(self.k, self.g, energy, x, y)
         if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, y and energy: the point is outside the section")
@@ -140,10 +169,10 @@ class Ball:
     def start(self, fraction: Reals, energy: Reals) -> State:
         """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
 
-        Raises ValueError beyond the rim, and for an energy below the lowest one.
+        Raises ValueError beyond the rim, and for an energy outside `energy_bounds`.
         """
         f, energy = coordinates(fraction=fraction, energy=energy)
-        self.section(energy)
+        self._require_energy(energy)
         if not np.all((np.abs(f) <= 1.0) | np.isnan(f)):
             raise ValueError("a start is a fraction of the section's radius, from -1 to 1")
         x, xdot, udot = formulas.start(self.k, self.g, energy, f)
@@ -229,6 +258,19 @@ class Ball:
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
         return x, xdot, udot
 
+    def moving(self, state: Any) -> Arrays:
+        """Read states of a ball that eq. (31) keeps from becoming flat, as arrays of one shape.
+
+        Raises ValueError off the section, and for energies above the bound by more than roundings.
+        """
+        states = self.on_section(*state_of(state))
+        energy, highest = np.asarray(self.energy(*states)), self.energy_bounds()[1]
+        above = energy > highest + _ROUNDINGS * self.k
+        if np.any(above):
+            words = bounds.energy_mistake(self.k, self.g, float(energy[above][0]))
+            raise not_allowed("energy of the state", float(energy[above][0]), words)
+        return states
+
     def after(self, states: Iterable[Reals], impacts: int = 1) -> np.ndarray:
         """Return x, xdot, udot and tau, (4, n), some impacts after n states (x, xdot, udot)."""
         return np.stack(self._advanced(states, impacts, 0)[0])
@@ -236,6 +278,14 @@ class Ball:
     def history(self, states: Iterable[Reals], impacts: int) -> np.ndarray:
         """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after n states."""
         return self._advanced(states, impacts, impacts)[1]
+
+    def _require_energy(self, energy: np.ndarray) -> None:
+        """Raise ValueError for an energy that config.yaml refuses too; NaN is allowed."""
+        least, largest = bounds.energy_range(self.k, self.g)
+        outside = (energy < least) | (energy > largest)
+        if np.any(outside):
+            value = float(energy[outside][0])
+            raise not_allowed("energy", value, bounds.energy_mistake(self.k, self.g, value))
 
     def _advanced(
         self, states: Iterable[Reals], impacts: int, kept: int

@@ -11,7 +11,7 @@ from ..kernel.lanes import MIN_ORBITS_FOR_LANES
 from ..kernel.tangents import GROUP
 from .ball import Ball, require_ball
 from .ensemble import in_threads
-from .inputs import StateLike, not_allowed, state_of, whole_number
+from .inputs import StateLike, not_allowed, whole_number
 from .orbits import start_state, start_variables
 from .regularity import orbit_types
 from .variables import TIME, described, final_exponents, orbit_dims
@@ -45,7 +45,8 @@ def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int =
     Raises
     ------
     ValueError
-        A state has xdot + udot < 0, or `impacts` or `records` is below 1.
+        A state has xdot + udot < 0 or an energy above eq. (31), or `impacts` or `records` is below
+        1.
 
     References
     ----------
@@ -62,7 +63,7 @@ def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int =
     require_ball(ball)
     impacts = whole_number("impacts", impacts)
     records = min(whole_number("records", records), impacts)
-    state = ball.on_section(*state_of(state))
+    state = ball.moving(state)
     shape = state[0].shape
     dims = orbit_dims(shape)
     try:

@@ -10,7 +10,7 @@ import xarray as xr
 from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball, require_ball
-from .inputs import StateLike, not_allowed, number, state_of
+from .inputs import StateLike, not_allowed, number
 from .variables import LENGTH, NAMES, TIME, of_type, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
@@ -69,7 +69,7 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
             raise not_allowed("start", start, _ALLOWED)
         points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
         start = points[0][:3]
-    state = ball.on_section(*state_of(start))
+    state = ball.moving(start)
     if state[0].shape:
         raise not_allowed("start", start, _ALLOWED)
     flights = cycle(points) if points else _flights(ball, *(float(a) for a in state))

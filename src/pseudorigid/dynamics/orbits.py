@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from .ball import Ball, State, require_ball, require_short_flights
-from .inputs import StateLike, not_allowed, one_of, state_of, whole_number
+from .inputs import StateLike, not_allowed, one_of, whole_number
 from .regularity import orbit_types
 from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
@@ -37,8 +37,9 @@ def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.D
     Raises
     ------
     ValueError
-        A state has xdot + udot < 0, a single state's flight lasts 2^20/omega or longer, `impacts`
-        is below 1 or needs too much memory, or `keep` is another word.
+        A state has xdot + udot < 0 or an energy above eq. (31), a single state's flight lasts
+        2^20/omega or longer, `impacts` is below 1 or needs too much memory, or `keep` is another
+        word.
 
     Examples
     --------
@@ -54,7 +55,7 @@ def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.D
     require_ball(ball)
     one_of("keep", keep, ("all", "last"))
     impacts = whole_number("impacts", impacts)
-    state = ball.on_section(*state_of(state))
+    state = ball.moving(state)
     shape = state[0].shape
     dims = orbit_dims(shape)
     numbers: tuple[Any, Any] = (), impacts

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..kernel.tangents import turns_and_growth
 from .ball import Ball, require_ball
-from .inputs import StateLike, not_allowed, state_of, whole_number
+from .inputs import StateLike, not_allowed, whole_number
 from .regularity import LEAST_IMPACTS, around_fixed_point, first_turn, regular
 from .variables import attributes_of, described, orbit_dims
 from .verdict import classify_orbits as follow_until_decided
@@ -40,7 +40,8 @@ def rotation_number(ball: Ball, state: StateLike, impacts: int = 10_000) -> Any:
     Raises
     ------
     ValueError
-        A state with xdot + udot < 0, too few impacts, or a ball with another map.
+        A state with xdot + udot < 0 or an energy above eq. (31), too few impacts, or a ball with
+        another map.
 
     References
     ----------
@@ -129,7 +130,8 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
     Raises
     ------
     ValueError
-        A state with xdot + udot < 0, too few impacts, or a ball with another map.
+        A state with xdot + udot < 0 or an energy above eq. (31), too few impacts, or a ball with
+        another map.
 
     Notes
     -----
@@ -188,7 +190,7 @@ def require_default_map(ball: Ball) -> None:
 def _finite_orbits(ball: Ball, state: Any) -> tuple[np.ndarray, tuple[Any, Any, Any]]:
     """Return which states are finite, and their orbits as `around_fixed_point` does."""
     require_default_map(ball)
-    x, xdot, udot = ball.on_section(*state_of(state))
+    x, xdot, udot = ball.moving(state)
     finite = np.isfinite(x)
     columns = [np.atleast_1d(a[finite]) for a in (x, xdot, udot)]
     return finite, around_fixed_point(ball, np.array(columns))

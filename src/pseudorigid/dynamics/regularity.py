@@ -104,7 +104,7 @@ def first_turn(
     """
     expected = np.where(np.isnan(expected), 0.5, expected)
     turned, found = np.zeros(len(centre)), np.full(len(centre), most + 1)
-    at, done, ball = np.arange(len(centre)), 0, Ball(k, 1.0)
+    at, done, ball = np.arange(len(centre)), 0, Ball.dimensionless(k)
     while done < most and at.size:
         count = min(max(64, done), 1 + _IN_MEMORY // at.size, most - done)
         orbits = np.moveaxis(ball.history(states, count)[..., :3], -1, 0)

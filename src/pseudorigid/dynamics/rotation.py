@@ -12,7 +12,7 @@ LOCKED = 3e-9  # turns an impact; rotation numbers as near to a fraction are tak
 def symmetric_fixed_point(ball: Ball, energy: float) -> tuple[float, float]:
     """Return the fixed point's place on y = 0 and its rotation number, NaN if not elliptic."""
     e = energy / (ball.g * ball.g)
-    centre, radius = Ball(ball.k, 1.0).section(e)
+    centre, radius = Ball.dimensionless(ball.k).section(e)
     x, _, rotation = fixed_point.numbers(ball.k, e)
     return (x - centre) / radius, rotation
 
@@ -25,7 +25,7 @@ def winding(
     `place` has their starts on y = 0, in section radii from the centre. Both numbers are those of
     `kernel.tangents.turns_and_growth`.
     """
-    unit_ball = Ball(ball.k, 1.0)  # lengths in g R: neither number depends on the unit
+    unit_ball = Ball.dimensionless(ball.k)  # lengths in g R: neither number depends on the unit
     e = energy / (ball.g * ball.g)
     centre, radius = unit_ball.section(e)
     fixed_place, fixed_rotation = symmetric_fixed_point(ball, energy)

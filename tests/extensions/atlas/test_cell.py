@@ -22,7 +22,7 @@ def test_the_closed_forms_are_those_of_the_map(k, e):
     theta = fixed_point.half_time(k, e)
     assert fixed_point.energy(k, theta) == pytest.approx(e, rel=1e-12, abs=1e-12)
     state = (fixed_point.place(k, theta), theta, theta / k)
-    ball = Ball(k=k, g=1.0)
+    ball = Ball.dimensionless(k)
     assert ball.impact(*state) == pytest.approx((*state, 2 * theta), rel=1e-9, abs=1e-9)
     (a, _), (_, d) = ball.chart_jacobian(*state)
     assert fixed_point.trace(k, theta) == pytest.approx(a + d, rel=1e-8, abs=1e-8)
@@ -58,7 +58,7 @@ def test_a_turn_is_within_half_a_turn_of_the_expected_one():
 def test_starts_are_even_in_area_and_have_the_energy():
     k, e, count = 0.2, 6.25, 4000
     x, v, w = starts.sunflower_points(k, e, count)
-    assert Ball(k=k, g=1.0).energy(x, v, w) == pytest.approx(np.full(count, e))
+    assert Ball.dimensionless(k).energy(x, v, w) == pytest.approx(np.full(count, e))
     y = (v - k * w) / math.sqrt((1 + k) * (2 * e + 1 / k))
     x = (x - 1 / k) / math.sqrt((2 * e + 1 / k) / k)
     assert y.min() >= 0
@@ -139,7 +139,7 @@ def test_intervals_hold_the_shares_and_exponents_of_random_orbits():
     inside, off = 0, []
     for _ in range(6):
         k, e = float(random.uniform(0.012, 0.332)), float(10 ** random.uniform(-0.5, 1.6))
-        numbers, ball = cell.cell(k, e, 200, 8000), Ball(k=k, g=1.0)
+        numbers, ball = cell.cell(k, e, 200, 8000), Ball.dimensionless(k)
         centre, radius = ball.section(e)
         angle, share = 2 * math.pi * random.random(600), np.sqrt(random.random(600))
         y = radius * math.sqrt(k * (1 + k)) * share * np.sin(angle)

@@ -32,7 +32,7 @@ def test_growth_is_that_of_a_product_of_jacobians():
     impacts = 400
     states = np.array(starts.sunflower_points(K, E, 6))
     found = classify(states, impacts)
-    ball = Ball(k=K, g=1.0)
+    ball = Ball.dimensionless(K)
     for i, start in enumerate(states.T):
         state = start
         vector, logs = np.array([0.0, K * state[2], -state[1]]), []
@@ -69,7 +69,7 @@ def test_alignment_is_that_of_two_vectors_of_the_energy_surface(monkeypatch):
     states = np.array(starts.sunflower_points(K, E, 5))
     x, _, rotation = fixed_point.numbers(K, E)
     found = verdicts._alignment(K, states, np.full(5, x), np.full(5, rotation))
-    ball = Ball(k=K, g=1.0)
+    ball = Ball.dimensionless(K)
     for i, start in enumerate(states.T):
         position, v, w = start
         slope = (1.0 - K * position) / (v * v + (K * w) * (K * w))

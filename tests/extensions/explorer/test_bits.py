@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from doubles import bits, digest, packed, unpacked
 from flights import FAMILIES
-from sections import sea
+from sections import ball_of, sea
 
 from extensions.explorer import data
-from pseudorigid import Ball, lyapunov_spectrum, orbit
+from pseudorigid import lyapunov_spectrum, orbit
 from pseudorigid.dynamics.variables import chart
-from pseudorigid.kernel import arithmetic, impact
+from pseudorigid.kernel import arithmetic, closed_forms, formulas, impact
 from pseudorigid.kernel.spectrum import push_frame
 from study import states
 
@@ -50,7 +50,7 @@ def section_rows(k, g, count, energies):
     """Rows k, g and state of states all over the section of some energies, and on its rim."""
     rows = []
     for energy in energies:
-        x, xdot, udot = sea(count, energy, Ball(k, g))
+        x, xdot, udot = sea(count, energy, ball_of(k, g))
         s = np.where(np.arange(count) < count // 50, 0.0, xdot + udot)
         y = xdot - k * udot
         xdot, udot = (y + k * s) / (1 + k), (s - y) / (1 + k)
@@ -75,7 +75,7 @@ def test_a_million_impacts_of_a_chaotic_orbit(browser):
 def test_starts_over_the_section_also_of_other_balls_and_energies(browser):
     rows = section_rows(0.2, 0.04, 10_000, [ENERGY])
     for k, g in BALLS:
-        lowest, bound = Ball(k, g).energy_bounds()
+        lowest, bound = closed_forms.energy_bounds(k, g)
         energies = [0.999 * lowest, 0.0, g * g * (1.0 + 0.5 * k), max(bound, 40.0 * g * g)]
         rows += section_rows(k, g, 100, energies)
     assert_same_steps(browser, rows)
@@ -165,11 +165,11 @@ def test_velocities_after_an_impact(browser):
 def test_starts_points_and_the_reversor(browser):
     fractions = np.linspace(-1.0, 1.0, 101).tolist()
     for k, g in BALLS:
-        ball = Ball(k, g)
+        ball = ball_of(k, g)
         for energy in (0.0, 3.0 * g * g):
-            starts = np.array(ball.start(fractions, energy)).T
+            starts = np.array(formulas.start(k, g, energy, np.array(fractions))).T
             x, y = chart(k, *sea(101, energy, ball))
-            points = np.array(ball.state_xy(x, y, energy)).T
+            points = np.array(formulas.chart_state(k, g, energy, x, y)).T
             mirrored = np.array(ball.reflect(*points.T)).T
             theirs = browser.run(
                 """const [k, g, energy, fractions, xs, ys] = args, all = [[], [], []];

@@ -42,7 +42,7 @@ def test_pixels_have_the_pipeline_s_exponents_rotation_numbers_and_verdicts(brow
     assert exponents == expected
     types = orbit_types(ball, states, [200] * 100)
     assert verdicts == types
-    unit, (place, turn) = Ball(k, 1.0), symmetric_fixed_point(ball, energy)
+    unit, (place, turn) = Ball.dimensionless(k), symmetric_fixed_point(ball, energy)
     centre, radius = unit.section(energy / g**2)[:2]
     around = np.full(100, centre + radius * place), np.full(100, turn)
     regular = np.array(types) == "regular"

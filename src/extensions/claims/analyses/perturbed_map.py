@@ -136,7 +136,7 @@ def change(form: str, keeps_area: bool, strength: float, mirrored: bool = False)
 
 def perturbed_map(ball: Ball, energy: float, name: str, strength: float) -> PerturbedMap:
     """Return one of MAPS at a strength, from 0 (the impact map itself) to below 1."""
-    centre, radius = Ball(ball.k, 1.0).section(energy / (ball.g * ball.g))
+    centre, radius = Ball.dimensionless(ball.k).section(energy / (ball.g * ball.g))
     form, keeps_area, reversible = MAPS[name]
     before = change(form, keeps_area, strength if reversible else 0.0, mirrored=True)
     changes = np.stack([before, change(form, keeps_area, strength)])

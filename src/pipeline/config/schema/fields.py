@@ -15,6 +15,8 @@ import pydantic
 from annotated_types import Predicate
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
+from pseudorigid.dynamics.bounds import G_ALLOWED, K_ALLOWED
+
 YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it, or can write it
 ABSENT: Any = None  # the default of a field that may be left out and then has no value
 
@@ -105,8 +107,8 @@ def first_if(*types: type) -> Discriminator:
     return Discriminator(lambda value: TAGS[not isinstance(value, types)])
 
 
-Inertia = Annotated[float, allowed("a number with 0 < k <= 1", gt=0, le=1)]
-Gravity = Annotated[float, allowed("a number with 0 < g < k", gt=0)]
+Inertia = Annotated[float, allowed(K_ALLOWED, gt=0, le=1)]
+Gravity = Annotated[float, allowed(G_ALLOWED, gt=0)]
 Energy = Annotated[float, allowed("a number with -g^2/(2k) < energy < k/2 - g")]
 Number = Annotated[float, allowed("a number")]
 Range = Annotated[

@@ -5,20 +5,17 @@ stand with the group. They compare numbers as the decimals that were written.
 """
 
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Discriminator
 
-from pseudorigid.kernel.closed_forms import energy_bounds
+from pseudorigid.dynamics.bounds import energy_mistake, g_mistake
 
 from . import fields
 from .fields import ABSENT, allowed
 from .parts import METHODS
 
 CrossFieldError = tuple[tuple[str | int, ...], Any, str]  # place in the scene, value, what to give
-# 1/omega. The kernel computes flights up to 2^20, and a histogram has ten bins a unit of time.
-LONGEST_FLIGHT = 1_000_000
 
 
 class CompletionError(Exception):
@@ -115,22 +112,13 @@ class Scene(Picture):
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check the ball, its energies, and ticks."""
-        if not self.ball.g < self.ball.k:
-            yield ("ball", "g"), self.ball.g, f"0 < g < k = {self.ball.k}"
+        k, g = self.ball.k, self.ball.g
+        if words := g_mistake(k, g):
+            yield ("ball", "g"), g, words
             return
-        k, g = as_decimal(self.ball.k), as_decimal(self.ball.g)
-        lowest, highest = energy_bounds(k, g)
-        long = lowest + (LONGEST_FLIGHT * g) ** 2 / 8  # there sqrt(2E + g^2/k) = LONGEST_FLIGHT g/2
         names = ["energy", "energies"] + ["span"] * self.along_energy()
         for place, energy in entries(self, *names):
-            if not as_decimal(energy) > lowest:
-                bound = f"-g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
-                yield place, energy, f"a number above {bound}"
-            elif not as_decimal(energy) < highest:
-                bound = f"k/2 - g = {float(highest)}, where the ball could flatten to nothing"
-                yield place, energy, f"a number below {bound}"
-            elif not as_decimal(energy) <= long:
-                words = f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"
+            if words := energy_mistake(k, g, energy):
                 yield place, energy, words
         yield from super().cross_field_errors()
 
@@ -158,11 +146,6 @@ class Variant(fields.Block):
     ] = ABSENT
     """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
     lists, numbers and texts are replaced."""
-
-
-def as_decimal(value: float) -> Fraction:
-    """Return a number as the decimal that was written. As floats, 0.2 / 2 - 0.04 exceeds 0.06."""
-    return Fraction(str(value))
 
 
 def entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...], Any]]:

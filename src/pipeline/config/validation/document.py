@@ -9,6 +9,8 @@ from typing import Annotated, Any
 import yaml
 from pydantic import create_model
 
+from pseudorigid.dynamics.bounds import g_mistake
+
 from ...command_list import all_commands
 from ...declaration import ONLY_SET, SRC, SourceError, files, imported
 from ...loading import note_loaded
@@ -95,8 +97,8 @@ def check(given: object, main_alone: bool = False) -> Config:
     blocks = given.items() if isinstance(given, dict) else ()
     mappings = {key: block for key, block in blocks if isinstance(block, dict)}
     ball, _ = validate(BallBlock, mappings.get("ball"), ())
-    if ball and not ball.g < ball.k:
-        mistakes.append(refusal(("ball", "g"), ball.g, f"0 < g < k = {ball.k}"))
+    if ball and (words := g_mistake(ball.k, ball.g)):
+        mistakes.append(refusal(("ball", "g"), ball.g, words))
         ball = None
     own_ball = ball.as_mapping() if ball else None
     variants, left_out = Variants(), dict[str, dict[str, str]]()

@@ -12,11 +12,13 @@ from typing import Any
 
 from pydantic import create_model
 
+from pseudorigid.dynamics.bounds import as_decimal
+
 from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
 from ..schema.parts import SETS
-from ..schema.scene import CompletionError, Picture, Scene, Variant, as_decimal
+from ..schema.scene import CompletionError, Picture, Scene, Variant
 from .mistakes import Mistake, Place, refusal, unknown, validate
 
 
