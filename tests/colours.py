@@ -45,6 +45,16 @@ def lightness(color):
     return float(lab(color)[0])
 
 
+def contrast(one, other):
+    """Return the contrast of two colours #rrggbb by WCAG 2.2, 1 to 21."""
+    lights = []
+    for color in (one, other):
+        part = np.array([*bytes.fromhex(color[1:])]) / 255
+        linear = np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4)
+        lights.append(float(linear @ [0.2126, 0.7152, 0.0722]) + 0.05)
+    return max(lights) / min(lights)
+
+
 APART = 12.0  # least difference of two colours that mean different things, in each vision
 SHADES = 10.0  # least difference in lightness of two that look alike but for their colours
 WIDER = 1.5  # ratio of two widths, or sizes, that tell lines or marks apart
@@ -65,12 +75,29 @@ def looks(figure):
     return {look for look in found if look[0] not in _FRAMES}
 
 
+def apart(one, other, marks=None):
+    """Return why two looks may be confused, or nothing: (colour, mark, hollow or dashes, size).
+
+    Marks of different shapes or fillings need no colours, nor do lines through such marks: `marks`
+    has the marks of a colour's lines. In grey, they may also differ in dashes or size.
+    """
+    shapes = [{look[1:3]} if look[1] else (marks or {}).get(look[0]) for look in (one, other)]
+    by_shape = all(shapes) and not shapes[0] & shapes[1]
+    seen = {vision: distance(one[0], other[0], vision) for vision in VISIONS}
+    if not by_shape and min(seen.values()) < APART:
+        return f"{one[0]} and {other[0]} differ by {min(seen.values()):.1f}"
+    sizes = sorted((one[3], other[3]))
+    told_apart = by_shape or one[1:3] != other[1:3] or sizes[1] >= WIDER * sizes[0]
+    shades = abs(lightness(one[0]) - lightness(other[0]))
+    if not told_apart and shades < SHADES:
+        return f"{one[0]} and {other[0]} differ by {shades:.1f} in grey"
+    return ""
+
+
 def assert_colours_apart(figure):
     """Fail if colours of a picture are too near each other in a vision, or in grey.
 
-    Colours of the scale for ordered values are compared with the others alone. Marks of different
-    shapes or fillings need no colours, nor do lines through such marks. In grey, lines and marks
-    may also differ in dashes or size.
+    Colours of the scale for ordered values are compared with the others alone.
     """
     found, ordered = looks(figure), style.ordered(256)
     scales = set(ordered), set(map(style.pale, ordered))
@@ -79,11 +106,4 @@ def assert_colours_apart(figure):
     for one, other in combinations(sorted(found, key=str), 2):
         if one[0] == other[0] or any({one[0], other[0]} <= scale for scale in scales):
             continue
-        shapes = [{look[1:3]} if look[1] else marks[look[0]] for look in (one, other)]
-        by_shape = all(shapes) and not shapes[0] & shapes[1]
-        seen = {vision: distance(one[0], other[0], vision) for vision in VISIONS}
-        assert by_shape or min(seen.values()) >= APART, (one, other, seen)
-        sizes = sorted((one[3], other[3]))
-        told_apart = by_shape or one[1:3] != other[1:3] or sizes[1] >= WIDER * sizes[0]
-        shades = abs(lightness(one[0]) - lightness(other[0]))
-        assert told_apart or shades >= SHADES, (one, other, shades)
+        assert not apart(one, other, marks), (one, other)

@@ -37,7 +37,7 @@ def test_a_name_stands_nearest_to_its_own_curve():
         at = np.array([text.get_position()]).T * style.DPI
         near = [np.abs(curve - at).max(axis=0).min() for curve in curves]
         assert np.argmin(near) == int(text.get_text()) - 1
-        assert text.get_color() == style.ordered(4)[int(text.get_text()) - 1]
+        assert text.get_color() == style.ink(style.ordered(4)[int(text.get_text()) - 1])
     assert sum(np.abs(line.get_linewidth()) > 5 for line in sheet.figure.artists) == 4  # white
 
 

@@ -20,7 +20,6 @@ from extensions.claims.figures import spread as spread_figure
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics.lyapunov import scene_exponents
-from pseudorigid.figures.axes import section
 from pseudorigid.figures.canvas import style
 
 
@@ -39,7 +38,7 @@ def test_curves_of_the_last_island_are_named_on_the_section_and_the_sea_is_grey(
     figure = last_curve_figure.draw(SCENE, residues([[1e-3, 1e-5], [1e-6, 0.3]]))
     assert texts(figure).count("0.170000") == 1 and "0.180000" not in texts(figure)
     size = {len(a.get_xdata()): a.get_color() for a in figure.artists if a.get_zorder() == 4}
-    assert size[9] == style.ordered(2)[0] and section.SEA in colors(figure)
+    assert size[9] == style.ordered(2)[0] and style.PALE_SEA in colors(figure)
     assert max(len(a.get_xdata()) for a in figure.artists if a.get_color() == style.RIM) > 300
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from legible import assert_legible, frames_of
+from readable import assert_as_known
 
 from extensions.atlas.figures import raster
 from extensions.families.figures import chains
@@ -36,7 +37,9 @@ def drawn():
 
 
 def test_text_is_whole_and_apart():
-    assert_legible(drawn()[0])
+    figure, _ = drawn()
+    assert_legible(figure)
+    assert_as_known("atlas/plane_chains", figure)
 
 
 def test_each_curve_is_drawn_where_its_data_are():

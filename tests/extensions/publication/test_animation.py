@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 from project import ROOT
+from readable import assert_as_known
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
@@ -69,6 +70,10 @@ def test_the_gif_repeats_on_white_and_has_the_same_bytes_twice(data, content):
     assert np.abs(shown[-7].astype(int) - still).mean() < 1
     last, first = shown[-1].astype(int), shown[0].astype(int)
     assert np.abs(last - first).mean() < 0.5 * np.abs(shown[-7].astype(int) - first).mean()
+
+
+def test_its_still_can_be_read(data):
+    assert_as_known("publication/bounce", draw(SCENE, *data))
 
 
 def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures():

@@ -7,7 +7,7 @@ import xarray as xr
 
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Panel, corner, key, letters, log10
-from pseudorigid.figures.axes.section import LEFT, SEA, SIDE, Section, large
+from pseudorigid.figures.axes.section import LEFT, SIDE, Section, large
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.names import name_curves
 from pseudorigid.figures.canvas.sheet import Sheet
@@ -32,7 +32,7 @@ def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
     full = style.ordered(len(numbers))
     # An orbit above the critical residue fills much of the section.
     wide = np.abs(last_curve["residue"].values[:, -1]) > CRITICAL
-    hues = [SEA if fills else hue for hue, fills in zip(full, wide, strict=True)]
+    hues = [style.PALE_SEA if fills else hue for hue, fills in zip(full, wide, strict=True)]
     _residues(sheet, above, last_curve, full)
     _orbits(panel, last_curve, hues, numbers)
     corner(sheet, panel.frame, style.setting(scene))
@@ -73,10 +73,10 @@ def _orbits(
 ) -> None:
     """Draw the orbits, the sea first, and name those that do not fill it."""
     curves = [*zip(last_curve["x"].values, last_curve["y"].values, hues, numbers, strict=True)]
-    curves.sort(key=lambda curve: curve[2] == SEA)
+    curves.sort(key=lambda curve: curve[2] == style.PALE_SEA)
     for x, y, hue, _ in reversed(curves):
-        panel.dots(x, y, hue, size=0.7 if hue == SEA else 0.9)
+        panel.dots(x, y, hue, size=0.7 if hue == style.PALE_SEA else 0.9)
     pixels = [np.array(panel.place(x, y)) for x, y, *_ in curves]
-    named = [curve for curve in curves if curve[2] != SEA]
+    named = [curve for curve in curves if curve[2] != style.PALE_SEA]
     colors, texts = ([curve[i] for curve in named] for i in (2, 3))
     name_curves(panel.sheet, pixels, texts, colors, panel.frame, _NAMED)

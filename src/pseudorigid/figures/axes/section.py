@@ -15,7 +15,6 @@ from .limits import linear
 from .panel import Entry, Frame, Panel, corner
 
 NAME = r"$y=\dot{x}^{-}-k\dot{u}^{-}$"
-SEA = "#d8d8d8"  # of chaotic orbits beside regular ones
 LEFT, SIDE = 150, 825  # pixels: left and width of a large panel
 _STEP = 0.06  # the frame's height is a multiple of this part of half its width
 
@@ -48,7 +47,7 @@ class Section(Panel):
         regular = orbits["type"].values == "regular"
         spans = rows(orbits)
         for index in np.argsort(regular, kind="stable").tolist():
-            hue, size = (style.BACKDROP, 0.9) if regular[index] else (SEA, 0.7)
+            hue, size = (style.BACKDROP, 0.9) if regular[index] else (style.PALE_SEA, 0.7)
             self.dots(x[spans[index]], y[spans[index]], hue, size=size)
 
     def rim(self, zorder: float = 4.5) -> None:
@@ -86,5 +85,5 @@ def over_orbits(
     rest = types.count("regular")
     regular = (style.plural("regular orbit", rest), style.BACKDROP, "o") if rest else None
     sea = style.irregular(types)
-    chaotic = (sea, SEA, "o") if sea else None
+    chaotic = (sea, style.PALE_SEA, "o") if sea else None
     return panel, regular, chaotic

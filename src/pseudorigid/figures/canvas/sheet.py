@@ -76,10 +76,14 @@ class Sheet:
         self, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center",
         color: str = style.BLACK,
     ) -> None:  # fmt: skip
-        """Write horizontal text at (x, y); `ha` and `va` are its alignment, as in matplotlib."""
+        """Write horizontal text at (x, y), in `color` if that is dark enough, else in its ink.
+
+        `ha` and `va` are its alignment, as in matplotlib.
+        """
         x, y = (float(snap_to_pixels(value)) / style.DPI for value in (x, y))
         inches = self.figure.dpi_scale_trans
-        self.figure.text(x, y, text, ha=ha, va=va, size=size, color=color, transform=inches)
+        ink = style.ink(color)
+        self.figure.text(x, y, text, ha=ha, va=va, size=size, color=ink, transform=inches)
 
 
 def width(text: str, size: float) -> float:

@@ -1,4 +1,8 @@
-"""The style of all pictures: matplotlib's defaults, its own fonts, and fixed colours."""
+"""The style of all pictures: matplotlib's defaults, its own fonts, and fixed colours.
+
+Text is at least 6 points high where a picture is 89 mm wide, exponents and indices 4.9. Texts have
+a contrast of 4.5 with their ground, lines and marks that carry data one of 3 with white.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -11,17 +15,20 @@ DPI = 300
 COLUMN = 1050  # pixels: the width of a journal's column
 PLAIN = 9.0  # points: text in a picture of that width
 
-# Colours for meanings without an order. In grey they differ in lightness, and readers with every
-# kind of colour vision can tell apart those that one picture uses (tests/colours.py).
-BLUE, VERMILION, ORANGE, BLACK = "#123fb0", "#d55e00", "#e69f00", "#000000"
-SKY, GREEN = "#56b4e9", "#00735a"  # SKY is as light as ORANGE: with marks of its own
+# Colours for meanings without an order. Readers with every kind of colour vision can tell apart
+# those that one picture uses, also in grey (tests/colours.py).
+BLUE, VERMILION, BLACK, GREEN = "#123fb0", "#d55e00", "#000000", "#00735a"
+ORANGE, SKY = "#b87f00", "#3a92c8"  # as light as VERMILION: with marks or widths of their own
 # The paper's green and blue for the two kinds of manifold.
 STABLE, UNSTABLE = "#4fa82a", BLUE
 MANIFOLDS = UNSTABLE, STABLE  # by the variable `stable`, 0 or 1
 SEA, BACKDROP = "#909090", "#b4b4b4"
-_SCALE = "inferno", 36, 184  # matplotlib's table, and its darkest and lightest rows for lines
+PALE_SEA = "#d8d8d8"  # behind regular orbits
+_SCALE = "inferno", 36, 172  # matplotlib's table, and its darkest and lightest rows for lines
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = BLACK
+QUIET = GRID, PANE, BACKDROP, PALE_SEA  # need no contrast, since they are the ground of the data
+_WEIGHTS, _INK = (2126, 7152, 722), 1833 * 255**2  # of red, green and blue; the most for a text
 
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 
@@ -76,6 +83,15 @@ def ordered(count: int) -> list[str]:
 def pale(color: str) -> str:
     """Return `color` (#rrggbb) mixed with twice as much white."""
     return "#" + bytes((part + 2 * 255) // 3 for part in bytes.fromhex(color[1:])).hex()
+
+
+def ink(color: str) -> str:
+    """Return `color` (#rrggbb) for a text: darkened to a contrast of 4.5 with white."""
+    parts = [*bytes.fromhex(color[1:])]
+    # Squares exceed the luminance of sRGB by a little, and have the same bits everywhere.
+    while sum(weight * part * part for weight, part in zip(_WEIGHTS, parts, strict=True)) > _INK:
+        parts = [part * 15 // 16 for part in parts]
+    return "#" + bytes(parts).hex()
 
 
 def setting(scene: dict[str, Any], energy: bool = True) -> str:
