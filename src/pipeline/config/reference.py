@@ -115,14 +115,17 @@ def _listed(block: Any, blocks: Any, where: str, seen: Any, indent: str = "") ->
         item = f"{indent}- `{key}` ({default}): "
         if (key, words) not in seen:
             seen[key, words] = where, default
-            yield fill(f"{item}{words}", 100, subsequent_indent=f"{indent}  ", break_on_hyphens=False)
+            below = f"{indent}  "
+            yield fill(f"{item}{words}", 100, subsequent_indent=below, break_on_hyphens=False)
             for name in blocks_of:
-                yield from _listed(blocks[name], blocks, where, seen, f"{indent}  ")
+                yield from _listed(blocks[name], blocks, where, seen, below)
         else:
             first, of_first = seen[key, words]
             place = "above" if first == where else f"of {first}"
-            named.setdefault((place, "" if of_first == default else f" ({default})"), []).append(key)
-    yield from (f"{indent}- {_quoted(keys)}{own}: as {of}." for (of, own), keys in named.items())
+            own = "" if of_first == default else f" ({default})"
+            named.setdefault((place, own), []).append(key)
+    for (place, own), keys in named.items():
+        yield f"{indent}- {_quoted(keys)}{own}: as {place}."
 
 
 def _quoted(names: Iterable[str]) -> str:
