@@ -21,9 +21,10 @@ BEGIN, END = f"<!-- Written by {RENEW}. -->\n", "<!-- End of what is written. --
 
 def generated() -> dict[str, str]:
     """Map each generated file, by its path from the root, to its text."""
-    fields = "".join(map(reference.fields, parts()))
     texts = {"config.schema.json": reference.json_schema(), f"workflow/rules/{MAIN}.smk": rules()}
-    texts["docs/config.md"] = with_section(read_text(ROOT / "docs/config.md"), BEGIN, fields, END)
+    texts["docs/config.md"] = with_section(
+        read_text(ROOT / "docs/config.md"), BEGIN, reference.fields(), END
+    )
     for declared in parts().values():
         texts |= imported(declared.committed)() if declared.committed else {}
     return texts

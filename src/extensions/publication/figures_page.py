@@ -3,6 +3,7 @@
 The captions have the values from which the committed pictures were made.
 """
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from textwrap import fill
@@ -21,6 +22,7 @@ from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 from pipeline.renew import END, with_section
 
+_SMALL = 190  # pixels: the width of a picture that leads to its caption
 FIGURES = f"<!-- The figures, written by {RENEW}. -->\n"
 
 
@@ -51,13 +53,21 @@ def page() -> str:
 
 
 def main_figures() -> str:
-    """Return the main set's pictures, each with its caption below, for README.md."""
+    """Return the main set's pictures, small and each leading to its caption, for README.md."""
     (main, captions), *_ = _captions()
-    lines = []
+    pictures, titles = [], []
     for scene, c in captions.items():
-        lines += [f"![{c.title}]({main.folder}/{scene}.png)", ""]
-        lines += [f"**{c.name}: {c.title}.** {c.shows} {c.see}", ""]
-    return "\n".join(lines)
+        title = f"{c.name}: {c.title}"
+        place = f"docs/figures.md#{anchor(title)}"
+        file = f"{main.folder}/{scene}.png"
+        pictures += [f'[<img src="{file}" width="{_SMALL}" alt="{title}">]({place})']
+        titles += [f"[{c.name}]({place}): {c.title}"]
+    return "\n".join([*pictures, "", " · ".join(titles), ""])
+
+
+def anchor(title: str) -> str:
+    """Return the anchor that GitHub and Sphinx give a heading."""
+    return re.sub(r"[^\w -]", "", title).strip().lower().replace(" ", "-")
 
 
 def codecheck_manifest() -> str:

@@ -52,6 +52,7 @@ PART = Part(
         ),
         "site": SnakemakeCommand(
             "write results/site/: all pages, with explorer and article",
+            {"--serve": "then serve it on this machine, with its search, until Ctrl-C"},
             module=f"{_COMMANDS}.site",
             group="publishing",
             details="Publishes committed files alone. Installs packages first (once).",

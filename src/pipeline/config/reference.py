@@ -19,6 +19,8 @@ from .schema.scene import Scene, Variant
 from .validation.document import Document, with_shipped
 from .validation.mistakes import allowed_at
 
+_KEYS = r" \*Allowed:\* a mapping with the keys? [\w, ]+\.$"
+
 
 class _Described(GenerateJsonSchema):
     """Pydantic's generator with the meaning of each field, and in words what it allows."""
@@ -68,9 +70,15 @@ def json_schema() -> str:
     return json.dumps(document, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
-def fields(part: str) -> str:
-    """Return the fields that a part adds to config.yaml, as Markdown; empty if it adds none."""
-    declared, seen, texts = parts()[part], dict[str, str](), []
+def fields() -> str:
+    """Return the fields that each part adds to config.yaml, as Markdown."""
+    seen: dict[tuple[str, str], tuple[str, str]] = {}
+    return "".join(_of_part(part, seen) for part in parts())
+
+
+def _of_part(part: str, seen: dict[tuple[str, str], tuple[str, str]]) -> str:
+    """Return the section of a part; empty if it adds no fields."""
+    declared, texts = parts()[part], list[str]()
     shipped: Any = with_shipped({})
     scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
@@ -96,20 +104,28 @@ def fields(part: str) -> str:
 
 
 def _listed(block: Any, blocks: Any, where: str, seen: Any, indent: str = "") -> Iterator[str]:
-    """Yield a list of fields; one that `seen`, item -> where, has from elsewhere is only named."""
-    named: dict[str, list[str]] = {}
+    """Yield a list of fields; one that `seen`, its words -> where, has from elsewhere is named."""
+    named: dict[tuple[str, str], list[str]] = {}
     for key, field in block["properties"].items():
         default = "required" if key in block.get("required", ()) else "optional"
         default = f"default `{field['default']}`" if "default" in field else default
+        blocks_of = re.findall(r"#/\$defs/(\w+)", json.dumps(field))
         words = field["description"].replace("Allowed:", "*Allowed:*")
-        item = f"{indent}- `{key}` ({default}): {words}"
-        if (first := seen.setdefault(item, where)) == where:
-            yield fill(item, 100, subsequent_indent=f"{indent}  ", break_on_hyphens=False)
-            for name in re.findall(r"#/\$defs/(\w+)", json.dumps(field)):
-                yield from _listed(blocks[name], blocks, where, seen, f"{indent}  ")
+        words = re.sub(_KEYS, "", words) if blocks_of else words  # their list follows
+        item = f"{indent}- `{key}` ({default}): "
+        if (key, words) not in seen:
+            seen[key, words] = where, default
+            below = f"{indent}  "
+            yield fill(f"{item}{words}", 100, subsequent_indent=below, break_on_hyphens=False)
+            for name in blocks_of:
+                yield from _listed(blocks[name], blocks, where, seen, below)
         else:
-            named.setdefault(first, []).append(key)
-    yield from (f"{indent}- {_quoted(keys)}: as of {of}." for of, keys in named.items())
+            first, of_first = seen[key, words]
+            place = "above" if first == where else f"of {first}"
+            own = "" if of_first == default else f" ({default})"
+            named.setdefault((place, own), []).append(key)
+    for (place, own), keys in named.items():
+        yield f"{indent}- {_quoted(keys)}{own}: as {place}."
 
 
 def _quoted(names: Iterable[str]) -> str:

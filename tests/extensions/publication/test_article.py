@@ -116,7 +116,7 @@ def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing
     assert len(set(ids)) == len(ids)
     assert {link[1:] for link in links if link.startswith("#")} <= {*ids}
     # Each number leads to its data, each statement to the row of the ledger.
-    assert '<a href="#data-fig7">b</a>' in text
+    assert '<a href="paper/lyapunov_fig7.nc">b</a>' in text
     assert {"CLAIMS.html#statement-21", "paper/orbits_fig2.nc"} <= {*links}
     assert loaded and all(source.startswith("data:image/") for source in loaded)
     assert "<script" not in text and "<math" in text
@@ -130,7 +130,7 @@ def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing
 def test_each_formula_is_valid_and_is_described(page):
     """A MathML token has text alone, a mover has two children, and alttext says what is meant."""
     formulas = re.findall(r"<math\b.*?</math>", page, re.S)
-    assert len(formulas) > 80
+    assert len(formulas) > 50
     tokens, boxes = {"mi", "mo", "mn", "mtext"}, {"math", "mrow", "msup", "msub", "mfrac", "mover"}
     for formula in map(ElementTree.fromstring, formulas):
         assert re.search(r"\w", formula.get("alttext"))

@@ -5,6 +5,7 @@ import re
 import sys
 from collections import defaultdict
 from contextlib import nullcontext
+from itertools import product
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -118,13 +119,23 @@ def test_the_site_is_accessible_and_statements_are_filtered(built, tmp_path):
     import browsers
     from axe_core_python.selenium import Axe
 
-    pages = ["index.html", "CLAIMS.html", "pages/run.html", "docs/method.html", "pages/api.html"]
+    pages = [p for p in sorted(built.rglob("*.html")) if p.name not in ("genindex.html", *BESIDE)]
+    assert len(pages) > 60
     with browsers.started("chromium", tmp_path) as chromium:
-        for page in pages:
-            chromium.open((built / page).as_uri())
+        for width, page in product((390, 1280), pages):
+            chromium.resize(width, 800)
+            chromium.open(page.as_uri())
             found = Axe().run(chromium.driver)["violations"]
             serious = [v for v in found if v["impact"] in ("serious", "critical")]
-            assert not serious, (page, [(v["id"], v["nodes"][0]["html"]) for v in serious])
+            named = [(v["id"], v["nodes"][0]["html"]) for v in serious]
+            assert not named, (page, width)
+        chromium.open((built / "pages" / "gallery.html").as_uri())
+        cards = "[...document.querySelectorAll('.card')]"
+        across, high = chromium.run(
+            f"const tops = {cards}.map(e => e.getBoundingClientRect().top);"
+            "return [tops.filter(t => t === tops[0]).length, document.body.scrollHeight]"
+        )
+        assert across == 3 and high <= 4500
         chromium.open((built / "CLAIMS.html").as_uri())
         shown = "return [...document.querySelectorAll('section[id^=statement-]')]"
         count = f"{shown}.filter(e => e.checkVisibility()).length"

@@ -1,4 +1,4 @@
-"""The verdicts as a bar, for README.md."""
+"""The verdicts as a bar, for docs/findings.md."""
 
 from collections.abc import Iterable
 
@@ -18,7 +18,8 @@ _COLOURS = {
     UNDECIDED: "#8a8a8a",
 }
 _WORDS = {HOLDS: "hold", CORRECTED: "hold with a correction", FALSE: "do not hold"}
-_WIDE, _CHARACTER = 860, 6.8  # pixels: width of the bar, and of a letter with room to spare
+_WIDE, _CHARACTER = 420, 8.4  # pixels: width of the bar, and of a letter with room to spare
+_LINE = 24  # pixels: from one line of names to the next
 
 
 def committed() -> dict[str, str]:
@@ -38,18 +39,20 @@ def bar(verdicts: list[Verdict]) -> str:
     """Return an SVG with a part of a bar, and its name, for each verdict."""
     groups, count = by_verdict(verdicts), checkable_count(verdicts)
     title = f"{count} statements: {sentence(verdicts)}"
-    parts, at, under = [], 0.0, 0.0
+    parts, at, under, y = [], 0.0, 0.0, 40
     for word, colour in _COLOURS.items():
         name = f"{len(groups[word])} {_WORDS.get(word, word)}"
         wide = _WIDE * len(groups[word]) / count
+        room = 26 + _CHARACTER * len(name)
+        under, y = (under, y) if under + room <= _WIDE else (0.0, y + _LINE)
         parts += [
             f'<rect x="{at:.1f}" width="{max(wide - 2, 0):.1f}" height="26" fill="{colour}"/>',
-            f'<rect x="{under:.1f}" y="40" width="12" height="12" fill="{colour}"/>',
-            f'<text x="{under + 18:.1f}" y="51">{name}</text>',
+            f'<rect x="{under:.1f}" y="{y}" width="12" height="12" fill="{colour}"/>',
+            f'<text x="{under + 18:.1f}" y="{y + 11}">{name}</text>',
         ]
-        at, under = at + wide, under + 44 + _CHARACTER * len(name)
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDE} 58" role="img">'
-    style = "text { font: 14px sans-serif; fill: #24292f } @media (prefers-color-scheme: dark)"
+        at, under = at + wide, under + room
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDE} {y + 20}" role="img">'
+    style = "text { font: 16px sans-serif; fill: #24292f } @media (prefers-color-scheme: dark)"
     style += " { text { fill: #d0d7de } }"
     lines = [head, f"<title>{title}</title>", f"<style>{style}</style>", *parts, "</svg>"]
     return "\n".join([*lines, ""])

@@ -1,9 +1,8 @@
-"""What article.typ takes from the results, as JSON: numbers, verdicts, captions and hashes.
+"""What article.typ takes from the results, as JSON: numbers, verdicts and captions.
 
 Title, authors and addresses are those of CITATION.cff, a file in the Citation File Format.
 """
 
-import hashlib
 import json
 from collections import Counter
 from dataclasses import asdict
@@ -24,9 +23,10 @@ from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
 from pseudorigid.dynamics.paper import EXPONENT
 
+from .. import figures_page
+
 CITATION = "CITATION.cff"
 _ADDRESSES = {"repository-code": "{}", "doi": "https://doi.org/{}"}  # of CITATION.cff
-_HASH_DIGITS = 16  # of a dataset's hash
 Table = dict[str, Any]
 
 
@@ -114,18 +114,11 @@ def _figure(
         for file in manifest.published(committed)
         if Path(file).stem == Path(drawing).stem
     ]
-    datasets = []
-    data = {Path(path).name: path for path in manifest.upstream(committed, drawing)[1:]}
-    for file, path in sorted(data.items()):
-        variables = committed["results"][path]["output"]["variables"]
-        digests = "".join(variables[name]["sha256"] for name in sorted(variables))
-        digest = hashlib.sha256(digests.encode()).hexdigest()
-        datasets.append({"file": file, "hash": digest[:_HASH_DIGITS]})
     return {
         "title": caption.title[0].upper() + caption.title[1:],
         "shows": caption.shows,
         "file": files[-1],
         "web_file": min(files, key=lambda file: (root / file).stat().st_size),
-        "command": published.command,
-        "datasets": datasets,
+        "anchor": figures_page.anchor(f"{caption.name}: {caption.title}"),
+        "datasets": sorted(Path(path).name for path in manifest.upstream(committed, drawing)[1:]),
     }

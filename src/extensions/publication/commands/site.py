@@ -1,6 +1,9 @@
 """./reproduce site: write one folder with all pages, the explorer and the article."""
 
 import shutil
+from contextlib import suppress
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -45,8 +48,18 @@ def run(args: Arguments) -> int:
             (ROOT / SITE).rename(Path(part, "old"))
         Path(part, "new").rename(ROOT / SITE)
     size = sum(file.stat().st_size for file in (ROOT / SITE).rglob("*") if file.is_file())
-    print(f"\n{SITE}/  {size / 1e6:.1f} MB: open {SITE}/index.html, or serve the folder")
+    print(f"\n{SITE}/  {size / 1e6:.1f} MB: open {SITE}/index.html (search: --serve)")
+    if args.serve:
+        _serve(ROOT / SITE)
     return 0
+
+
+def _serve(folder: Path) -> None:
+    """Serve a folder on this machine until Ctrl-C, since browsers search no pages on a disk."""
+    handler = partial(SimpleHTTPRequestHandler, directory=folder)
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, suppress(KeyboardInterrupt):
+        print(f"http://127.0.0.1:{server.server_port}/ (Ctrl-C ends it)", flush=True)
+        server.serve_forever()
 
 
 def _refuse_others(folder: Path) -> None:

@@ -17,7 +17,7 @@ include_patterns = ["*.md", "pages/*.md", "docs/**.md", "src/**.md", "tests/READ
 exclude_patterns = ["config", "results", "src/pipeline"]
 default_role = "literal"
 highlight_language = "none"
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath", "html_image"]
 myst_heading_anchors = 4
 numpydoc_show_class_members = False
 autodoc_member_order = "bysource"
@@ -58,21 +58,28 @@ def _formula(translator: Any, node: Any) -> None:
 
 
 def _with_contents(app: Any, name: str, source: list[str]) -> None:
-    """Add the table of contents to the first page, which GitHub shows without it."""
+    """Add doors and the table of contents to the first page, which GitHub shows without them."""
     if name == root_doc:
-        source[0] += "\n" + (HERE / "contents.txt").read_text(encoding="utf-8")
+        doors, contents = ((HERE / f"{n}.txt").read_text("utf-8") for n in ("doors", "contents"))
+        title, line, rest = source[0].partition("\n")
+        # A link of MyST to a heading loses a picture inside.
+        linked = r"\[(<img [^>]*>)\]\((docs/\w+)\.md(#[^)]*)\)"
+        rest = re.sub(linked, r'<a href="\2.html\3">\1</a>', rest)
+        source[0] = f"{title}{line}\n{doors}{rest}\n{contents}"
 
 
-def _with_levels(app: Any, name: str, template: str, context: dict[str, Any], tree: Any) -> None:
-    """Give the captions of the menu a level, which their role of a heading requires."""
+def _accessible(app: Any, name: str, template: str, context: dict[str, Any], tree: Any) -> None:
+    """Give the captions of the menu a level, and let keys scroll what is wider than the window."""
     menu = context["furo_navigation_tree"]
     context["furo_navigation_tree"] = menu.replace(
         'role="heading"', 'role="heading" aria-level="2"'
     )
+    wide = r'<(pre|div class="(?:table|math)-wrapper[^"]*")>'
+    context["body"] = re.sub(wide, r'<\1 tabindex="0">', context.get("body", ""))
 
 
 def setup(app: Any) -> None:
     """Register the functions above."""
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("source-read", _with_contents)
-    app.connect("html-page-context", _with_levels, priority=900)
+    app.connect("html-page-context", _accessible, priority=900)

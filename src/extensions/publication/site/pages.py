@@ -23,6 +23,8 @@ from pipeline.records.artifacts import load
 from pipeline.records.files import read_text
 from pipeline.records.provenance import CURRENT, Freshness, read_record, record_path
 
+from ..figures_page import anchor
+
 _PROOFS = "src/extensions/proofs"
 # Functions of parts, which are no part of the wheel.
 _OF_PARTS = {
@@ -99,21 +101,27 @@ def _made(result: tuple[str, dict[str, Any]]) -> list[str]:
 
 
 def _gallery(root: Path, config: Config) -> Iterator[str]:
-    """Yield the gallery: each committed picture with the lines of YAML that make it."""
-    yield "# Gallery"
-    yield "\nEach picture is made by the lines below it, a block of `config.yaml` or of a part's"
-    yield "`scenes.yaml`. [Examples](../docs/examples/README.md) has pictures made by Python."
+    """Yield the gallery: a card for each committed picture, with the YAML that makes it."""
+    yield "---\nhide-toc: true\n---\n\n# Gallery"
+    yield "\nA card leads to the picture's caption. [Examples](../docs/examples/README.md) has pictures"
+    yield "made by Python."
     for each in published_sets.committed_sets(config):
-        yield f"\n## {SETS[each.group].heading}\n\n`{each.command}`"
+        yield f"\n## {SETS[each.group].heading}\n\n`{each.command}`\n\n:::::{{container}} cards"
         key = SETS[each.group].key
         for name in sorted(n for n in [*each.drawn, *each.measured] if n.endswith(".png")):
             scene, picture = Path(name).stem, f"{each.folder}/{name}"
             if not (root / picture).is_file():
                 continue
-            caption = caption_of(scene, config.variants[each.group][scene].as_mapping())
-            yield f"\n### {caption.name}: {caption.title}\n"
-            yield f"[![{caption.title}](../{picture})](../docs/figures.md)\n"
-            yield f"```yaml\n{key}:\n{_lines(root, key, scene)}```"
+            block = config.variants[each.group][scene].as_mapping()
+            caption = caption_of(scene if each.group == MAIN else f"{each.group}/{scene}", block)
+            title = f"{caption.name}: {caption.title}"
+            to = f"../docs/figures.md#{anchor(title)}"
+            yield f"::::{{container}} card\n[![{title}](../{picture})]({to})\n\n{title}\n"
+            if place := address(config, each.group, scene, block):
+                yield f'<a href="../explorer.html#{place}">Open it in the explorer</a>\n'
+            yield "<details><summary>YAML</summary>\n"
+            yield f"```yaml\n{key}:\n{_lines(root, key, scene)}```\n\n</details>\n\n::::"
+        yield ":::::"
 
 
 def _lines(root: Path, key: str, scene: str) -> str:
@@ -128,14 +136,15 @@ def _lines(root: Path, key: str, scene: str) -> str:
 def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
     """Yield the page of a theorem: its statement, what was found, and its premises."""
     statement = typeset(THEOREMS[name].statement)
-    yield f"# {name}\n\n{statement[:1].upper()}{statement[1:]}.\n"
+    premises = tomllib.loads(read_text(root / _PROOFS / "theorems" / "premises.toml"))
+    yield f"# {premises['titles'][name]}\n\nTheorem `{name}`: {statement}.\n"
     path = next(
         p for (_, scene, stage), p in config.datasets.items() if (scene, stage) == (name, "theorem")
     )
     if Freshness(root, config.build_specs()).state(path) == CURRENT:
         found = load(root / path).attrs["line"].split("; ")
         yield f"**Checked by this run:** {'; '.join(found[1:])}.\n"
-    known = tomllib.loads(read_text(root / _PROOFS / "theorems" / "premises.toml"))["group"]
+    known = premises["group"]
     groups = [g for g in known if name in g["theorems"] or g["title"] == "All"]
     proofs = {group["proof"] for group in groups[1:]}
     links = [f"[Proof: {p.removesuffix('.md')}](../{_PROOFS}/theory/{p})" for p in sorted(proofs)]
@@ -149,7 +158,7 @@ def _theorem(root: Path, config: Config, name: str) -> Iterator[str]:
 
 def _api() -> Iterator[str]:
     """Yield the reference of the Python functions, from their docstrings."""
-    yield "# Python\n\n```{eval-rst}\n.. automodule:: pseudorigid\n   :no-members:\n```"
+    yield "# Python functions\n\n```{eval-rst}\n.. automodule:: pseudorigid\n   :no-members:\n```"
     yield "\nFunctions of `extensions` are for a checkout, and are no part of the wheel."
     for module, names in ("pseudorigid", vars(pseudorigid)["__all__"]), *_OF_PARTS.items():
         for name in names:
