@@ -1,22 +1,25 @@
-"""Comparison of two variants, figure by figure: ./reproduce compare A B.
+"""Comparison of variants, figure by figure: ./reproduce compare A B, or a range.
 
-Nothing is computed here: both variants must have their results.
+Nothing is computed here: the variants must have their results.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+import pandas as pd
 import xarray as xr
 
+from pipeline.checks.quantities import measured
 from pipeline.config import Config
 from pipeline.config.results import drawing, drawn, stage_parameters
 from pipeline.records.artifacts import load
 from pipeline.records.differences import brief, differing_keys
+from pipeline.records.files import write_whole
 from pipeline.records.pictures import pixels
 from pipeline.records.provenance import CURRENT, Freshness
 
-from . import datasets, picture
+from . import datasets, picture, quantities
 
 
 def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[str]) -> None:
@@ -27,6 +30,53 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
     print(f"(a periodic orbit further than {reach} away counts as another)")
     for scene in scenes:
         print(f"\n{scene}", *(f"  {line}" for line in comparison.lines(scene)), sep="\n")
+
+
+def over_range(root: Path, config: Config, name: str, scenes: Sequence[str]) -> None:
+    """Print what the variants of a range report, and save it as text, as CSV and in pictures."""
+    of, folder, rows = config.ranges[name], root / "results/compare" / name, []
+    made = [member for member in of.members if member in config.variants]
+    freshness, lines = Freshness(root, config.build_specs(made)), [f"{name}: {of.path}"]
+    lines += [f"{m}: not made, see the mistake above" for m in of.members if m not in made]
+    for scene in scenes:
+        states = _states(config, freshness, made, scene)
+        current = {m: config.variants[m][scene] for m in made if states[m] == CURRENT}
+        lines += ["", scene]
+        image = folder / f"{scene}.png"
+        image.unlink(missing_ok=True)  # left by an earlier comparison
+        if current:
+            reported = {member: measured(root, config, member, scene) for member in current}
+            lines += [f"  {line}" for line in quantities.table(of, reported)]
+            rows += quantities.rows(of, scene, reported)
+            data = [
+                [load(root / config.datasets[m, scene, stage]) for stage in block.stages]
+                for m, block in current.items()
+            ]
+            drawings, axes = picture.on_same_axes([*current.values()], data)
+            known = dict(zip(current, drawings, strict=True))
+            last = of.path.rpartition(".")[2]
+            named = {f"{last} = {value}": known.get(m) for m, value in of.members.items()}
+            picture.side_by_side(named, image, quantities.curves(of, reported))
+            lines.append(f"  side by side{axes}: {image.relative_to(root)}")
+        lines += [f"  {member}: {states[member]}" for member in made if member not in current]
+    table = pd.DataFrame(rows, columns=quantities.COLUMNS).to_csv(index=False, lineterminator="\n")
+    files = {"txt": "\n".join([*lines, ""]), "csv": table}
+    for suffix, text in files.items():
+        write_whole(folder / f"quantities.{suffix}", text)
+        lines.append(f"{(folder / 'quantities').relative_to(root)}.{suffix}")
+    print(*lines, sep="\n")
+
+
+def _states(
+    config: Config, freshness: Freshness, names: Iterable[str], scene: str
+) -> dict[str, str]:
+    """Map each variant to the state of its figure, or why it leaves the scene out."""
+    return {
+        name: freshness.state(drawn(scene, "png", name))
+        if scene in config.variants[name]
+        else config.left_out[name][scene]
+        for name in names
+    }
 
 
 class _Comparison:
@@ -41,13 +91,7 @@ class _Comparison:
         given = {name: self.config.variants[name].get(scene) for name in self.names}
         blocks = [block for block in given.values() if block]
         in_both = len(blocks) == 2
-        # state of each figure, or why the variant leaves the scene out
-        states = {
-            name: self.freshness.state(drawn(scene, "png", name))
-            if block
-            else self.config.left_out[name][scene]
-            for name, block in given.items()
-        }
+        states = _states(self.config, self.freshness, self.names, scene)
         if in_both:  # axes may differ
             before, after = (drawing(block) | {"axes": None} for block in blocks)
             keys = [f"{k}: {brief(a)} | {brief(b)}" for k, a, b in differing_keys(before, after)]

@@ -4,10 +4,12 @@ A kind of picture is one class in `kinds`, derived from these. Checks that need 
 stand with the group. They compare numbers as the decimals that were written.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar, Self
 
+from annotated_types import Predicate
 from pydantic import Discriminator
 
 from pseudorigid.kernel.closed_forms import energy_bounds
@@ -135,8 +137,18 @@ class Scene(Picture):
         yield from super().cross_field_errors()
 
 
+_PATH = re.compile(r"ball\.[kg]|energy|scenes\.[^.]+\..+")
+_ONE_PATH = "a mapping from one of ball.k, ball.g, energy and scenes.NAME.FIELD to its values"
+_VALUES = allowed("a list of numbers or texts, none of them twice", min_length=1)
+_Value = Annotated[
+    Annotated[str, fields.FIRST] | Annotated[fields.Number, fields.SECOND],
+    fields.first_if(str),
+    allowed("a number or a text"),
+]
+
+
 class Variant(fields.Block):
-    """a mapping with the keys ball, energy, method, scenes and scale, or some of them"""
+    """a mapping with the keys ball, energy, method, scenes, scale and values, or some of them"""
 
     ball: fields.PartOfBall = ABSENT
     """Replaces `k`, `g` or both in the ball of every scene."""
@@ -158,6 +170,18 @@ class Variant(fields.Block):
     ] = ABSENT
     """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
     lists, numbers and texts are replaced."""
+    values: Annotated[
+        dict[str, Annotated[list[_Value], _VALUES, Predicate(fields.distinct)]],
+        allowed(_ONE_PATH, min_length=1, max_length=1),
+        Predicate(lambda given: all(map(_PATH.fullmatch, given))),
+    ] = ABSENT
+    """Makes a range: a variant for each of these values, with all other fields as here."""
+
+
+VARIANTS = Annotated[
+    dict[fields.Name, Annotated[Variant, fields.NOT_EMPTY]],
+    allowed("a mapping from names to variants"),
+]
 
 
 def as_decimal(value: float) -> Fraction:
