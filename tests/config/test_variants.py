@@ -165,7 +165,7 @@ def test_a_faulty_variant_stops_only_itself():
 
 @pytest.mark.parametrize(("path", "values", "names"), [
     ("ball.g", [0.02, 0.03, 0.05], ["r-0p02", "r-0p03", "r-0p05"]),
-    ("ball.k", [0.3, 1e-1], ["r-0p3", "r-0p1"]),
+    ("ball.k", [0.3, 2.5e-1], ["r-0p3", "r-0p25"]),
     ("energy", [-0.001, 1e-05], ["r--0p001", "r-1e-05"]),
     ("scenes.fig3.duration", [10, 20.5], ["r-10", "r-20p5"]),
     ("scenes.fig4.type", ["elliptic", "inverse hyperbolic"],

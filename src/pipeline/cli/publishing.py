@@ -69,7 +69,7 @@ def make(
     config: Config,
     targets: Mapping[str, Drawings],
     args: Arguments,
-    data: Iterable[str] = (),
+    data: Sequence[str] = (),
     brief: bool = False,
 ) -> int:
     """Make figures in one run, publish them, print tables of them, and return the exit status.
@@ -101,7 +101,8 @@ def make(
         words = f"{len(missing)} of {len(results)} results not made, or not current"
         print_error(f"{words}: {names}{more}")
     elif outdated:
-        status = int(not PUBLISHED.keys().isdisjoint(targets))
+        shown = [file for group in PUBLISHED.keys() & targets for file in targets[group].values()]
+        status = int(bool(shown) and not outdated.keys().isdisjoint([*shown, *data]))
     for group, files in targets.items():
         rows, notes = list[FileRow](), dict[str, None]()
         for path, drawing in files.items():

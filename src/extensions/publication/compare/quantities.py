@@ -1,7 +1,7 @@
 """Reported quantities over a range of variants: tables, and curves of those that are numbers."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -56,33 +56,28 @@ def rows(of: Range, scene: str, reported: Reported) -> Iterator[tuple[object, ..
 @style.pinned()
 def curves(of: Range, reported: Reported) -> Figure | None:
     """Draw each number that differs between the variants against the value, with its deviation."""
-    numbers = {
-        name: [number(each.get(name, "")) for each in reported.values()]
-        for name in dict.fromkeys(n for each in reported.values() for n in each)
-    }
-    drawn = {n: found for n, found in numbers.items() if len({*filter(None, found)}) > 1}
+    names = dict.fromkeys(name for each in reported.values() for name in each)
+    numbers = {n: [number(each.get(n, "")) for each in reported.values()] for n in names}
+    drawn = [n for n, found in numbers.items() if len({each[0] for each in found if each}) > 1]
     if not drawn:
         return None
     values: list[Any] = [of.members[member] for member in reported]
-    across = _across(values, of.path)
+    if any(isinstance(value, str) for value in values):
+        labels, values = [str(value) for value in values], [*range(len(values))]
+        across = Axis((-0.5, len(values) - 0.5), values, of.path, labels=labels)
+    else:
+        across = around(values, 0.05, 5, of.path)
+    order = np.argsort(values)
     high = _BELOW + len(drawn) * (_HIGH + _ROOM)
     sheet = Sheet(style.COLUMN, high + -high % 75)  # whole quarters of an inch
     top = sheet.high - _ROOM
-    for i, (name, found) in enumerate(drawn.items()):
-        value, deviation = np.array([each or (np.nan, np.nan) for each in found]).T
+    for name in drawn:
+        pairs = np.array([each or (np.nan, np.nan) for each in numbers[name]])
+        value, deviation = pairs[order].T
         text = f"{name} and standard deviation" if np.isfinite(deviation).any() else name
         ends = value - np.nan_to_num(deviation), value + np.nan_to_num(deviation)
-        below = across if i == len(drawn) - 1 else across.blank()
-        up = around(ends, 0.1, 3, text)
+        below, up = across if name == drawn[-1] else across.blank(), around(ends, 0.1, 3, text)
         panel = Panel(sheet, (_LEFT, top - _HIGH, _RIGHT, top), below, up)
-        x = np.array(values if across.labels is None else range(len(values)))
-        panel.estimates(x, value, *ends, style.BLUE)
+        panel.estimates(np.array(values)[order], value, *ends, style.BLUE)
         top -= _HIGH + _ROOM
     return sheet.figure
-
-
-def _across(values: Sequence[Any], path: str) -> Axis:
-    """Return the axis of the values, which may be texts."""
-    if all(isinstance(value, int | float) for value in values):
-        return around(values, 0.05, 5, path)
-    return Axis((-0.5, len(values) - 0.5), range(len(values)), path, labels=[*map(str, values)])
