@@ -59,6 +59,12 @@ def complaints(document):
     return raised.value.lines
 
 
+def faults(document):
+    """The lines about the mistakes in variants of a document that is otherwise correct."""
+    found = config.check(document).faulty.values()
+    return [*dict.fromkeys(str(mistake) for mistakes in found for mistake in mistakes)]
+
+
 def complaint(document):
     """The line of the error for a document with one mistake."""
     (line,) = complaints(document)

@@ -7,9 +7,9 @@ from functools import cache
 
 from .declaration import Command, SnakemakeCommand, parts
 
-# Required arguments that argparse treats as optional: without one, the command itself lists the
-# possible names.
-REQUIRED = ("variant", "a", "b")
+# An argument that argparse treats as optional: without a name, the command itself lists the
+# possible ones.
+REQUIRED = "variant"
 _FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
 COMMANDS = {
     "list": Command(
@@ -18,11 +18,8 @@ COMMANDS = {
         group="figures",
     ),
     "variant": SnakemakeCommand(
-        "make the figures of a variant, in results/NAME/figures/",
-        {
-            "variant": {"nargs": "?", "metavar": "NAME", "help": "a variant of config.yaml"},
-            "figure": _FIGURES,
-        },
+        "make the figures of variants, in results/VARIANT/figures/",
+        {"variant": "variants or ranges of config.yaml; with names of figures, only these"},
         group="figures",
     ),
     "verify": Command(
@@ -38,7 +35,8 @@ COMMANDS = {
     ),
     "accept": Command(
         "make the present figures the committed ones",
-        details="Includes other published pictures that were made, and prints what changed.",
+        details="Includes other published pictures that were made, and prints what changed. "
+        "Removes those that were published here, that no scene makes and git does not track.",
         group="publishing",
     ),
     "test": Command(

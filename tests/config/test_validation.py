@@ -37,7 +37,6 @@ def test_something_else_than_a_config_is_refused(document):
     (b"--- 1\n--- 2\n", "not valid YAML"),
     (b"ball: &a [*a]\nscenes: {}", "ball: "),
     (b"? {a: 1}\n: 3", "line 1, column 3: not valid YAML: found unhashable key"),
-    (b"#" * 500_001, "config.yaml: has 500001 bytes: expected at most 500000"),
     (b"ball: " + b"{k: " * 3000, "config.yaml: nested too deeply"),
     (None, "config.yaml: cannot be read: No such file"),
 ])  # fmt: skip
@@ -171,6 +170,8 @@ VALUES = {
     ("VARIED", 0, "line 20: variants.low.scenes.fig2.impacts: 0 is not allowed"),
     ("SCENE", "fog2", "line 21: variants.low.scenes.fog2: no scene fog2"),
     ("  low:", "  paper:", "line 16: variants: 'paper' is not allowed"),
+    ("energy: ENERGY", "values: {ball.g: [0.03,\n    0.3]}",
+     "line 18: variants.low.values.ball.g[1]: 0.3 is not allowed"),
     ("KEY", "scnes", "line 22: scnes: unknown key: did you mean scenes?"),
     ("ball: {k: 0.2, g: 0.04}", "", "ball: missing"),
     (DOCUMENT, "[]", "[] is not allowed: expected a mapping with the keys ball and scenes\n"),
@@ -184,11 +185,13 @@ def test_a_mistake_names_the_line_of_its_key(tmp_path, mark, value, words):
         text = text.replace("variants2:", "")
     path = tmp_path / "config.yaml"
     path.write_text(text)
-    with pytest.raises(config.ConfigError) as raised:
-        config.load(path)
-    assert f"{raised.value.lines[0]}\n".startswith(f"config.yaml: {words}")
+    try:
+        lines = [line for lines in config.load(path).faulty.values() for line in lines]
+    except config.ConfigError as error:
+        lines = error.lines
+    assert f"{lines[0]}\n".startswith(f"config.yaml: {words}")
     if mark == "STARTS":  # repeated below
-        assert raised.value.lines[1].startswith("config.yaml: line 8: scenes.again.starts[2]")
+        assert lines[1].startswith("config.yaml: line 8: scenes.again.starts[2]")
 
 
 def test_a_mistake_in_a_block_of_a_part_says_what_it_concerns(tmp_path, monkeypatch):

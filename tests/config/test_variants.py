@@ -1,7 +1,7 @@
 """Variants of the config: what they replace, keep and leave out, and what is refused."""
 
 import pytest
-from documents import complaints
+from documents import complaints, faults
 from project import shipped
 
 from pipeline import config
@@ -64,6 +64,7 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
 @pytest.mark.parametrize(("name", "block", "parts"), [
     ("a/b", {"energy": 0.002}, ["variants: 'a/b'", "letters, digits, - and _"]),
     ("paper", {"energy": 0.002}, ["variants: 'paper'", "other than paper"]),
+    ("fig2", {"energy": 0.002}, ["variants: 'fig2'", "a name that no scene has"]),
     ("v", {}, ["variants.v: {}"]),
     ("v", {"bal": {"k": 0.3}}, ["variants.v.bal: unknown key: did you mean ball?"]),
     ("v", {"ball": {"g": 0.3}}, ["variants.v.ball.g: 0.3", "0 < g < k = 0.2"]),
@@ -76,7 +77,7 @@ def test_the_papers_axes_are_dropped_where_they_no_longer_fit(change, scene, kep
     ("v", {"scenes": {"fig3": {"picture": "tangle"}}}, ["fig3.picture: 'tangle'", "motion"]),
 ])  # fmt: skip
 def test_a_bad_variant_is_refused_a_line_a_mistake(name, block, parts):
-    lines = complaints(shipped() | {"variants": {name: block}})
+    lines = faults(shipped() | {"variants": {name: block}})
     assert len(lines) == (7 if block == NO_SCENE_FITS else 1)
     for part in parts:
         assert part in lines[0]
@@ -143,7 +144,7 @@ def test_a_method_that_manifolds_cannot_have_leaves_them_out():
 def test_what_a_variant_says_of_a_scene_is_a_mistake_that_names_it(variant, line):
     document = shipped()
     document["scenes"] |= {"small": SMALL, "point": POINT}
-    lines = complaints(document | {"variants": {"v": variant}})
+    lines = faults(document | {"variants": {"v": variant}})
     assert line in lines[0] and "variants.v." in lines[0]
     assert len(lines) == (2 if "for fig2" in line else 1)  # the small ball has another bound
 
@@ -151,3 +152,91 @@ def test_what_a_variant_says_of_a_scene_is_a_mistake_that_names_it(variant, line
 def test_the_ball_of_the_file_is_refused_once():
     lines = complaints(shipped() | {"ball": {"k": 0.2, "g": 0.3}})
     assert list(lines) == ["ball.g: 0.3 is not allowed: expected 0 < g < k = 0.2"]
+
+
+def test_a_faulty_variant_stops_only_itself():
+    wrong, right = {"energy": 7}, {"energy": 0.009}
+    found = checked({"wrong": wrong, "right": right, "odd": {"bal": 1}})
+    assert found.own_variants == ["right"] and [*found.faulty] == ["wrong", "odd"]
+    document = shipped() | {"variants": {"odd": {"bal": 1}}, "ball": {"k": 0.2, "g": 0.3}}
+    lines = complaints(document)  # with a mistake of the file, all are said at once
+    assert [line.partition(":")[0] for line in lines] == ["ball.g", "variants.odd.bal"]
+
+
+@pytest.mark.parametrize(("path", "values", "names"), [
+    ("ball.g", [0.02, 0.03, 0.05], ["r-0p02", "r-0p03", "r-0p05"]),
+    ("ball.k", [0.3, 2.5e-1], ["r-0p3", "r-0p25"]),
+    ("energy", [-0.001, 1e-05], ["r--0p001", "r-1e-05"]),
+    ("scenes.fig3.duration", [10, 20.5], ["r-10", "r-20p5"]),
+    ("scenes.fig4.type", ["elliptic", "inverse hyperbolic"],
+     ["r-elliptic", "r-inverse-hyperbolic"]),
+])  # fmt: skip
+def test_a_range_becomes_a_variant_for_each_value(path, values, names):
+    found = checked({"r": {"values": {path: values}}})
+    assert found.own_variants == names and found.faulty == {}
+    assert found.ranges == {"r": (path, dict(zip(names, values, strict=True)))}
+    scene, *keys = path.removeprefix("scenes.").split(".")
+    for name, value in zip(names, values, strict=True):
+        block = found.variants[name]["fig2" if scene in ("ball", "energy") else scene].as_mapping()
+        for key in keys if path.startswith("scenes") else path.split("."):
+            block = block[key]
+        assert block == value and type(block) is type(value)
+
+
+def test_other_fields_of_a_range_hold_for_all_and_none_is_changed():
+    block = {
+        "values": {"ball.g": [0.02, 0.03]},
+        "ball": {"k": 0.3},
+        "scenes": {"fig3": {"period": 2}},
+    }
+    document = shipped() | {"variants": {"r": block}}
+    for name, scenes in config.check(document).variants.items():
+        if name.startswith("r-"):
+            assert scenes["fig2"].ball.k == 0.3 and scenes["fig3"].period == 2
+    assert block["values"] == {"ball.g": [0.02, 0.03]} and block["ball"] == {"k": 0.3}
+
+
+@pytest.mark.parametrize(("block", "lines", "left"), [
+    # A mistake in a value names the value, and stops this variant alone.
+    ({"values": {"ball.g": [0.02, 0.3]}}, ["variants.r.values.ball.g[1]: 0.3 is not"], ["r-0p02"]),
+    ({"values": {"ball.g": [0.02, "x"]}}, ["variants.r.values.ball.g[1]: 'x' is not"], ["r-0p02"]),
+    ({"values": {"ball.g": [0.02, 0.0995]}, "scenes": {}},
+     [f"variants.r.values.ball.g[1]: scenes.fig{i}.energy: 0.0" for i in range(2, 9)], ["r-0p02"]),
+    # A mistake in the path, or in what all have, is said once.
+    ({"values": {"scenes.fig3.durration": [9, 8]}},
+     ["variants.r.values.scenes.fig3.durration: unknown key: did you mean duration?"], []),
+    ({"values": {"scenes.fig33.duration": [9, 8]}},
+     ["variants.r.values.scenes.fig33.duration: no scene fig33: did"], []),
+    ({"values": {"energy": [0.009, 0.008]}, "scenes": {"fig2": {"impacts": 0}}},
+     ["variants.r.scenes.fig2.impacts: 0 is not allowed"], []),
+    ({"values": {"energy": [0.009]}, "bal": {}}, ["variants.r.bal: unknown key"], []),
+    # What is no range.
+    ({"values": {"bal.g": [0.02]}}, ["variants.r.values: {'bal.g': [0.02]} is not allowed"], []),
+    ({"values": {"scale": [2]}}, ["variants.r.values: {'scale': [2]} is not allowed"], []),
+    ({"values": {"energy": [0.01], "ball.g": [0.1]}}, ["variants.r.values: {'energy'"], []),
+    ({"values": {}}, ["variants.r.values: {} is not allowed: expected a mapping from one"], []),
+    ({"values": {"energy": 0.01}}, ["variants.r.values.energy: 0.01 is not allowed"], []),
+    ({"values": {"energy": [0.01, 0.010]}}, ["variants.r.values.energy: [0.01, 0.01] is"], []),
+    ({"values": {"energy": [True]}}, ["variants.r.values.energy[0]: true is not allowed"], []),
+    ({"values": {"scenes.fig4.type": ["a b", "a-b"]}},
+     ["variants.r.values.scenes.fig4.type: ['a b', 'a-b'] is not allowed: expected values"], []),
+])  # fmt: skip
+def test_mistakes_of_a_range_are_named_where_they_are_written(block, lines, left):
+    document = shipped() | {"variants": {"r": block}}
+    found = faults(document)
+    assert len(found) == len(lines)
+    for line, start in zip(found, lines, strict=True):
+        assert line.startswith(start)
+    assert config.check(document).own_variants == left
+
+
+def test_a_variant_of_a_range_has_a_name_of_its_own():
+    found = checked({"r-0p009": {"energy": 0.002}, "r": {"values": {"energy": [0.009]}}})
+    assert found.own_variants == ["r-0p009"] and [*found.faulty] == ["r"]
+    (mistake,) = found.faulty["r"]
+    assert str(mistake).startswith("variants.r.values.energy: [0.009] is not allowed: expected val")
+    assert found.variants["r-0p009"]["fig2"].energy == 0.002
+
+
+def test_the_shipped_variants_have_no_mistakes():
+    assert checked().faulty == {}

@@ -12,7 +12,7 @@ from pseudorigid.dynamics import fixed_point
 @pytest.mark.parametrize("k", [0.05, 0.2, 1.0])
 @pytest.mark.parametrize("e", [-0.3, 1.0, 6.25])
 def test_the_numbers_of_the_fixed_point_are_those_of_the_map(k, e):
-    ball = Ball(k, 1.0)
+    ball = Ball.dimensionless(k)
     x, trace, rotation = fixed_point.numbers(k, e)
     state = ball.state_xy(x, 0.0, e)
     assert np.allclose(ball.impact(*state)[:3], state, atol=1e-12)

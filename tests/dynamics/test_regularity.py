@@ -128,7 +128,10 @@ def test_a_limit_of_impacts_changes_no_word_but_leaves_orbits_undecided():
         some = pseudorigid.classify_orbits(BALL, states, impacts)
         decided = whole["followed"] <= impacts
         decided &= whole["type"] != "undecided"
-        assert np.array_equal(some["type"] == whole["type"], decided | (some["type"] == "undecided") & (whole["type"] == "undecided"))
+        assert np.array_equal(
+            some["type"] == whole["type"],
+            decided | (some["type"] == "undecided") & (whole["type"] == "undecided"),
+        )
         assert np.all(some["type"].values[~decided.values] == "undecided")
         assert some["followed"].max() == max(n for n in LENGTHS if n <= impacts)
     regular = whole["type"] == "regular"

@@ -85,8 +85,10 @@ def test_named_files_exist(document):
             assert any(fnmatch(f"/{file}", f"*/{name}") for file in FILES), word
 
 
-def test_the_variant_of_the_page_of_commands():
+def test_the_variants_of_the_page_of_commands():
     (block,) = (text for text in blocks("docs/commands.md") if text.startswith("variants:"))
     document = yaml.safe_load(text_of("config.yaml")) | yaml.safe_load(block)
-    variant = config.check(document).variants["lower-energy"]
+    variants = config.check(document).variants
+    variant = variants["lower-energy"]
     assert variant["fig3"].duration == 30 and variant["fig2"].energy == 0.0098
+    assert variants["gravity-0p03"]["fig2"].ball.g == 0.03

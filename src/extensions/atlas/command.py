@@ -54,7 +54,7 @@ def run(args: Arguments) -> int:
         if args.gpu and not args.makes_nothing and not _computed(args, [*filter(None, data)]):
             return INTERRUPTED
         files = drawings | {path: path for path in data if path}
-        return publishing.make(args.config, group, files, args)
+        return publishing.make(args.config, {group: files}, args)
 
 
 def _computed(args: Arguments, datasets: list[str]) -> bool:

@@ -34,7 +34,7 @@ def run(args: Arguments) -> int:
         files = publishing.drawings_of(config, "claims")
         if lacking and not files:
             raise UsageError(lacking)
-        status = publishing.make(config, "claims", files, args, data)
+        status = publishing.make(config, {"claims": files}, args, data)
         if lacking and status != INTERRUPTED:
             print(f"\n{claims.FILE} stays as it is: {lacking}")
         if status or lacking or args.makes_nothing:

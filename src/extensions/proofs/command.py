@@ -34,7 +34,7 @@ def run(args: Arguments) -> int:
     with locked():
         if args.pictures:
             wanted = publishing.drawings_of(args.config, "proofs")
-            return publishing.make(args.config, "proofs", wanted, args)
+            return publishing.make(args.config, {"proofs": wanted}, args)
         if args.impacts:
             from .proved_impacts import prove_figures
 
@@ -60,7 +60,7 @@ def _check(args: Arguments, names: Sequence[str]) -> int:
     results = [known[name] for name in names]
     for path in results if args.again else ():
         (ROOT / path).unlink(missing_ok=True)
-    status = publishing.make(args.config, "theorems", {}, args, results)
+    status = publishing.make(args.config, {"theorems": {}}, args, results)
     if status or args.makes_nothing:
         return status
     for path in results:

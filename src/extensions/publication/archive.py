@@ -94,7 +94,7 @@ def refuse_unpublished(root: Path, config: Config) -> list[str]:
         if problem := findings.not_published(root, partial=published_set.on_request):
             raise ArchiveError(f"{problem}: run {published_set.command}")
         if findings.unlisted:
-            raise ArchiveError(findings.unlisted[0])  # which accept does not mend
+            raise ArchiveError(next(iter(findings.unlisted.values())))
         if problems := [*findings.problems, *_uncommitted(findings)]:
             raise ArchiveError(f"{problems[0]}: run ./reproduce accept")
         left_out += findings.left_out

@@ -41,11 +41,10 @@ PART = Part(
             needs=_TEXT,
         ),
         "compare": SnakemakeCommand(
-            "show what differs between two variants, figure by figure",
+            "show what differs between two variants or over a range, figure by figure",
             {
-                "a": {"nargs": "?", "metavar": "A", "help": "a variant of config.yaml, or paper"},
-                "b": {"nargs": "?", "metavar": "B", "help": "another one"},
-                "figure": "figures to compare, by their names in config.yaml; by default all",
+                "variant": "two variants (paper is one) or a range of config.yaml; with names of "
+                "figures, only these",
             },
             module="extensions.publication.compare.command",
             group="checks",

@@ -124,17 +124,31 @@ def edited_lists(root: Path) -> dict[str, str]:
 
 
 def unlisted_files(
-    root: Path, folder: str, names: Collection[str], impossible: Mapping[str, str] = {}
-) -> list[str]:
-    """Return a line for each picture in a published folder whose name is not in `names`.
+    root: Path, group: str, names: Collection[str], impossible: Mapping[str, str] = {}
+) -> dict[str, str]:
+    """Map each picture in a set's published folder whose name is not in `names` to words about it.
 
     `impossible` maps scenes that cannot exist to the reasons.
     """
-    lines = []
-    for path in sorted((root / folder).glob("[!.]*")):
+    found = {}
+    for path in sorted((root / PUBLISHED[group]).glob("[!.]*")):
         if path.suffix[1:] in SHOWN and path.name not in names:
             why = impossible.get(path.stem)
             words = f"its scene cannot exist: {why}" if why else "no scene makes it"
             end = "change its scene" if why else "put its scene back"
-            lines.append(f"{folder}/{path.name}: {words}: delete it, or {end}")
-    return lines
+            place = f"{PUBLISHED[group]}/{path.name}"
+            removes = "./reproduce accept removes it"
+            how = removes if is_left_over(root, group, path.name) else "delete it"
+            found[place] = f"{place}: {words}: {how}, or {end}"
+    return found
+
+
+def is_left_over(root: Path, group: str, name: str) -> bool:
+    """Return whether a published file is a drawing that was made here, and git does not track it.
+
+    Drawings stay in results when their scenes go.
+    """
+    path = f"{PUBLISHED[group]}/{name}"
+    if file_hash(root / path) != file_hash(root / f"results/{group}/figures/{name}"):
+        return False
+    return git("ls-files", "--", path, root=root) == b""  # None without a repository

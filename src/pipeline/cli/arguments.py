@@ -16,7 +16,7 @@ from ..declaration import files, lacking
 from ..records.files import read_text
 from ..records.sources import ROOT
 from ..spelling import suggestion
-from .errors import print_once
+from .errors import print_error, print_once
 
 if TYPE_CHECKING:  # it needs packages
     from ..config import Config
@@ -41,6 +41,7 @@ class Arguments(argparse.Namespace):
 
     dry_run = False
     cores = "all"
+    told = False  # whether mistakes in variants were printed
 
     @property
     def makes_nothing(self) -> bool:
@@ -49,12 +50,17 @@ class Arguments(argparse.Namespace):
 
     @cached_property
     def config(self) -> "Config":
-        """The checked config.yaml."""
+        """The checked config.yaml. Prints the mistakes in its variants, which stop only these."""
         from ..config import load  # needs packages
 
         config = load(ROOT / "config.yaml")
         if words := config.warning():
             print_once(words)
+        lines = dict.fromkeys(str(line) for lines in config.faulty.values() for line in lines)
+        if lines and not self.told:
+            print(*lines, sep="\n", file=sys.stderr)
+            print_error(f"left out because of these mistakes: {', '.join(config.faulty)}")
+        self.told = True
         return config
 
 
@@ -160,9 +166,7 @@ def _parser(name: str | None) -> _Parser:
             "-c", "--cores", type=_number_of_cores, default="all", metavar="N", help=text
         )
     parser.usage = parser.format_usage().partition(": ")[2].strip()
-    for key, how in command.arguments.items():
-        if key in REQUIRED:
-            parser.usage = parser.usage.replace(f"[{how['metavar']}]", how["metavar"])
+    parser.usage = parser.usage.replace(f"[{REQUIRED} ...]", f"{REQUIRED} [{REQUIRED} ...]")
     return parser
 
 

@@ -1,6 +1,6 @@
 """Make the figures of a variant or set of scenes, publish them, and print the state of each."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import PurePath
 
@@ -10,6 +10,7 @@ from ..config.results import drawn
 from ..config.schema.parts import PUBLISHED
 from ..records.files import ABSENT, FileError, read_bytes, why_not_a_file, write_whole
 from ..records.provenance import (
+    CURRENT,
     MISSING,
     Freshness,
     failure,
@@ -23,6 +24,7 @@ from .arguments import Arguments
 from .errors import CommandLineError, print_error
 from .table import FileRow, print_files
 
+_NOT_PUBLISHED = "not published"  # a state
 Drawings = dict[str, str]  # path where users find a figure -> path of its drawing in results
 
 
@@ -31,6 +33,23 @@ def require_known(kind: str, names: Iterable[str], known: Sequence[str]) -> None
     for name in names:
         if name not in known:
             raise CommandLineError(unknown(kind, name, known))
+
+
+def variants_and_scenes(args: Arguments, *further: str) -> tuple[list[str], list[str]]:
+    """Return the variants that a command names, those of ranges too, and the scenes.
+
+    `further` are other names of variants. Raises CommandLineError without a variant.
+    """
+    ranges, names = args.config.ranges, args.variant
+    known = [*further, *args.config.own_variants, *ranges, *args.config.faulty]
+    scenes = [name for name in names if name not in known]
+    if len(scenes) == len(names):
+        require_known("variant", scenes, known)
+        have = ", ".join(dict.fromkeys(known)) or "none"
+        raise CommandLineError(f"{args.word} needs a name: config.yaml has {have}")
+    require_known("variant or figure", scenes, [*known, *args.config.scenes])
+    found = (ranges[n].members if n in ranges else [n] for n in names if n in known)
+    return [*dict.fromkeys(member for each in found for member in each)], scenes
 
 
 def drawings_of(config: Config, variant: str, names: Sequence[str] = ()) -> Drawings:
@@ -48,27 +67,29 @@ def drawings_of(config: Config, variant: str, names: Sequence[str] = ()) -> Draw
 
 def make(
     config: Config,
-    group: str,
-    drawings: Drawings,
+    targets: Mapping[str, Drawings],
     args: Arguments,
-    data: Iterable[str] = (),
+    data: Sequence[str] = (),
     brief: bool = False,
 ) -> int:
-    """Make and publish figures, print a table of them, and return the exit status.
+    """Make figures in one run, publish them, print tables of them, and return the exit status.
 
-    `group` is a set of scenes or a variant. `data` are further results to make, which the table
-    leaves out. `args` has the number of cores and the options of snakemake. A `brief` table leaves
-    out figures that were current. A figure that cannot exist, for instance for want of its periodic
-    orbit, is not made; if nothing else is missing, the status is 1 only for a published set.
+    `targets` maps sets of scenes and variants to their figures. `data` are further results to make,
+    which the tables leave out. `args` has the number of cores and the options of snakemake. A
+    `brief` table leaves out figures that were current. A figure that cannot exist, for instance for
+    want of its periodic orbit, is not made; if nothing else is missing, the status is 1 only for a
+    published set.
     """
-    left_out, before = config.left_out.get(group, {}), Freshness(ROOT, config.build_specs())
-    results = [path for path in (*drawings.values(), *data) if path in before.build_specs]
+    before = Freshness(ROOT, config.build_specs())
+    drawings = [drawing for files in targets.values() for drawing in files.values()]
+    results = [path for path in (*drawings, *data) if path in before.build_specs]
     status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
-        for drawing in drawings.values():
-            if drawing not in before.build_specs:
-                scene = PurePath(drawing).stem
-                print(f"{scene}: {left_out[scene]}")
+        for group, files in targets.items():
+            for drawing in files.values():
+                if drawing not in before.build_specs:
+                    scene = PurePath(drawing).stem
+                    print(f"{group}/{scene}: {config.left_out[group][scene]}")
         return status
     old = before.outdated(results)
     now = Freshness(ROOT, before.build_specs) if old or args.options else before
@@ -80,41 +101,53 @@ def make(
         words = f"{len(missing)} of {len(results)} results not made, or not current"
         print_error(f"{words}: {names}{more}")
     elif outdated:
-        status = int(group in PUBLISHED)
-    rows, notes = list[FileRow](), dict[str, None]()
-    for path, drawing in drawings.items():
-        size = compared = ""
-        state = "recomputed" if drawing in old else "current"
-        if drawing not in before.build_specs or now.refusal(drawing):
-            state = outdated.get(drawing) or left_out[PurePath(drawing).stem]
-            for file in (ROOT / drawing, ROOT / record_path(drawing)):  # of another config
-                if not why_not_a_file(file):
-                    file.unlink(missing_ok=True)
-        elif drawing in outdated:
-            state = _why_not_made(now, drawing)
-        else:
-            notes |= dict.fromkeys(_notes(now, drawing))
-            try:
-                how = _publish(path, drawing)
-                state = f"published again: {how}" if how and state == "current" else state
-                size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
-                if path.startswith(f"{PUBLISHED.get(group)}/"):
-                    compared = committed_state(ROOT, path)
-            except FileError as error:
-                status = status or 1
-                state = f"not published: {str(error).removeprefix(f'{ROOT / path}: ')}"
-        if not (brief and state == "current"):
-            rows.append((path, size, (state, compared)))
-    if rows:
-        for path in sorted(outdated.keys() - drawings.values()):
+        shown = [file for group in PUBLISHED.keys() & targets for file in targets[group].values()]
+        status = int(bool(shown) and not outdated.keys().isdisjoint([*shown, *data]))
+    for group, files in targets.items():
+        rows, notes = list[FileRow](), dict[str, None]()
+        for path, drawing in files.items():
+            row = _published(config, group, path, drawing, old, now)
+            status = status or int(row[2][0].startswith(_NOT_PUBLISHED))
+            if drawing in now.build_specs and not now.reason(drawing):
+                notes |= dict.fromkeys(_notes(now, drawing))
+            if not (brief and row[2][0] == CURRENT):
+                rows.append(row)
+        for path in sorted(outdated.keys() - drawings) if rows else ():
             if now.refusal(path):
                 notes[f"{path}: {outdated[path]}"] = None
-        if group in PUBLISHED:
+        if rows and group in PUBLISHED:
             figures = [PurePath(path).name for path in config.figures(group)]
-            notes |= dict.fromkeys(unlisted_files(ROOT, PUBLISHED[group], figures))
+            notes |= dict.fromkeys(unlisted_files(ROOT, group, figures).values())
         title = "as committed" if any(cells[1] for _, _, cells in rows) else ""
-        print_files("", rows, ("figure", "files", "state", title), notes)
+        if rows:
+            print_files("", rows, ("figure", "files", "state", title), notes)
     return status
+
+
+def _published(
+    config: Config, group: str, path: str, drawing: str, old: Collection[str], now: Freshness
+) -> FileRow:
+    """Publish a figure if it is current and return its row; `old` was outdated before the run."""
+    if drawing not in now.build_specs or now.refusal(drawing):
+        for file in (ROOT / drawing, ROOT / record_path(drawing)):  # of another config
+            if not why_not_a_file(file):
+                file.unlink(missing_ok=True)
+        known = drawing in now.build_specs
+        state = now.reason(drawing) if known else config.left_out[group][PurePath(drawing).stem]
+        return path, "", (str(state), "")
+    if now.reason(drawing):
+        return path, "", (_why_not_made(now, drawing), "")
+    state = "recomputed" if drawing in old else CURRENT
+    size = compared = ""
+    try:
+        how = _publish(path, drawing)
+        state = f"published again: {how}" if how and state == CURRENT else state
+        size = f"{(ROOT / path).stat().st_size / 1000:5,.0f} kB"
+        if path.startswith(f"{PUBLISHED.get(group)}/"):
+            compared = committed_state(ROOT, path)
+    except FileError as error:
+        state = f"{_NOT_PUBLISHED}: {str(error).removeprefix(f'{ROOT / path}: ')}"
+    return path, size, (state, compared)
 
 
 def _notes(freshness: Freshness, drawing: str) -> Iterator[str]:

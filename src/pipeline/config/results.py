@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import PurePath
-from typing import Any
+from typing import Any, NamedTuple
 
 from pseudorigid.dynamics.bounds import LARGEST_OF_SPHERES, NO_SPHERE
 
@@ -27,18 +27,27 @@ Datasets = dict[tuple[str, str, str], str]  # variant, scene, stage -> path of t
 _source_files = cache(sources.source_files)
 
 
+class Range(NamedTuple):
+    """A range of variants: the path of the value that differs, and the value of each variant."""
+
+    path: str
+    members: dict[str, Any]
+
+
 @dataclass(frozen=True)
 class Config:
     """A checked config, whose scenes are complete.
 
     `variants` has the sets of scenes and then the variants of the main set. `left_out` maps each of
     these to the scenes that it cannot have, with the reasons. `document` has the blocks of parts
-    that are no scenes.
+    that are no scenes. `faulty` has the mistakes in variants and ranges that cannot be made.
     """
 
     variants: Variants
     left_out: dict[str, dict[str, str]]
     document: Any
+    ranges: dict[str, Range]
+    faulty: dict[str, list[Any]]
 
     @property
     def scenes(self) -> dict[str, Picture]:
@@ -47,7 +56,7 @@ class Config:
 
     @property
     def own_variants(self) -> list[str]:
-        """The names of the variants of the main set."""
+        """The names of the variants of the main set that can be made."""
         return [name for name in self.variants if name not in SETS]
 
     @cached_property

@@ -6,7 +6,6 @@ import os
 import re
 import resource
 import shutil
-import stat
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -15,20 +14,10 @@ from pathlib import Path
 
 _Path = str | os.PathLike[str]
 ABSENT = (FileNotFoundError, NotADirectoryError)  # errors of a path without a file
-# Largest size of a YAML file, in bytes. A larger file is a slip and would take long to parse. (The
-# faster parser of libyaml is not used: it crashes on deeply nested text.)
-LARGEST_YAML = 500_000
 _FULL_MB = 1.0  # a disk with less free space counts as full
 # What Python and the system's loader say where memory is short.
 _LEAST_MEMORY = 600e6  # bytes of addresses that a run takes on two cores; fewer end in tracebacks
 _NO_MEMORY = "MemoryError|Cannot allocate memory|failed to map segment"
-_KINDS = {
-    stat.S_IFDIR: "a folder",
-    stat.S_IFIFO: "a FIFO",
-    stat.S_IFSOCK: "a socket",
-    stat.S_IFBLK: "a device",
-    stat.S_IFCHR: "a device",
-}
 
 
 class FileError(ValueError):
@@ -37,15 +26,10 @@ class FileError(ValueError):
 
 def why_not_a_file(path: _Path) -> str | None:
     """Say what is in the place of a regular file; None for a regular file or nothing."""
-    try:
-        kind = stat.S_IFMT(os.stat(path).st_mode)
-    except ABSENT:
+    if not os.path.exists(path) or os.path.isfile(path):
         return None
-    except OSError as error:
-        return f"cannot be read: {error.strerror}"
-    if kind == stat.S_IFREG:
-        return None
-    return f"{_KINDS.get(kind, 'no file')} is in its place: move it away"
+    what = "a folder" if os.path.isdir(path) else "a special file"
+    return f"{what} is in its place: move it away"
 
 
 @contextmanager
@@ -80,8 +64,6 @@ def read_text(path: _Path) -> str:
 def read_yaml(path: Path) -> str:
     """Return the text of a YAML file; ValueError if it is none, as far as its text shows that."""
     try:
-        if path.stat().st_size > LARGEST_YAML:
-            raise ValueError(f"has {path.stat().st_size} bytes: expected at most {LARGEST_YAML}")
         text = read_text(path)
     except OSError as error:
         raise ValueError(f"cannot be read: {error.strerror}") from None

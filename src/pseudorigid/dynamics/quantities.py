@@ -152,7 +152,10 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     rotation, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
         types[finite], rotation[finite], followed[finite] = judged(ball, columns, impacts)
-    dims, turns = orbit_dims(finite.shape), "rotation number around the fixed point, turns an impact"
+    dims, turns = (
+        orbit_dims(finite.shape),
+        "rotation number around the fixed point, turns an impact",
+    )
     table = {
         "type": (dims, types, "regular, chaotic, undecided or undefined"),
         "rotation_number": (dims, rotation, turns),

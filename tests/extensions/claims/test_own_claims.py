@@ -20,7 +20,8 @@ def made(monkeypatch):
     """The drawings and further data of each run of snakemake, of which there is none."""
     runs = []
 
-    def make(config, group, drawings, args, data=()):
+    def make(config, targets, args, data=()):
+        ((group, drawings),) = targets.items()
         runs.append((group, list(drawings), list(data)))
         return 0
 

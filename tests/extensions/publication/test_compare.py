@@ -1,23 +1,31 @@
-"""./reproduce compare: config, norms, periodic orbits, exponents, and the picture."""
+"""./reproduce compare: config, norms, orbits, exponents and the picture, and ranges."""
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from commands import mistake
+from legible import assert_legible, frames_of
+from matplotlib.lines import Line2D
+from project import fresh_tree, of_scenes
 
-from extensions.publication.compare import datasets
+from extensions.publication.compare import datasets, picture, quantities
+from pipeline.config.results import Range
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
+from pseudorigid.figures.canvas import style
 
 NAMES = ("one", "two")
 
 
 def test_two_known_names_are_compared(capsys):
     message = mistake(capsys, "compare paper douled fig2")
-    assert message == ": no variant douled: did you mean doubled?"
-    message = mistake(capsys, "compare paper paper")
-    assert message.startswith(": compare needs two names of paper, ")  # and the variants
+    assert message == ": no variant or figure douled: did you mean doubled?"
+    for words in ("paper", "paper paper", "paper low doubled fig3", "paper fig2"):
+        message = mistake(capsys, f"compare {words}".replace("low", "below"))
+        assert message == ": compare takes two variants (paper is one), or one range"
+    assert mistake(capsys, "compare").startswith(": compare needs a name:")
 
 
 def dataset(values):
@@ -105,11 +113,109 @@ def test_both_figures_are_side_by_side_on_the_same_axes(variants):
     both = figure("compare/paper..low", "fig3")
     paper, low = figure("paper/figures", "fig3"), figure("low/figures", "fig3")
     high, wide, _ = paper.shape
-    assert both.shape == (high + 75, 2 * wide, 3)
-    assert np.array_equal(both[75:, :wide], paper)  # whose axes hold the other one
+    head = 2 * round(2 * wide / 30)  # two lines, each 11 pixels high where the sheet has 335
+    assert both.shape == (high + head, 2 * wide, 3)
+    assert np.array_equal(both[head:, :wide], paper)  # whose axes hold the other one
     labels = slice(150, None), slice(0, 175)
-    assert np.array_equal(both[75:, wide:][labels], paper[labels])
+    assert np.array_equal(both[head:, wide:][labels], paper[labels])
     assert not np.array_equal(low[labels], paper[labels])
-    assert (both[:75, :wide] < 128).any()
+    assert (both[:head, :wide] < 128).any()
     drawn = figure("paper/figures", "fig4")  # the other one cannot exist
-    assert np.array_equal(figure("compare/paper..low", "fig4")[75:, : drawn.shape[1]], drawn)
+    assert np.array_equal(figure("compare/paper..low", "fig4")[head:, : drawn.shape[1]], drawn)
+
+
+@pytest.mark.parametrize(("text", "number"), [
+    ("0.2311, standard deviation 0.0013", (0.2311, 0.0013)),
+    ("45,000", (45000.0, None)),
+    ("-1.5e-07", (-1.5e-07, None)),
+    ("0.0096", (0.0096, None)),
+    ("-0.2 to 0.5", None),
+    ("0.2296, 0.2317", None),
+    ("elliptic, period 6", None),
+])  # fmt: skip
+def test_reported_texts_are_numbers_with_a_standard_deviation_or_none(text, number):
+    found = quantities.number(text)
+    assert (found is None) == (number is None)
+    if found:
+        assert found[0] == number[0]
+        assert np.isnan(found[1]) if number[1] is None else found[1] == number[1]
+
+
+RANGE = Range("ball.g", {"a": 0.02, "b": 0.03, "c": 0.05})
+REPORTED = {
+    "a": {"orbits": "8", "mean": "0.25, standard deviation 0.01", "x": "0 to 1"},
+    "c": {"orbits": "8", "mean": "0.15, standard deviation 0.02", "x": "0 to 2"},
+}
+
+
+def test_the_table_has_a_row_for_each_value_and_says_once_what_is_alike():
+    assert [*quantities.table(RANGE, REPORTED)] == [
+        "ball.g  mean         x",
+        "0.02    0.25 ± 0.01  0 to 1",
+        "0.05    0.15 ± 0.02  0 to 2",
+        "orbits: 8, for each",
+    ]
+    rows = [*quantities.rows(RANGE, "fig7", REPORTED)]
+    assert rows[1] == ("fig7", "mean", "a", 0.02, 0.25, 0.01, "0.25, standard deviation 0.01")
+    assert rows[5] == ("fig7", "x", "c", 0.05, None, None, "0 to 2") and len(rows) == 6
+
+
+def test_curves_are_drawn_of_numbers_that_differ_with_their_deviations():
+    figure = quantities.curves(RANGE, REPORTED)
+    assert_legible(figure)
+    assert len(frames_of(figure)) == 1
+    texts = {text.get_text() for text in figure.texts}
+    assert {"mean and standard deviation", "ball.g"} <= texts and "orbits" not in texts
+    (_, bottom), (_, top) = frames_of(figure)[0].get_points() / figure.dpi
+    lines = [line for line in figure.findobj(Line2D) if line.get_color() == style.BLUE]
+    bars = [line.get_xydata() for line in lines if line.get_marker() != "o"]
+    (dots,) = (line.get_xydata() for line in lines if line.get_marker() == "o")
+    assert [np.ptp(bar[:, 1]) for bar in bars] == pytest.approx(
+        [np.ptp(bars[0][:, 1]), 2 * np.ptp(bars[0][:, 1])], rel=0.01
+    )
+    assert dots[0, 1] > dots[1, 1] and bottom < dots[:, 1].min() < dots[:, 1].max() < top
+    assert quantities.curves(RANGE, {"a": REPORTED["a"]}) is None  # one value makes no curve
+
+
+def test_curves_over_texts_have_these_below_them():
+    words = Range("scenes.fig4.type", {"a": "elliptic", "b": "hyperbolic"})
+    figure = quantities.curves(words, {"a": {"impacts": "4"}, "b": {"impacts": "6"}})
+    assert_legible(figure)
+    assert {"elliptic", "hyperbolic"} <= {text.get_text() for text in figure.texts}
+
+
+def test_a_sheet_of_many_pictures_is_no_wider_than_four(tmp_path):
+    picture_ = np.full((600, 1050, 3), 200, dtype=np.uint8)
+    drawings = {f"g = {i}": picture_ for i in range(9)} | {"g = 9": None}
+    picture.side_by_side(drawings, tmp_path / "sheet.png", quantities.curves(RANGE, REPORTED))
+    high, wide, _ = pixels(tmp_path / "sheet.png").shape
+    assert 4 * 1050 - 10 <= wide <= 4 * 1050
+    head, curves = 2 * round(wide / 30), 450 * wide / 1050
+    assert high == pytest.approx(head + 600 * wide / 10500 + curves, abs=3)
+    sheet = pixels(tmp_path / "sheet.png")
+    assert (sheet[:head] < 128).any() and (sheet[head + 300 :] < 128).any()
+
+
+@pytest.mark.slow
+def test_a_range_with_a_faulty_value_is_made_and_compared_by_one_command(finished, tmp_path):
+    given = {"gravity": {"values": {"ball.g": [0.03, 0.3, 0.05]}}}
+    document = of_scenes("fig3", "fig4", "fig7", variants=given)
+    tree = fresh_tree(tmp_path / "range", document, finished)
+    result = tree.run("compare", "gravity")
+    assert result.returncode == 2
+    assert "variants.gravity.values.ball.g[1]: 0.3 is not allowed" in result.stdout
+    assert "gravity-0p3: not made" in result.stdout
+    assert "  gravity-0p05: cannot exist: no elliptic orbit of period 6" in result.stdout
+    folder = tree.path / "results/compare/gravity"
+    assert {path.name for path in folder.iterdir()} == {
+        "fig3.png", "fig7.png", "quantities.csv", "quantities.txt"
+    }  # fmt: skip
+    table = pd.read_csv(folder / "quantities.csv")
+    rotation = table[table["quantity"] == "rotation number"].set_index("value")["number"]
+    orbits = {g: symmetric_orbits(Ball(k=0.2, g=g), 0.01, 1) for g in (0.03, 0.05)}
+    for g, found in orbits.items():
+        assert rotation[g] == pytest.approx(float(found["rotation_number"][0]), abs=1e-6)
+    figures = {path.parent.parent.name for path in tree.path.glob("results/*/figures/fig3.png")}
+    assert {"gravity-0p03", "gravity-0p05"} <= figures and "gravity-0p3" not in figures
+    assert tree.run("variant", "gravity-0p03", "fig3").returncode == 0
+    assert tree.run("variant", "gravity-0p03", "gravity-0p3", "fig3").returncode == 2

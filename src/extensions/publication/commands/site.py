@@ -27,7 +27,7 @@ def run(args: Arguments) -> int:
     """Make missing results, then the folder, whole or not at all."""
     with locked():
         files = publishing.drawings_of(args.config, MAIN)
-        status = publishing.make(args.config, MAIN, files, args)
+        status = publishing.make(args.config, {MAIN: files}, args)
         if status or args.makes_nothing:
             return status
         with one_line("site: "):

@@ -1,4 +1,4 @@
-"""./reproduce compare A B [FIGURE ...]: show the differences between two variants."""
+"""./reproduce compare A B, or a range: show the differences between variants."""
 
 from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
@@ -10,25 +10,28 @@ from pipeline.records.sources import ROOT
 
 
 def run(args: Arguments) -> int:
-    """Make the missing results of two variants and print what differs."""
-    config, status = args.config, 0
-    known = [MAIN, *config.own_variants]
-    names = [name for name in (args.a, args.b) if name is not None]
-    publishing.require_known("variant", names, known)
-    if len(set(names)) < 2:
-        raise CommandLineError(f"compare needs two names of {', '.join(known)}")
-    scenes = args.figure or list(config.scenes)
+    """Make the missing results of two variants or of a range, and print what differs."""
+    config = args.config
+    names, scenes = publishing.variants_and_scenes(args, MAIN)
+    of = next((name for name in args.variant if name in config.ranges), "")
+    sound = [name for name in names if name not in config.faulty]
+    faulty, scenes = len(sound) < len(names), scenes or list(config.scenes)
+    if faulty and not of:
+        return 2
+    if {*names} != {*config.ranges[of].members} if of else len(names) != 2:
+        raise CommandLineError("compare takes two variants (paper is one), or one range")
     with locked():
-        for name in names:
-            drawings = publishing.drawings_of(config, name, scenes)
-            made = publishing.make(config, name, drawings, args, brief=True)
-            status = made or status
-            if status == running.INTERRUPTED:
-                return status
+        targets = {name: publishing.drawings_of(config, name, scenes) for name in sound}
+        status = publishing.make(config, targets, args, brief=True)
+        if status == running.INTERRUPTED:
+            return status
         if not args.makes_nothing:
-            from . import compare
+            from . import compare, over_range
 
             print()
             with interruptible(), one_line():
-                compare(ROOT, config, names, scenes)
-    return status
+                if of:
+                    over_range(ROOT, config, of, scenes)
+                else:
+                    compare(ROOT, config, names, scenes)
+    return 2 if faulty else status

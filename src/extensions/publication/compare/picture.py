@@ -1,12 +1,15 @@
-"""Two figures side by side, on the same axes."""
+"""Figures of variants side by side, on the same axes."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial, reduce
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
+from matplotlib.figure import Figure
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from pipeline.config.results import drawing
@@ -15,11 +18,12 @@ from pipeline.config.schema.scene import Picture
 from pipeline.declaration import imported
 from pipeline.records.files import replacing
 from pseudorigid.figures.axes.limits import of_data
-from pseudorigid.figures.canvas import render
+from pseudorigid.figures.canvas import render, style
 
-_HEAD = 75  # pixels
-_SIZE = 42  # pixels
-_MOST = 50  # times the width of an axis that the axis of both may have
+_FONT = f"{matplotlib.get_data_path()}/fonts/ttf/STIXGeneral.ttf"  # of all pictures
+_TEXT = 1 / 30  # of the width of the whole: size of texts, 11 pixels of 335
+_WIDEST = 4 * style.COLUMN  # pixels
+_MOST = 50  # times the width of an axis that the axis of all may have
 
 Pixels = npt.NDArray[np.uint8]
 
@@ -27,27 +31,26 @@ Pixels = npt.NDArray[np.uint8]
 def on_same_axes(
     blocks: Sequence[Picture], data: Sequence[Sequence[xr.Dataset]]
 ) -> tuple[list[Pixels], str]:
-    """Draw a scene of two variants on axes that hold both; return the pixels and words on the axes.
+    """Draw a scene of variants on axes that hold all; return the pixels and words on the axes.
 
     Each keeps its own axes if the kind of picture has none in the config, or if one of the pictures
     would shrink to a spot.
     """
     draw = imported(blocks[0].drawn_by)
-    found: list[dict[str, Any]] = [{}, {}]
+    found: list[dict[str, Any]] = [{} for _ in blocks]
     figures = [
         draw(drawing(block) | {"completed": axes}, *datasets)
         for block, axes, datasets in zip(blocks, found, data, strict=True)
     ]
-    both = {name: _around(*(axes[name] for axes in found)) for name in found[0]}
-    spots = [
-        name for name in both for axes in found if _width(both[name]) > _MOST * _width(axes[name])
-    ]
-    if spots or not both:
-        why = f": one of both is too wide along {spots[0]}" if spots else ""
+    shared = {name: reduce(_around, (axes[name] for axes in found)) for name in found[0]}
+    widths = {name: [np.ptp(axes[name]["limits"]) for axes in found] for name in shared}
+    spots = [n for n in shared if np.ptp(shared[n]["limits"]) > _MOST * min(widths[n])]
+    if spots or not shared:
+        why = f": one of them is too wide along {spots[0]}" if spots else ""
         return [render.pixels(figure) for figure in figures], f", each on its own axes{why}"
     for i, axes in enumerate(found):
-        if axes != both:
-            figures[i] = draw(drawing(blocks[i]) | {"axes": both}, *data[i])
+        if axes != shared:
+            figures[i] = draw(drawing(blocks[i]) | {"axes": shared}, *data[i])
     return [render.pixels(figure) for figure in figures], ", on the same axes"
 
 
@@ -59,30 +62,35 @@ def _around(first: YamlMapping, second: YamlMapping) -> YamlMapping:
     return next((axis for axis in (first, second) if list(axis["limits"]) == [low, high]), made)
 
 
-def _width(axis: YamlMapping) -> float:
-    """Return the distance of the limits of an axis."""
-    low, high = axis["limits"]
-    return float(high - low)
+def side_by_side(
+    drawings: Mapping[str, Pixels | None], path: Path, curves: Figure | None = None
+) -> None:
+    """Save pictures side by side, each below its name, and perhaps curves below them all.
 
-
-def side_by_side(drawings: Mapping[str, Pixels | None], path: Path) -> None:
-    """Save two pictures side by side, each below its name. None means a missing picture."""
+    None means a missing picture. The whole has at most _WIDEST pixels from side to side.
+    """
     images = [None if part is None else Image.fromarray(part) for part in drawings.values()]
     blank = Image.new("RGB", next(filter(None, images)).size, "white")
-    columns = [ImageOps.expand(image or blank, (0, _HEAD, 0, 0), "white") for image in images]
-    size = sum(column.width for column in columns), max(column.height for column in columns)
-    both, left = Image.new("RGB", size, "white"), 0
-    for name, image, column in zip(drawings, images, columns, strict=True):
-        _write(column, name, _HEAD / 2)
-        if image is None:
-            _write(column, "no figure", (_HEAD + column.height) / 2)
-        both.paste(column, (left, 0))
-        left += column.width
+    row = [image or blank for image in images]
+    scale = min(1.0, _WIDEST / sum(image.width for image in row))
+    row = [ImageOps.scale(image, scale) if scale < 1.0 else image for image in row]
+    wide, high = sum(image.width for image in row), max(image.height for image in row)
+    size = round(_TEXT * wide)
+    head, below = 2 * size, None
+    if curves:
+        curves.set_dpi(style.DPI * wide / style.COLUMN)
+        below = Image.fromarray(render.pixels(curves))
+    whole = Image.new("RGB", (wide, head + high + (below.height if below else 0)), "white")
+    write, left = partial(ImageDraw.Draw(whole).text, fill="black", anchor="mm"), 0
+    for name, image, known in zip(drawings, row, images, strict=True):
+        whole.paste(image, (left, head))
+        texts = {head / 2: name} | ({} if known else {head + high / 2: "no figure"})
+        for y, text in texts.items():
+            font = ImageFont.truetype(_FONT, size)
+            fits = min(1.0, 0.95 * image.width / font.getlength(text))
+            write((left + image.width / 2, y), text, font=font.font_variant(size=size * fits))
+        left += image.width
+    if below:
+        whole.paste(below, (0, head + high))
     with replacing(path) as part:
-        both.save(part, "PNG")
-
-
-def _write(image: Image.Image, text: str, y: float) -> None:
-    """Write a text in the middle of a line of an image."""
-    font = ImageFont.load_default(_SIZE)
-    ImageDraw.Draw(image).text((image.width / 2, y), text, "black", font, anchor="mm")
+        whole.save(part, "PNG")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...checks import manifest
 from ...checks.layers import UPSTREAM
-from ...checks.published_sets import MANIFEST, SUMS, committed_sets
+from ...checks.published_sets import MANIFEST, SUMS, committed_sets, is_left_over
 from ...checks.verify import Findings
 from ...config import Config
 from ...records.files import file_hash, read_bytes, write_whole
@@ -25,8 +25,9 @@ def run(args: Arguments) -> int:
 def accept(root: Path, config: Config) -> int:
     """Renew the manifests of the paper and of other published sets that have results here.
 
-    Measured charts are published too, without a checksum. Returns the exit status, which is 1 if a
-    result of the paper is missing or not current.
+    Measured charts are published too, without a checksum. Pictures that no scene makes any more are
+    removed if this tree published them and git does not track them. Returns the exit status, which
+    is 1 if a result of the paper is missing or not current.
     """
     for published_set in committed_sets(config):
         results, command = published_set.build_specs, published_set.command
@@ -40,6 +41,7 @@ def accept(root: Path, config: Config) -> int:
                 drawing = root / "results" / published_set.group / "figures" / name
                 if drawing.is_file():
                     write_whole(root / published_set.folder / name, read_bytes(drawing))
+            _remove_left_over(root, findings)
             _renew(root, findings)
         elif published_set.on_request:
             print(f"{published_set.folder} stays as it is: {problem}: run {command} first")
@@ -49,15 +51,24 @@ def accept(root: Path, config: Config) -> int:
     return 0
 
 
+def _remove_left_over(root: Path, findings: Findings) -> None:
+    """Remove pictures that this tree published, that no scene makes and git does not track."""
+    for path in [*findings.unlisted]:
+        if is_left_over(root, findings.published_set.group, Path(path).name):
+            (root / path).unlink()
+            findings.problems.remove(findings.unlisted.pop(path))
+            print(f"{path}: removed: no scene makes it")
+
+
 def _renew(root: Path, findings: Findings) -> None:
     """Write the manifest and checksum list of a set, and print what changed."""
     published_set, folder = findings.published_set, findings.published_set.folder
     texts = manifest.files_of(manifest.build(root, published_set))
     files = {root / folder / name: text.encode() for name, text in texts.items()}
     if all(file_hash(file) == hashlib.sha256(text).hexdigest() for file, text in files.items()):
-        print(f"{folder}: nothing changed", *findings.unlisted, sep="\n")
+        print(f"{folder}: nothing changed", *findings.unlisted.values(), sep="\n")
         return
-    changes = [*_changes(findings), *findings.unlisted] or findings.problems
+    changes = [*_changes(findings), *findings.unlisted.values()] or findings.problems
     for file, text in files.items():
         write_whole(file, text)
     print(*(changes or ["other changes behind the same pictures"]), sep="\n")

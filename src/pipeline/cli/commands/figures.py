@@ -15,23 +15,25 @@ from ..lock import locked
 
 
 def run(args: Arguments) -> int:
-    """Make the files that the command and its names select."""
+    """Make the files that the command and its names select; 2 if an asked variant is faulty."""
     if not (args.word or args.options):
         os.environ[ONLY_SET] = MAIN
         if not {*args.figure} <= {"all", *args.config.scenes}:
             del os.environ[ONLY_SET], args.config
-    config, status, group = args.config, 0, args.word
+    config, group, faulty = args.config, args.word, list[str]()
     if group in PUBLISHED:  # the command that makes these scenes has their name
         targets = {group: publishing.drawings_of(config, group)}
+    elif group:
+        variants, scenes = publishing.variants_and_scenes(args)
+        faulty = [name for name in variants if name in config.faulty]
+        sound = [name for name in variants if name not in faulty]
+        targets = {name: publishing.drawings_of(config, name, scenes) for name in sound}
     else:
-        targets = _variant(args) if args.word else _named(args)
+        targets = _named(args)
     # Plain -n reads only, also where nothing can be written.
     with nullcontext() if args.dry_run and not args.options else locked():
-        for name, drawings in targets.items():
-            status = publishing.make(config, name, drawings, args) or status
-            if status == running.INTERRUPTED:
-                break
-    return status
+        status = publishing.make(config, targets, args) if targets else 0
+    return 2 if faulty and status != running.INTERRUPTED else status
 
 
 def _named(args: Arguments) -> dict[str, publishing.Drawings]:
@@ -73,13 +75,3 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
     scenes = [scene for group in PUBLISHED for scene in args.config.variants[group]]
     meant = hint(name, [*scenes, *all_commands()]) or ": ./reproduce list shows the figures"
     raise CommandLineError(f"no command or figure {name}{meant}")
-
-
-def _variant(args: Arguments) -> dict[str, publishing.Drawings]:
-    """Select all figures of a variant, or the named ones."""
-    variants = args.config.own_variants
-    if args.variant is None:
-        names = ", ".join(variants) or "none"
-        raise CommandLineError(f"variant needs a name: config.yaml has {names}")
-    publishing.require_known("variant", [args.variant], variants)
-    return {args.variant: publishing.drawings_of(args.config, args.variant, args.figure)}

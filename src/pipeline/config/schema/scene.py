@@ -4,9 +4,11 @@ A kind of picture is one class in `kinds`, derived from these. Checks that need 
 stand with the group. They compare numbers as the decimals that were written.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
+from annotated_types import Predicate
 from pydantic import Discriminator
 
 from pseudorigid.dynamics.bounds import energy_mistake, g_mistake
@@ -123,8 +125,18 @@ class Scene(Picture):
         yield from super().cross_field_errors()
 
 
+_PATH = re.compile(r"ball\.[kg]|energy|scenes\.[^.]+\..+")
+_ONE_PATH = "a mapping from one of ball.k, ball.g, energy and scenes.NAME.FIELD to its values"
+_VALUES = allowed("a list of numbers or texts, none of them twice", min_length=1)
+_Value = Annotated[
+    Annotated[str, fields.FIRST] | Annotated[fields.Number, fields.SECOND],
+    fields.first_if(str),
+    allowed("a number or a text"),
+]
+
+
 class Variant(fields.Block):
-    """a mapping with the keys ball, energy, method, scenes and scale, or some of them"""
+    """a mapping with the keys ball, energy, method, scenes, scale and values, or some of them"""
 
     ball: fields.PartOfBall = ABSENT
     """Replaces `k`, `g` or both in the ball of every scene."""
@@ -146,6 +158,18 @@ class Variant(fields.Block):
     ] = ABSENT
     """Replaces fields of single scenes, after the fields above. Mappings are merged key by key;
     lists, numbers and texts are replaced."""
+    values: Annotated[
+        dict[str, Annotated[list[_Value], _VALUES, Predicate(fields.distinct)]],
+        allowed(_ONE_PATH, min_length=1, max_length=1),
+        Predicate(lambda given: all(map(_PATH.fullmatch, given))),
+    ] = ABSENT
+    """Makes a range: a variant for each of these values, with all other fields as here."""
+
+
+VARIANTS = Annotated[
+    dict[fields.Name, Annotated[Variant, fields.NOT_EMPTY]],
+    allowed("a mapping from names to variants"),
+]
 
 
 def entries(scene: Picture, *names: str) -> Iterator[tuple[tuple[str | int, ...], Any]]:

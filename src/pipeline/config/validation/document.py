@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,21 +17,19 @@ from ...declaration import ONLY_SET, SRC, SourceError, files, imported
 from ...loading import note_loaded
 from ...records.files import read_text, read_yaml
 from ..results import Config, Variants
-from ..schema.fields import ABSENT, NOT_EMPTY, BallBlock, Block, Name, YamlMapping, allowed
+from ..schema.fields import ABSENT, BallBlock, Block, Name, YamlMapping, allowed
 from ..schema.parts import BLOCKS, MAIN, SETS
-from ..schema.scene import Picture, Variant
+from ..schema.scene import VARIANTS, Picture
 from . import scenes
 from .mistakes import ConfigError, Mistake, refusal, validate
+from .variants import add_variants
 
 _SCENES = Annotated[dict[Name, Any], allowed("a mapping from names to scenes")]
-_VARIANTS = Annotated[
-    dict[Name, Annotated[Variant, NOT_EMPTY]], allowed("a mapping from names to variants")
-]
 _AT_LEAST_ONE = allowed("a mapping from names to scenes, at least one", min_length=1)
 _FIELDS: dict[str, Any] = {
     "ball": (BallBlock, ...),
     "scenes": (dict[Name, Any], _AT_LEAST_ONE),
-    "variants": (_VARIANTS, {}),
+    "variants": (VARIANTS, {}),
     **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != MAIN},
     **{key: (block, ABSENT) for key, block in BLOCKS.items()},
 }
@@ -43,7 +42,9 @@ def load(path: str | Path) -> Config:
     path = Path(path)
     try:
         document, alone = _parse(path), os.environ.get(ONLY_SET) == MAIN
-        return check(document if alone else with_shipped(document), alone)
+        config = check(document if alone else with_shipped(document), alone)
+        faulty = {n: [_located(path, each) for each in of] for n, of in config.faulty.items()}
+        return replace(config, faulty=faulty)
     except ConfigError as error:
         raise ConfigError(*(_located(path, mistake) for mistake in error.mistakes)) from None
     except RecursionError:
@@ -91,29 +92,28 @@ def _lines_of(keys: Sequence[int | str], node: yaml.Node | None) -> Iterator[int
 def check(given: object, main_alone: bool = False) -> Config:
     """Return the complete config of a parsed YAML document, or the main set of scenes alone.
 
-    Raises ConfigError with all mistakes.
+    Raises ConfigError with all mistakes, unless they are in variants alone.
     """
-    document, mistakes = validate(Document, given, ())
     blocks = given.items() if isinstance(given, dict) else ()
     mappings = {key: block for key, block in blocks if isinstance(block, dict)}
+    own = mappings.get("variants", {})  # validated one by one
+    document, mistakes = validate(Document, given | {"variants": {}} if own else given, ())
     ball, _ = validate(BallBlock, mappings.get("ball"), ())
     if ball and (words := g_mistake(ball.k, ball.g)):
         mistakes.append(refusal(("ball", "g"), ball.g, words))
         ball = None
     own_ball = ball.as_mapping() if ball else None
-    variants, left_out = Variants(), dict[str, dict[str, str]]()
+    sets = Variants()
     for name, declared in SETS.items():
         if name == MAIN or declared.key in mappings or not main_alone:
-            variants[name], more = _scenes_of_set(name, mappings, own_ball)
+            sets[name], more = _scenes_of_set(name, mappings, own_ball)
             mistakes += more
-    if document and own_ball and not mistakes:
-        for name, variant in document.variants.items():
-            derived = scenes.derive_variant(mappings["scenes"], own_ball, name, variant)
-            variants[name], left_out[name], more = derived
-            mistakes += more
+    config = Config(sets, {}, document, {}, {})
+    add_variants(config, own, mappings.get("scenes", {}), None if mistakes else own_ball)
     if mistakes or document is None:
-        raise ConfigError(*dict.fromkeys(mistakes))
-    return Config({MAIN: variants[MAIN]} if main_alone else variants, left_out, document)
+        faulty = (mistake for each in config.faulty.values() for mistake in each)
+        raise ConfigError(*dict.fromkeys([*mistakes, *faulty]))
+    return replace(config, variants={MAIN: sets[MAIN]}) if main_alone else config
 
 
 def _scenes_of_set(

@@ -14,10 +14,8 @@ from pydantic import create_model
 
 from pseudorigid.dynamics.bounds import as_decimal
 
-from ...declaration import parts
 from ..schema.fields import TYPES_ALONE, Point, YamlMapping
 from ..schema.kinds import KINDS
-from ..schema.parts import SETS
 from ..schema.scene import CompletionError, Picture, Scene, Variant
 from .mistakes import Mistake, Place, refusal, unknown, validate
 
@@ -84,10 +82,6 @@ def derive_variant(
     scene, or if what the variant gives for the scene itself is wrong.
     """
     place, changes, mistakes = ("variants", name), variant.scenes or {}, list[Mistake]()
-    reserved = [*SETS, *(folder for part in parts().values() for folder in part.folders)]
-    if name in reserved:
-        words = f"a name other than {', '.join(reserved)}"
-        return {}, {}, [refusal(place[:-1], name, words, key=name)]
     for scene, change in changes.items():
         where, picture = (*place, "scenes", scene), scenes.get(scene, change).get("picture")
         if scene not in scenes:
@@ -135,7 +129,7 @@ def _merge_variant(
         replaced = variant.as_mapping(("ball", "energy", "method"))
     if "method" in replaced:  # methods are replaced as a whole
         block = block | {"method": {}}
-    derived: YamlMapping = _merge(_merge(block, replaced), change)
+    derived: YamlMapping = merge(merge(block, replaced), change)
     framing = ("ball", "energy", *kind.axes_depend_on)
     if variant.scale not in (None, 1) or any(block.get(f) != derived.get(f) for f in framing):
         derived.pop("axes", None)
@@ -143,11 +137,11 @@ def _merge_variant(
     return derived
 
 
-def _merge(old: Any, new: Any) -> Any:
+def merge(old: Any, new: Any) -> Any:
     """Merge mappings key by key; replace anything else."""
     if not (isinstance(old, dict) and isinstance(new, dict)):
         return new
-    return old | {key: _merge(old.get(key), value) for key, value in new.items()}
+    return old | {key: merge(old.get(key), value) for key, value in new.items()}
 
 
 def _scaled(scene: Picture, scale: float) -> Picture:
