@@ -1,7 +1,7 @@
 """Lyapunov exponents of orbits, by Benettin's method (`kernel.spectrum`)."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -17,7 +17,9 @@ from .regularity import orbit_types
 from .variables import TIME, described, final_exponents, orbit_dims
 
 
-def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
+def lyapunov_spectrum(
+    ball: Ball, state: StateLike, impacts: SupportsIndex, records: SupportsIndex = 400
+) -> xr.Dataset:
     """Compute the Lyapunov exponents, in nats an impact, and their convergence.
 
     Parameters
@@ -92,7 +94,7 @@ def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int =
         "time": (("impact", *dims), time, "time elapsed since the start", TIME),
     }
     impact = described({"impact": ("impact", at, "number of impacts")})
-    return xr.Dataset(described(table), coords=impact)
+    return xr.Dataset(described(table), coords=impact, attrs={"k": ball.k, "g": ball.g})
 
 
 def scene_exponents(

@@ -1,7 +1,7 @@
 """Quantities of orbits that users ask for: rotation number, residue and regularity."""
 
 import math
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -16,7 +16,7 @@ from .verdict import classify_orbits as follow_until_decided
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
 
 
-def rotation_number(ball: Ball, state: StateLike, impacts: int = 10_000) -> Any:
+def rotation_number(ball: Ball, state: StateLike, impacts: SupportsIndex = 10_000) -> Any:
     """Rotation number of orbits around the symmetric fixed point, in turns per impact.
 
     It converges fast on quasi-periodic orbits. The rotation number of a chaotic orbit is not
@@ -99,7 +99,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
     return values.rename("residue").assign_attrs(attributes_of("Greene's residue"))
 
 
-def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.Dataset:
+def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 10_000) -> xr.Dataset:
     """Decide which orbits are regular and which are chaotic.
 
     Each orbit is followed until the decision is safe: along a regular orbit a tangent vector grows
@@ -175,7 +175,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 10_000) -> xr.D
         ),
         "followed": (dims, followed, "number of impacts that the orbit was followed"),
     }
-    return xr.Dataset(described(table))
+    return xr.Dataset(described(table), attrs={"k": ball.k, "g": ball.g})
 
 
 def require_default_map(ball: Ball) -> None:
