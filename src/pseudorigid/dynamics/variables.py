@@ -145,9 +145,7 @@ def with_parameters(dataset: xr.Dataset) -> xr.Dataset:
     >>> xarray.concat([with_parameters(orbits) for orbits in found], "energy")["energy"].values
     array([0.001, 0.01 ])
     """
-    if not (
-        isinstance(dataset, xr.Dataset) and {"k", "g"} <= dataset.attrs.keys() | dataset.keys()
-    ):
+    if not (isinstance(dataset, xr.Dataset) and {*"kg"} <= {*dataset.attrs, *dataset.variables}):
         raise ValueError("dataset is not allowed: a Dataset with the attributes k and g")
     named = dataset.attrs.keys() & PARAMETERS.keys() - dataset.variables.keys()
     values = {n: ((), dataset.attrs[n], attributes_of(*PARAMETERS[n])) for n in sorted(named)}
