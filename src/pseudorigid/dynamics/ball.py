@@ -55,6 +55,7 @@ class Ball:
 
     Examples
     --------
+    >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
     >>> x, xdot, udot, tau = ball.impact(*ball.start(0.5, 0.01))
     >>> abs(ball.energy(x, xdot, udot) - 0.01) < 1e-15

@@ -56,7 +56,7 @@ def lyapunov_spectrum(
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, lyapunov_spectrum
     >>> ball = Ball(k=0.2, g=0.04)
     >>> lyapunov_spectrum(ball, ball.start(0.6, 0.01), 1000, 10)["exponent"].dims
     ('impact', 'index')

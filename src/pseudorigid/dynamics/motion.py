@@ -54,7 +54,7 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, motion
     >>> ball = Ball(k=0.2, g=0.04)
     >>> motion(ball, ball.start(0.6, energy=0.01), duration=16).sizes["impact"]
     7

@@ -51,7 +51,7 @@ def periodic_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) ->
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, periodic_orbits
     >>> orbits = periodic_orbits(Ball(k=1/3, g=0.03), 0.02, 3)
     >>> orbits["symmetric"].values.tolist()
     [False, False, True, True]

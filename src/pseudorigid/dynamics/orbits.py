@@ -44,13 +44,13 @@ def orbit(
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, orbit
     >>> ball = Ball(k=0.2, g=0.04)
     >>> orbit(ball, ball.start([0.5, -0.2], 0.01), 3)["x"].dims
     ('impact', 'orbit')
     >>> five = orbit(ball, ball.start(0.5, 0.01), 5)
     >>> rest = orbit(ball, orbit(ball, ball.start(0.5, 0.01), 3), 2)
-    >>> bool(np.all(rest["x"].values == five["x"].values[3:]))
+    >>> bool((rest["x"].values == five["x"].values[3:]).all())
     True
     """
     require_ball(ball)

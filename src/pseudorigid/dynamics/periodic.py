@@ -81,7 +81,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, symmetric_orbits
     >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
     ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """

@@ -49,7 +49,7 @@ def rotation_number(ball: Ball, state: StateLike, impacts: SupportsIndex = 10_00
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, rotation_number
     >>> ball = Ball(k=0.2, g=0.04)
     >>> round(rotation_number(ball, ball.start(-0.2, 0.01)), 6)
     0.176039
@@ -88,7 +88,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> from pseudorigid import Ball, residue, symmetric_orbits
     >>> residue(symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)).values.round(4).tolist()
     [0.2854, -0.1329, 1.6255]
     """
@@ -138,7 +138,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 10_00
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, classify_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']

@@ -39,6 +39,7 @@ class Picture:
 
     Examples
     --------
+    >>> from pseudorigid import Picture
     >>> picture = Picture([0, 4], [0, 1], ("$n$", "$E$"), title="A line")
     >>> picture.line([0, 4], [0.2, 0.8], color="#0072b2", label="rising")
     >>> picture.dots([1, 3], [0.5, 0.5], "black", 3)
