@@ -11,6 +11,7 @@ from importlib import import_module
 from pathlib import Path
 
 import yaml
+from programs import run
 
 from pipeline.config import MAIN
 from pipeline.config.schema.parts import SETS
@@ -60,12 +61,6 @@ def shipped():
     document = with_shipped(yaml.load(SHIPPED.read_text(encoding="utf-8"), _LOADER))
     scenes = document["scenes"].items()
     return document | {"scenes": {name: block for name, block in scenes if name in FIGURES}}
-
-
-def run(*command, **how):
-    """Run a command; its output is text, and a failure is no error."""
-    how = {"capture_output": True, "text": True} | how
-    return subprocess.run([*map(str, command)], check=False, **how)
 
 
 def path_of_bare_python(folder):

@@ -25,34 +25,24 @@ All functions read numbers by one rule:
 """
 
 import importlib
+import pkgutil
 from typing import Any
 
-with open(f"{__file__}i", encoding="utf-8") as _stub:  # the names are declared there alone
-    _IMPORTS = [line.split() for line in _stub if line.startswith("from .")]
+__version__ = "0.1.0"
+_STUB = pkgutil.get_data(__name__, "__init__.pyi") or b""  # the names are declared there alone
+_IMPORTS = [line.split() for line in _STUB.decode().splitlines() if line.startswith("from .")]
 _MODULES = {name: module for _, module, _, name, *_ in _IMPORTS}
 __all__ = list(_MODULES)
 
 
 def __getattr__(name: str) -> Any:
-    if name in _MODULES:
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
         return getattr(importlib.import_module(_MODULES[name], __name__), name)
-    if name == "__version__":
-        return _version()
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    except AttributeError as error:  # `from pseudorigid import` would hide it
+        raise ImportError(f"cannot import {name}: {error}") from error
 
 
 def __dir__() -> "list[str]":
-    return sorted([*globals(), *__all__, "__version__"])
-
-
-def _version() -> str:
-    """Return the version in pyproject.toml, or that of the installed package."""
-    import tomllib
-    from importlib import metadata
-    from pathlib import Path
-
-    root = Path(__file__).parents[2]
-    if (root / "src" / __name__).is_dir():
-        version: str = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
-        return version
-    return metadata.version(__name__)
+    return sorted([*globals(), *__all__])

@@ -10,6 +10,7 @@ from .dynamics.periodic import symmetric_orbits as symmetric_orbits
 from .dynamics.quantities import classify_orbits as classify_orbits
 from .dynamics.quantities import residue as residue
 from .dynamics.quantities import rotation_number as rotation_number
+from .dynamics.variables import with_parameters as with_parameters
 from .figures.picture import Picture as Picture
 
 __version__: str

@@ -8,7 +8,6 @@ import xarray as xr
 from cycles import SETTINGS
 from sections import BALL
 
-from paper.figures import reports
 from pseudorigid import Ball, lyapunov_spectrum, orbit
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.variables import final_exponents
@@ -77,25 +76,6 @@ def test_the_largest_exponent_is_the_largest_by_value():
     last = found["exponent"].values[-1]
     assert np.any(last[:, 0] < last.max(axis=1))
     assert np.array_equal(final_exponents(found), np.sort(last, axis=1)[:, ::-1])
-
-    block = {"energy": 0.001, "ball": {"k": 0.2, "g": 0.04}}
-    numbers = reports.exponents(block, found)
-    ours = [float(text) for text in numbers["largest exponent"].split(", ")]
-    assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
-
-
-def test_a_mean_is_reported_of_orbits_of_one_type_only():
-    block = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
-    starts = {"chaotic": [0.6, 0.62], "regular": [-0.2, 0.1], "undecided": [0.9999999999]}
-    data = {kind: scene_exponents(BALL, 0.01, each, 500, 5) for kind, each in starts.items()}
-    numbers = {kind: reports.exponents(block, each) for kind, each in data.items()}
-    assert all(each["their mean"] for each in numbers.values())
-    every = [start for each in starts.values() for start in each]
-    mixed = reports.exponents(block, scene_exponents(BALL, 0.01, every, 500, 5))
-    assert mixed["mean of the chaotic ones"] == numbers["chaotic"]["their mean"]
-    assert "their mean" not in mixed
-    few = scene_exponents(BALL, 0.01, starts["regular"] + starts["undecided"], 500, 5)
-    assert not any("mean" in name for name in reports.exponents(block, few))
 
 
 def test_few_orbits_do_not_compile_the_kernel_for_many(monkeypatch):

@@ -17,7 +17,7 @@ from flights import FAMILIES, TAU, draw, error
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from independent_solver import judge
-from project import ROOT, run
+from programs import run
 from sections import BALL, ball_of
 from slowly import slowly
 
@@ -56,7 +56,7 @@ def test_caps_raise():
         "    try: print(Ball(0.2, 0.04).impact(*state))\n"
         "    except ArithmeticError as e: print(e)\n"
     )
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "src"), "NUMBA_DISABLE_JIT": "1"}
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "NUMBA_DISABLE_JIT": "1"}
     result = run(sys.executable, "-c", code, env=environment)
     words = [line.split()[1] for line in result.stdout.splitlines()]
     assert words == ["march", "landing"], result.stdout + result.stderr

@@ -10,7 +10,7 @@ import numba
 import numpy as np
 import pytest
 from matrix_probe import FUSED, traces
-from project import run
+from programs import run
 from sections import sea
 
 from pseudorigid.kernel import arithmetic, impact, lanes, spectrum, tangents

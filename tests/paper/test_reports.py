@@ -9,6 +9,7 @@ from samples import SCENES, exponents, orbits
 
 from paper.figures import portrait, reports
 from pseudorigid import Ball, orbit
+from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.motion import scene_motion
 from pseudorigid.dynamics.periodic import symmetric_orbits
 
@@ -147,3 +148,26 @@ def test_two_regular_orbits_have_the_numbers_of_their_starts_and_one_has_none():
     data["type"] = "orbit", ["regular", "chaotic", "chaotic"]
     figure = portrait.draw(SCENES["portrait"], data)
     assert not {"1", "2"} & {text.get_text() for text in figure.texts}
+
+
+def test_the_largest_exponent_is_the_largest_by_value():
+    """After 100 impacts at this energy the exponents are not sorted by the order of the frame."""
+    found = scene_exponents(BALL, 0.001, np.linspace(-0.99, 0.99, 40).tolist(), 100, 4)
+    last = found["exponent"].values[-1]
+    assert np.any(last[:, 0] < last.max(axis=1))
+    numbers = reports.exponents(BLOCK | {"energy": 0.001}, found)
+    ours = [float(text) for text in numbers["largest exponent"].split(", ")]
+    assert np.allclose(ours, np.sort(last.max(axis=1)), atol=5.1e-5)
+
+
+def test_a_mean_is_reported_of_orbits_of_one_type_only():
+    starts = {"chaotic": [0.6, 0.62], "regular": [-0.2, 0.1], "undecided": [0.9999999999]}
+    data = {kind: scene_exponents(BALL, 0.01, each, 500, 5) for kind, each in starts.items()}
+    numbers = {kind: reports.exponents(BLOCK, each) for kind, each in data.items()}
+    assert all(each["their mean"] for each in numbers.values())
+    every = [start for each in starts.values() for start in each]
+    mixed = reports.exponents(BLOCK, scene_exponents(BALL, 0.01, every, 500, 5))
+    assert mixed["mean of the chaotic ones"] == numbers["chaotic"]["their mean"]
+    assert "their mean" not in mixed
+    few = scene_exponents(BALL, 0.01, starts["regular"] + starts["undecided"], 500, 5)
+    assert not any("mean" in name for name in reports.exponents(BLOCK, few))

@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import re
 import tomllib
 
 import numpy as np
@@ -18,6 +19,26 @@ REGULAR, CHAOTIC = -0.2, 0.6  # starts at E = 0.01, in section radii
 @pytest.mark.parametrize("name", pseudorigid.__all__)
 def test_each_function_has_an_example(name):
     assert f"{name}(" in inspect.getdoc(getattr(pseudorigid, name)).partition(">>> ")[2]
+
+
+def with_parameters_of_their_own():
+    """The functions of the API, and the public methods of its classes."""
+    for name in pseudorigid.__all__:
+        value = getattr(pseudorigid, name)
+        yield value
+        if inspect.isclass(value):
+            members = inspect.getmembers(value, inspect.isfunction)
+            yield from (method for own, method in members if not own.startswith("_"))
+
+
+@pytest.mark.parametrize(
+    "function", [*with_parameters_of_their_own()], ids=lambda f: f.__qualname__
+)
+def test_each_parameter_is_described(function):
+    names = {name for name in inspect.signature(function).parameters if name != "self"}
+    section = inspect.getdoc(function).partition("Parameters\n----------\n")[2].partition("\n\n")[0]
+    lines = re.findall(r"^(?=\S)([\w*, ]+)(?: : .+)?$", section, re.M)
+    assert {name.strip("* ") for line in lines for name in line.split(",")} == names
 
 
 def test_the_rotation_number_tends_to_that_of_the_fixed_point():

@@ -27,5 +27,12 @@ DEAR &= {*MODULES}
 
 @pytest.mark.parametrize("name", [*(n for n in MODULES if n not in DEAR), *slowly(*sorted(DEAR))])
 def test_examples_are_true(name):
+    """Those of the Python API are as a user types them: they import what they use."""
     module = importlib.import_module(name)
-    assert doctest.testmod(module, optionflags=doctest.NORMALIZE_WHITESPACE).failed == 0
+    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+    for test in doctest.DocTestFinder(exclude_empty=True).find(module, name):
+        documented = test.name.removeprefix(f"{name}.").partition(".")[0]
+        if getattr(pseudorigid, documented, None) is getattr(module, documented, ...):
+            test.globs.clear()
+        runner.run(test)
+    assert runner.tries > 0 and runner.failures == 0

@@ -105,6 +105,26 @@ def test_an_edit_before_the_compilation_does_not_stay_in_the_cache(src, printed)
     assert printed(show) == "2.0"
 
 
+@pytest.mark.slow
+def test_machine_code_goes_to_the_users_cache_if_the_package_cannot_be_written(src, tmp_path):
+    """A file in the folder's place keeps also root from writing it."""
+    (src / "pseudorigid" / "kernel" / "__pycache__").touch()
+    code = "from pseudorigid.kernel.arithmetic import sincos as f; print(f(1.0)[0], "
+    code += "sum(f.stats.cache_hits.values()), f.stats.cache_path)"
+    cache = tmp_path / "cache"
+    environment = {name: os.environ[name] for name in os.environ if name != "NUMBA_CACHE_DIR"}
+    environment |= {"PYTHONPATH": str(src), "XDG_CACHE_HOME": str(cache)}
+    found = [run(sys.executable, "-P", "-c", code, env=environment).stdout.split() for _ in "12"]
+    assert [hits for _, hits, _ in found] == ["0", "1"]
+    assert all(Path(path).parent == cache / "numba" for _, _, path in found)
+    # Without a home nothing is kept, and no folder named ~ is made.
+    result = run(
+        *(sys.executable, "-P", "-c", code), env=environment | {"XDG_CACHE_HOME": ""}, cwd=tmp_path
+    )
+    assert result.returncode == 0, result.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"src", "cache"}
+
+
 def test_loaded_files_are_noted():
     file = os.path.realpath(arithmetic.__file__)
     assert LOADED[file] == {hashlib.sha256(Path(file).read_bytes()).hexdigest()}

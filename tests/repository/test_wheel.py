@@ -1,8 +1,10 @@
 """The science is a wheel of its own that works, with its types, without the repository."""
 
+import os
 import re
 import shutil
 import sys
+import tarfile
 import venv
 import zipfile
 from importlib import metadata
@@ -55,19 +57,54 @@ print([n for _, n, _ in modules if fails(n) and ".verified." not in n])
 """
 
 
+def build(kind, tree, folder):
+    """Build the `wheel` or the `sdist` of a tree in another folder, and return its path."""
+    program = f"from flit_core import buildapi; print(buildapi.build_{kind}({str(folder)!r}))"
+    return folder / succeed(sys.executable, "-c", program, cwd=tree).strip()
+
+
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """The wheel, built from a copy of the sources."""
-    folder = tmp_path_factory.mktemp("wheel")
-    for part in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / part, folder)
-    shutil.copytree(ROOT / "src", folder / "src", ignore=NO_CACHES)
-    pip = (sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-index", "--no-build-isolation")
-    succeed(*pip, "-w", folder, ".", cwd=folder)
-    (file,) = folder.glob("pseudorigid-*.whl")
+def sdist(tmp_path_factory):
+    """The sdist, built from a copy of the sources."""
+    tree = tmp_path_factory.mktemp("tree")
+    for part in ("pyproject.toml", "LICENSE", "CHANGELOG.md", "CITATION.cff"):
+        shutil.copy(ROOT / part, tree)
+    for part in ("src", "docs", "tests"):
+        shutil.copytree(ROOT / part, tree / part, ignore=NO_CACHES)
+    return build("sdist", tree, tmp_path_factory.mktemp("sdist"))
+
+
+@pytest.fixture(scope="module")
+def unpacked(sdist, tmp_path_factory):
+    """The folder of the unpacked sdist."""
+    folder = tmp_path_factory.mktemp("unpacked")
+    with tarfile.open(sdist) as archive:
+        archive.extractall(folder, filter="data")
+    (unpacked,) = folder.iterdir()
+    return unpacked
+
+
+@pytest.fixture(scope="module")
+def wheel(unpacked, tmp_path_factory):
+    """The wheel, built from the sdist."""
+    file = build("wheel", unpacked, tmp_path_factory.mktemp("wheel"))
     names = zipfile.ZipFile(file).namelist()
     assert {name.partition("/")[0].partition("-")[0] for name in names} == {"pseudorigid"}
     return file
+
+
+@pytest.fixture(scope="module")
+def tools(tmp_path_factory):
+    """An environment with the packages of requirements/wheel.txt, from a package index."""
+    folder = tmp_path_factory.mktemp("tools")
+    venv.create(folder, symlinks=True)
+    uv = shutil.which(ROOT / ".venv" / "bin" / "uv") or shutil.which("uv")
+    if uv is None:
+        pytest.skip("uv is not installed")
+    command = uv, "pip", "install", "-q", "--require-hashes", "-p", folder / "bin" / "python"
+    result = run(*command, "-r", ROOT / "requirements" / "wheel.txt", env=os.environ)
+    assert result.returncode == 0, result.stderr
+    return folder
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +117,8 @@ def environment(wheel, tmp_path_factory):
     (ours,) = metadata.distributions(path=[str(site)])
     for path in files_of(demanded(ours)):
         (site / path.name).symlink_to(path)
-    assert not (site / "netCDF4").exists() and not (site / "pytest").exists()
+    present = {path.name.lower() for path in site.iterdir()}
+    assert present & {"snakemake", "scipy", "sympy", "pytest", "pydantic"} == set()
     return folder / "bin" / "python"
 
 
@@ -100,76 +138,74 @@ def test_the_wheel_works_without_the_repository(wheel, environment, tmp_path):
     assert python(MODULES).split() == ["[]"]
 
 
-# Lines of a program, each with a mistake, and the code of mypy's error.
-WRONG = {
-    "orbit(ball, state, impact=3)": "call-arg",
-    "orbit(ball, state)": "call-arg",
-    "orbit((0.2, 0.04), state, 3)": "arg-type",
-    "orbit(ball, 0.4, 3)": "arg-type",
-    "Ball('0.2', 0.04)": "arg-type",
-    "ball.k = 0.3": "misc",
-    "ball.impacts(*state)": "attr-defined",
-    "ball.start(None, 0.01)": "arg-type",
-    "symmetric_orbits(ball, '0.01', 6)": "arg-type",
-    "trace_manifold(ball, 0.01, six, 0, False)": "call-arg",
-    "lyapunov_spectrum(ball, state, impacts=[3])": "arg-type",
-    "rotation_number(ball, None)": "arg-type",
-    "residue(3)": "arg-type",
-    "motion(ball, state, '16')": "arg-type",
-    "Picture([0, 1])": "call-arg",
-    "Picture([0, 1], [0, 1], names='xy')": "arg-type",
-    "picture.dots([0, 1], [0, 1])": "call-arg",
-    "picture.dot([0, 1], [0, 1], 'red')": "attr-defined",
-    "picture.save(3)": "arg-type",
-    "pseudorigid.orbits": "attr-defined",
-}
-RIGHT = """
-from fractions import Fraction
-from pathlib import Path
-
-import numpy as np
-import xarray as xr
-import pseudorigid
-from pseudorigid import *
-
-shell = Ball(Fraction(1, 3), g=np.float64(0.04))
-ball: Ball = Ball(k=shell.k / 2, g=0.04)
-x, xdot, udot, tau = ball.impact(0.4, 0.02, np.array(0.1))
-ratio: float = round(tau, 6) / ball.k
-state = ball.start([0.5, -0.2], 0.01)
-state = ball.start([[0.5], (Fraction(1, 2),)], energy=np.linspace(0.01, 0.02, 3))
-many: xr.Dataset = orbit(ball, (np.zeros(3), 0.1, [0.1, 0.2, Fraction(1, 3)]), 3, keep="last")
-orbit(ball, many, impacts=int(many["x"].size))
-orbit(ball, [0.1, 0.1, 0.1], 3)
-orbit(ball, np.full((3, 2), 0.1), 3)
-orbit(ball, (many["x"], many["xdot"], many["udot"]), 3)
-for side in ("inner", "outer"):
-    line = trace_manifold(ball, 0.01, symmetric_orbits(ball, 0.01, 6).isel(orbit=1), side=side)
-picture = Picture(many["x"], -many["udot"], ("a", "b"), title="c")
-picture.line(range(2), [0, 1], "label", color="red", lw=2)
-picture.save(Path("a.png")).save("a.svg").figure.set_facecolor("red")
-number: xr.DataArray = residue(symmetric_orbits(ball, 0.01, 6))
-version: str = pseudorigid.__version__
-"""
+@pytest.mark.slow
+def test_an_index_would_show_the_description(sdist, wheel, tools):
+    succeed(tools / "bin" / "twine", "check", "--strict", sdist, wheel, cwd=tools)
 
 
 @pytest.mark.slow
-def test_mypy_knows_the_types_of_the_wheel(environment, tmp_path):
-    """In users' programs, in README.md, and in the examples of the documents."""
-    (snippet,) = (text for text in blocks("README.md") if text.startswith("from pseudorigid"))
-    examples = {file.stem: file.read_text() for file in (ROOT / "docs" / "examples").glob("*.py")}
+def test_the_tests_of_the_sdist_need_no_workflow(unpacked, tmp_path):
+    """They are collected without the folders of the workflow; .ci/packages runs them."""
+    for name in ("CHANGELOG.md", "CITATION.cff", "docs/python.md"):
+        assert (unpacked / name).read_bytes() == (ROOT / name).read_bytes()
+    without = (
+        "import sys; sys.modules |= dict.fromkeys(['pipeline', 'paper', 'study', 'extensions'])"
+    )
+    program = f"{without}; import pytest; sys.exit(pytest.main(['--collect-only', '-q']))"
+    tests = succeed(sys.executable, "-P", "-c", program, cwd=unpacked)
+    for folder in ("dynamics", "kernel", "figures", "verified"):
+        assert f"tests/{folder}/test_" in tests
+
+
+@pytest.mark.slow
+def test_a_zip_of_the_package_can_be_imported(wheel, environment, tmp_path):
+    code = "import sys; sys.path[:0] = [{!r}]; import pseudorigid; print(pseudorigid.__file__); "
+    code += "print(pseudorigid.Ball(0.2, 0.04).impact(0.4, 0.02, 0.1)[3])"
+    path, tau = succeed(environment, "-I", "-c", code.format(str(wheel)), cwd=tmp_path).split()
+    assert path.startswith(str(wheel))
+    assert float(tau) == pseudorigid.Ball(0.2, 0.04).impact(0.4, 0.02, 0.1)[3]
+
+
+@pytest.mark.slow
+def test_an_import_that_fails_says_why(environment, tmp_path):
+    """An older numba lacks an attribute; `from ... import` would hide which one."""
+    code = "import numba; del numba.core.config.CACHE_LOCATOR_CLASSES; from pseudorigid import Ball"
+    result = run(environment, "-I", "-c", code, cwd=tmp_path)
+    last = result.stderr.strip().splitlines()[-1]
+    assert last.startswith("ImportError: cannot import Ball: "), result.stderr
+    assert "CACHE_LOCATOR_CLASSES" in last
+
+
+def refused_lines(found, name):
+    """The lines of a program with errors, from the output of a type checker."""
+    return {int(line) for line in re.findall(rf"\b{name}:(\d+)(?::\d+)?(?: -|:) error", found)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("checker", ["mypy", "pyright"])
+def test_type_checkers_accept_documented_uses_and_refuse_mistakes(
+    checker, environment, tools, tmp_path
+):
+    """In a program, in README.md and the page on Python, and in the examples of the documents."""
+    examples = {file.name: file.read_text() for file in (ROOT / "docs" / "examples").glob("*.py")}
     programs = {name: text for name, text in examples.items() if "from extensions" not in text}
-    programs |= {"right": RIGHT, "readme": snippet}
-    opening = "import pseudorigid\nfrom pseudorigid import *\nball = Ball(0.2, 0.04)\n"
-    opening += "state, six = ball.start(0.4, 0.01), symmetric_orbits(ball, 0.01, 6).isel(orbit=1)\n"
-    opening += "picture = Picture([0, 1], [0, 1])\n"
-    programs["wrong"] = opening + "\n".join(WRONG)
+    for page in ("README.md", "docs/python.md"):
+        code = [t for t in blocks(page) if re.match("from pseudorigid|import xarray", t)]
+        programs[f"{Path(page).stem.lower()}_page.py"] = "\n".join(code)
+    programs["uses.py"] = (ROOT / "tests" / "repository" / "typed_uses.py").read_text()
     for name, text in programs.items():
-        (tmp_path / f"{name}.py").write_text(text)
-    mypy = (sys.executable, "-m", "mypy", "--strict", "--python-executable", environment)
-    found = run(*mypy, *(f"{name}.py" for name in programs), cwd=tmp_path).stdout
-    pattern = r"^(\w+)\.py:(\d+): error: .*\[(.*)\]$"
-    errors = {(name, int(line)): code for name, line, code in re.findall(pattern, found, re.M)}
-    first = opening.count("\n") + 1
-    expected = {("wrong", line): code for line, code in enumerate(WRONG.values(), first)}
-    assert errors == expected, found
+        (tmp_path / name).write_text(text)
+    site, stubs = (next(f.glob("lib/*/site-packages")) for f in (environment.parents[1], tools))
+    if not (site / "pandas-stubs").exists():
+        (site / "pandas-stubs").symlink_to(stubs / "pandas-stubs")
+    if checker == "mypy":
+        command = sys.executable, "-m", "mypy", "--strict", "--python-executable", environment
+    else:
+        (tmp_path / "pyrightconfig.json").write_text('{"typeCheckingMode": "standard"}')
+        command = tools / "bin" / "basedpyright", "--pythonpath", environment
+    found = run(*command, *programs, cwd=tmp_path).stdout
+    for name, text in programs.items():
+        lines = enumerate(text.splitlines(), 1)
+        expected = {number for number, line in lines if line.endswith("# refused")}
+        assert refused_lines(found, name) == expected, (name, found)
+    assert "import-untyped" not in found and "could not be resolved" not in found

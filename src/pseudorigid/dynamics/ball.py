@@ -4,7 +4,7 @@ import math
 import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self, SupportsFloat
+from typing import TYPE_CHECKING, Any, Literal, Self, SupportsFloat, SupportsIndex
 
 import numpy as np
 
@@ -63,6 +63,7 @@ class Ball:
 
     Examples
     --------
+    >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
     >>> x, xdot, udot, tau = ball.impact(*ball.start(0.5, 0.01))
     >>> abs(ball.energy(x, xdot, udot) - 0.01) < 1e-15
@@ -107,7 +108,12 @@ class Ball:
 
     @np.errstate(over="ignore", invalid="ignore")
     def energy(self, x: Reals, xdot: Reals, udot: Reals) -> Result:
-        """Return the total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2."""
+        """Return the total energy, eq. (29): xdot^2/2 + k udot^2/2 - g x + k x^2/2.
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
+        """
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         kinetic = 0.5 * xdot * xdot + 0.5 * self.k * udot * udot
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
@@ -115,39 +121,47 @@ class Ball:
     def energy_bounds(self) -> tuple[float, float]:
         """Return the bounds of the energy, both of which are excluded, to the nearest double.
 
-        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1.
-        The latter bounds no `dimensionless` ball. Energies with flights longer than 10^6/omega are
-        refused too.
+        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1, in
+        m omega^2 R^2. The latter bounds no `dimensionless` ball. Energies with flights longer than
+        10^6/omega are refused too.
         """
         exact = energy_bounds(bounds.as_decimal(self.k), bounds.as_decimal(self.g))
         lowest, highest = map(float, exact)
         return lowest, highest if self.g < self.k else math.inf
 
     def section(self, energy: Reals) -> tuple[float, Any]:
-        """Return the section's centre and radius along y = 0; ValueError outside `energy_bounds`.
+        """Return the section's centre and radius (R); ValueError outside `energy_bounds`.
 
-        There x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
+        On y = 0 x runs from centre - radius to centre + radius. In the chart (x, y = xdot - k udot)
         the section is the disk y^2/(1+k) + k (x - g/k)^2 <= 2E + g^2/k.
+
+        Parameters
+        ----------
+        energy : array_like, in m omega^2 R^2
         """
         (energy,) = coordinates(energy=energy)
         self._require_energy(energy)
         return self.g / self.k, _plain(np.sqrt(formulas.radius_squared(self.k, self.g, energy)))
 
     @np.errstate(over="ignore", invalid="ignore")
-    def state(self, x: Reals, xdot: Reals, energy: Reals, branch: float = 1) -> State:
+    def state(self, x: Reals, xdot: Reals, energy: Reals, branch: Literal[1, -1] = 1) -> State:
         """Return (x, xdot, udot) with this energy, eq. (29).
 
-        Two states may have this x, xdot and energy; `branch` = 1 selects the one with the larger
-        udot, -1 the other one. Raises ValueError if the energy surface has no such point with xdot
-        + udot >= 0.
+        Raises ValueError if the energy surface has no such point with xdot + udot >= 0.
+
+        Parameters
+        ----------
+        x, xdot, energy : array_like, in R, omega R and m omega^2 R^2
+        branch : {1, -1}
+            Of two states with this x, xdot and energy, 1 selects the one with the larger udot.
         """
-        branch = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
+        sign = number("branch", branch, "1 or -1", lambda v: abs(v) == 1.0)
         x, xdot, energy = coordinates(x=x, xdot=xdot, energy=energy)
         self._require_energy(energy)
         square = (2.0 * energy + 2.0 * self.g * x - self.k * x * x - xdot * xdot) / self.k
         if not np.all((square >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, xdot and energy: too little kinetic energy")
-        udot = branch * np.sqrt(square)
+        udot = sign * np.sqrt(square)
         if not np.all((xdot + udot >= 0.0) | np.isnan(x)):
             raise ValueError("no state with this x, xdot and energy on the section, eq. (22)")
         return _plain(x), _plain(xdot), _plain(udot)
@@ -157,6 +171,10 @@ class Ball:
         """Return (x, xdot, udot) at a point of the chart (x, y = xdot - k udot).
 
         The map keeps areas in this chart. Raises ValueError for a point outside the section's disk.
+
+        Parameters
+        ----------
+        x, y, energy : array_like, in R, omega R and m omega^2 R^2
         """
         x, y, energy = coordinates(x=x, y=y, energy=energy)
         self._require_energy(energy)
@@ -167,9 +185,13 @@ class Ball:
         return _plain(x), _plain(xdot), _plain(udot)
 
     def start(self, fraction: Reals, energy: Reals) -> State:
-        """Return (x, xdot, udot) on y = 0, at a fraction, from -1 to 1, of the section's radius.
+        """Return (x, xdot, udot) on y = 0, at a fraction of the section's radius from its centre.
 
         Raises ValueError beyond the rim, and for an energy outside `energy_bounds`.
+
+        Parameters
+        ----------
+        fraction, energy : array_like, from -1 to 1 and in m omega^2 R^2
         """
         f, energy = coordinates(fraction=fraction, energy=energy)
         self._require_energy(energy)
@@ -184,6 +206,10 @@ class Ball:
 
         It reverses the velocities after the impact, eq. (25). R is its own inverse, and R F R is
         the inverse of the impact map F.
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
         b, c, _ = rebound(xdot, udot, self.k, impact_coefficients(self.k))
@@ -192,16 +218,25 @@ class Ball:
     def time_to_impact(self, x: Reals, xdot: Reals, udot: Reals) -> Result:
         """Return the time to the next impact: the smallest positive root of eq. (21) with (26).
 
-        It is 0 where the ball does not leave the floor: at rest on it, or pressed down on the rim
-        xdot + udot = 0.
+        It is in 1/omega, and 0 where the ball does not leave the floor: at rest on it, or pressed
+        down on the rim xdot + udot = 0.
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
         """
         return self.impact(x, xdot, udot)[3]
 
     def impact(self, x: Reals, xdot: Reals, udot: Reals) -> NextState:
         """Apply the impact map, eq. (28): return x, xdot, udot and tau.
 
-        They are the state just before the next impact, and the time of flight, eq. (27). Where the
-        ball only touches the floor, tau is defined to the square root of a rounding.
+        They are the state just before the next impact, and the time of flight, eq. (27), in
+        1/omega. Where the ball only touches the floor, tau is defined to the square root of a
+        rounding.
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
         """
         state = self.on_section(x, xdot, udot)
         after = [_plain(a.reshape(state[0].shape)) for a in self.after(state)]
@@ -209,19 +244,28 @@ class Ball:
         return tuple(after)
 
     def inverse_impact(self, x: Reals, xdot: Reals, udot: Reals) -> NextState:
-        """Apply the inverse of the impact map, F^-1 = R F R.
+        """Return x, xdot, udot just before the previous impact, and tau since then: F^-1 = R F R.
 
-        It returns x, xdot, udot just before the previous impact, and the time of flight since then.
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
         """
         *state, tau = self.impact(*self.reflect(x, xdot, udot))
         return *self.reflect(*state), tau
 
-    def jacobian(self, x: Reals, xdot: Reals, udot: Reals, impacts: int = 1) -> np.ndarray:
-        """Return the Jacobian of `impacts` iterates of the map by (x, xdot, udot), eq. (33).
+    def jacobian(
+        self, x: Reals, xdot: Reals, udot: Reals, impacts: SupportsIndex = 1
+    ) -> np.ndarray:
+        """Return the Jacobian of some iterates of the map by (x, xdot, udot), eq. (33).
 
         The shape is (..., 3, 3). Row i, column j has the derivative of the i-th new variable by the
         j-th old one. It is not finite where the next impact grazes, xdot + udot = 0, because the
         map has no derivative there.
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
+        impacts : int, the number of iterates, at least 1
         """
         impacts = whole_number("impacts", impacts)
         state = self.on_section(x, xdot, udot)
@@ -232,11 +276,17 @@ class Ball:
         return out.reshape(*state[0].shape, 3, 3)
 
     @np.errstate(all="ignore")
-    def chart_jacobian(self, x: Reals, xdot: Reals, udot: Reals, impacts: int = 1) -> Rows:
+    def chart_jacobian(
+        self, x: Reals, xdot: Reals, udot: Reals, impacts: SupportsIndex = 1
+    ) -> Rows:
         """Return the Jacobian in the chart (x, y = xdot - k udot) at one state and a fixed energy.
 
-        The map is iterated `impacts` times. The result is two rows of two floats with determinant
-        1, eq. (42); they are not finite on the rim.
+        It is two rows of two floats with determinant 1, eq. (42); they are not finite on the rim.
+
+        Parameters
+        ----------
+        x, xdot, udot : float, in R, omega R and omega
+        impacts : int, the number of iterates, at least 1
         """
         x, xdot, udot = self.on_section(x, xdot, udot)
         if x.shape:
@@ -252,7 +302,12 @@ class Ball:
         return tuple(dx.tolist()), tuple((dv - k * dw).tolist())
 
     def on_section(self, x: Reals, xdot: Reals, udot: Reals) -> Arrays:
-        """Read a state as arrays of one shape; raise ValueError if xdot + udot < 0, eq. (22)."""
+        """Read a state as arrays of one shape; raise ValueError if xdot + udot < 0, eq. (22).
+
+        Parameters
+        ----------
+        x, xdot, udot : array_like, in R, omega R and omega
+        """
         x, xdot, udot = coordinates(x=x, xdot=xdot, udot=udot)
         if np.any(xdot < -udot):  # the sum could overflow
             raise ValueError("a state just before an impact has xdot + udot >= 0, eq. (22)")
@@ -272,11 +327,23 @@ class Ball:
         return states
 
     def after(self, states: Iterable[Reals], impacts: int = 1) -> np.ndarray:
-        """Return x, xdot, udot and tau, (4, n), some impacts after n states (x, xdot, udot)."""
+        """Return x, xdot, udot and tau, (4, n), some impacts after n states.
+
+        Parameters
+        ----------
+        states : (x, xdot, udot), array_like in R, omega R and omega
+        impacts : int, at least 1
+        """
         return np.stack(self._advanced(states, impacts, 0)[0])
 
     def history(self, states: Iterable[Reals], impacts: int) -> np.ndarray:
-        """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after n states."""
+        """Return x, xdot, udot and tau of each impact, (n, impacts, 4), after n states.
+
+        Parameters
+        ----------
+        states : (x, xdot, udot), array_like in R, omega R and omega
+        impacts : int, at least 1
+        """
         return self._advanced(states, impacts, impacts)[1]
 
     def _require_energy(self, energy: np.ndarray) -> None:

@@ -5,15 +5,25 @@ import reprlib
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from numbers import Real
-from typing import Any, SupportsFloat
+from typing import Any, Protocol, SupportsFloat
 
 import numpy as np
 import xarray as xr
+from typing_extensions import TypeAliasType
 
 Condition = Callable[[float], bool]
+
+
+class _Array(Protocol):  # a Series of pandas is one
+    def __array__(self) -> np.ndarray: ...
+
+
 # Real numbers, also Fractions and arrays, and lists of them. The ArrayLike of numpy includes text.
-Reals = SupportsFloat | Sequence[SupportsFloat | Sequence[SupportsFloat]]
-StateLike = tuple[Reals, Reals, Reals] | list[Any] | np.ndarray | xr.Dataset
+_Real = SupportsFloat | _Array
+Reals = TypeAliasType("Reals", _Real | Sequence[_Real | Sequence[SupportsFloat]])
+StateLike = TypeAliasType(
+    "StateLike", tuple[Reals, Reals, Reals] | list[Any] | np.ndarray | xr.Dataset
+)
 _STATE = ("x", "xdot", "udot")
 _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 

@@ -1,7 +1,7 @@
 """Lyapunov exponents of orbits, by Benettin's method (`kernel.spectrum`)."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -17,7 +17,9 @@ from .regularity import orbit_types
 from .variables import TIME, described, orbit_dims
 
 
-def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
+def lyapunov_spectrum(
+    ball: Ball, state: StateLike, impacts: SupportsIndex, records: SupportsIndex = 400
+) -> xr.Dataset:
     """Compute the Lyapunov exponents, in nats an impact, and their convergence.
 
     Parameters
@@ -55,7 +57,7 @@ def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int =
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, lyapunov_spectrum
     >>> ball = Ball(k=0.2, g=0.04)
     >>> lyapunov_spectrum(ball, ball.start(0.6, 0.01), 1000, 10)["exponent"].dims
     ('impact', 'index')
@@ -93,7 +95,7 @@ def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int =
         "time": (("impact", *dims), time, "time elapsed since the start", TIME),
     }
     impact = described({"impact": ("impact", at, "number of impacts")})
-    return xr.Dataset(described(table), coords=impact)
+    return xr.Dataset(described(table), coords=impact, attrs={"k": ball.k, "g": ball.g})
 
 
 def scene_exponents(

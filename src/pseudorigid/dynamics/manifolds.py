@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import product
-from typing import Any, SupportsFloat
+from typing import Any, Literal, SupportsFloat, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -26,10 +26,10 @@ def trace_manifold(
     ball: Ball,
     energy: SupportsFloat,
     orbit: xr.Dataset,
-    saddle: int = 0,
+    saddle: SupportsIndex = 0,
     *,
     stable: bool = False,
-    side: str = "outer",
+    side: Literal["inner", "outer"] = "outer",
     length: SupportsFloat = 1.0,
     distance: SupportsFloat = 0.01,
     bend: SupportsFloat = 10.0,
@@ -43,8 +43,8 @@ def trace_manifold(
     energy : float
         Energy of the orbit (m omega^2 R^2).
     orbit : xarray.Dataset
-        One orbit, x, xdot, udot on `point`, as from `variables.of_type`. An inverse hyperbolic one
-        is traced under P^2n.
+        One orbit of `symmetric_orbits` or `periodic_orbits`, x, xdot, udot on `point`. An inverse
+        hyperbolic one is traced under P^2n.
     saddle : int
         Index of the point.
     stable : bool
@@ -77,10 +77,10 @@ def trace_manifold(
 
     Examples
     --------
-    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> from pseudorigid import Ball, symmetric_orbits, trace_manifold
     >>> ball = Ball(k=0.2, g=0.04)
-    >>> six = of_type(symmetric_orbits(ball, 0.01, 6), "hyperbolic")
-    >>> branch = trace_manifold(ball, 0.01, six, length=0.1, distance=0.05, bend=30)
+    >>> hyperbolic = symmetric_orbits(ball, 0.01, 6).isel(orbit=1)
+    >>> branch = trace_manifold(ball, 0.01, hyperbolic, length=0.1, distance=0.05, bend=30)
     >>> sorted(branch.data_vars)
     ['udot', 'x', 'xdot']
     """
@@ -104,7 +104,8 @@ def trace_manifold(
     branch = Branch(ball, energy, points, saddle, side, stable)
     vertices = branch.trace(length, distance, bend, edges)
     ended = {} if branch.ended is None else {"ended": branch.ended}
-    attributes = {"start_error": branch.start_error()} | ended
+    attributes = {"k": ball.k, "g": ball.g, "energy": energy}
+    attributes |= {"start_error": branch.start_error()} | ended
     return xr.Dataset(variables("vertex", vertices, _STATES), attrs=attributes)
 
 

@@ -54,7 +54,7 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, motion
     >>> ball = Ball(k=0.2, g=0.04)
     >>> motion(ball, ball.start(0.6, energy=0.01), duration=16).sizes["impact"]
     7
@@ -96,7 +96,8 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
         if not time <= duration:  # also where tau is NaN
             break
     data = variables("sample", np.concatenate(samples, axis=1), _SAMPLE_NAMES)
-    return xr.Dataset(data | variables("impact", np.transpose(impacts), _IMPACT_NAMES))
+    data |= variables("impact", np.transpose(impacts), _IMPACT_NAMES)
+    return xr.Dataset(data, attrs={"k": ball.k, "g": ball.g})
 
 
 def _flights(ball: Ball, x: Any, xdot: Any, udot: Any) -> Iterator[tuple[Any, ...]]:

@@ -1,7 +1,7 @@
 """Periodic orbits with and without symmetry, by Newton's method from a grid over the section."""
 
 from collections.abc import Iterable, Iterator
-from typing import SupportsFloat
+from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -19,7 +19,7 @@ GRID = 400
 NEAR = 1e-7  # distance, in section radii, below which two points are the same
 
 
-def periodic_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Dataset:
+def periodic_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -> xr.Dataset:
     """Find the orbits of a prime period, with and without symmetry, that two searches show.
 
     To those of `symmetric_orbits`, Newton's method from a grid of starts over the section adds the
@@ -51,7 +51,7 @@ def periodic_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datase
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, periodic_orbits
     >>> orbits = periodic_orbits(Ball(k=1/3, g=0.03), 0.02, 3)
     >>> orbits["symmetric"].values.tolist()
     [False, False, True, True]

@@ -1,7 +1,7 @@
 """Orbits of the impact map, from states or from the starts of a scene."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -12,7 +12,9 @@ from .regularity import orbit_types
 from .variables import NAMES, RADIUS, Variables, described, orbit_dims, variables
 
 
-def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.Dataset:
+def orbit(
+    ball: Ball, state: StateLike, impacts: SupportsIndex, keep: Literal["all", "last"] = "all"
+) -> xr.Dataset:
     """Compute the orbit of one state, or of many, under the impact map, eq. (28).
 
     Parameters
@@ -43,13 +45,13 @@ def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.D
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, orbit
     >>> ball = Ball(k=0.2, g=0.04)
     >>> orbit(ball, ball.start([0.5, -0.2], 0.01), 3)["x"].dims
     ('impact', 'orbit')
     >>> five = orbit(ball, ball.start(0.5, 0.01), 5)
     >>> rest = orbit(ball, orbit(ball, ball.start(0.5, 0.01), 3), 2)
-    >>> bool(np.all(rest["x"].values == five["x"].values[3:]))
+    >>> bool((rest["x"].values == five["x"].values[3:]).all())
     True
     """
     require_ball(ball)
@@ -71,7 +73,7 @@ def orbit(ball: Ball, state: StateLike, impacts: int, keep: str = "all") -> xr.D
         dims, numbers = ("impact", *dims), ("impact", np.arange(1, impacts + 1))
     require_short_flights(state, (a.flat[-1] for a in values))
     coordinate = described({"impact": (*numbers, "number of impacts")})
-    return xr.Dataset(variables(dims, values), coords=coordinate)
+    return xr.Dataset(variables(dims, values), coords=coordinate, attrs={"k": ball.k, "g": ball.g})
 
 
 def scene_orbits(

@@ -9,7 +9,7 @@ in time: b + g tau/2 = 0. `newton` searches for orbits without that symmetry.
 import math
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import SupportsFloat
+from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -41,7 +41,7 @@ JUMP = 1e-6
 NEWTON_STEPS = 5  # at those energies and periods no more than three helped
 
 
-def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Dataset:
+def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -> xr.Dataset:
     """Find all symmetric orbits of a prime period that the resolution of the search shows.
 
     Parameters
@@ -81,7 +81,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: int) -> xr.Datas
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, symmetric_orbits
     >>> symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)["type"].values.tolist()
     ['elliptic', 'hyperbolic', 'inverse hyperbolic']
     """

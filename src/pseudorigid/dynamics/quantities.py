@@ -1,7 +1,7 @@
 """Quantities of orbits that users ask for: rotation number, residue and regularity."""
 
 import math
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import xarray as xr
@@ -15,7 +15,7 @@ from .variables import attributes_of, described, orbit_dims
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
 
 
-def rotation_number(ball: Ball, state: StateLike, impacts: int = 10_000) -> Any:
+def rotation_number(ball: Ball, state: StateLike, impacts: SupportsIndex = 10_000) -> Any:
     """Rotation number of orbits around the symmetric fixed point, in turns per impact.
 
     It converges fast on quasi-periodic orbits. The rotation number of a chaotic orbit is not
@@ -49,7 +49,7 @@ def rotation_number(ball: Ball, state: StateLike, impacts: int = 10_000) -> Any:
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, rotation_number
     >>> ball = Ball(k=0.2, g=0.04)
     >>> round(rotation_number(ball, ball.start(-0.2, 0.01)), 6)
     0.176039
@@ -89,7 +89,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> from pseudorigid import Ball, symmetric_orbits
+    >>> from pseudorigid import Ball, residue, symmetric_orbits
     >>> residue(symmetric_orbits(Ball(k=0.2, g=0.04), 0.01, 6)).values.round(4).tolist()
     [0.2854, -0.1329, 1.6255]
     """
@@ -100,7 +100,7 @@ def residue(orbits: xr.Dataset) -> xr.DataArray:
     return values.rename("residue").assign_attrs(attributes_of("Greene's residue"))
 
 
-def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.Dataset:
+def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 64_000) -> xr.Dataset:
     """Decide which orbits are regular and which are chaotic.
 
     The words are those of a scene in config.yaml. They depend on the states alone: `impacts` is
@@ -141,7 +141,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, classify_orbits
     >>> ball = Ball(k=0.2, g=0.04)
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']
@@ -152,16 +152,13 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     rotation, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
         types[finite], rotation[finite], followed[finite] = judged(ball, columns, impacts)
-    dims, turns = (
-        orbit_dims(finite.shape),
-        "rotation number around the fixed point, turns an impact",
-    )
+    dims = orbit_dims(finite.shape)
     table = {
         "type": (dims, types, "regular, chaotic, undecided or undefined"),
-        "rotation_number": (dims, rotation, turns),
+        "rotation_number": (dims, rotation, "turns an impact around the fixed point"),
         "followed": (dims, followed, "number of impacts that the orbit was followed"),
     }
-    return xr.Dataset(described(table))
+    return xr.Dataset(described(table), attrs={"k": ball.k, "g": ball.g})
 
 
 def require_default_map(ball: Ball) -> None:

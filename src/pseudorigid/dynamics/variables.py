@@ -19,6 +19,11 @@ NAMES = {
     "udot": ("strain rate just before impact", RATE),
     "tau": ("time of flight since the previous impact", TIME),
 }
+PARAMETERS = {
+    "k": ("Euler inertia", "m R^2"),
+    "g": ("gravity", "omega^2 R"),
+    "energy": ("total energy", ENERGY),
+}
 
 
 def variables(dims: Any, values: Iterable[Any], names: dict[str, Any] = NAMES) -> Variables:
@@ -109,3 +114,41 @@ def final_exponents(lyapunov: xr.Dataset) -> np.ndarray:
     recorded = ~np.isnan(exponent[:, :, 0])
     last = exponent.shape[0] - 1 - np.argmax(recorded[::-1], axis=0)
     return np.sort(exponent[last, np.arange(exponent.shape[1])], axis=1)[:, ::-1]
+
+
+def with_parameters(dataset: xr.Dataset) -> xr.Dataset:
+    """Make coordinates of the attributes k, g and energy, so that combined datasets keep them.
+
+    `xarray.concat` keeps only the first dataset's attributes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        A result of a function of this package, or a file of the workflow.
+
+    Returns
+    -------
+    xarray.Dataset
+        k (m R^2), g (omega^2 R) and energy (m omega^2 R^2) are scalar coordinates, except where a
+        variable has that name, and no attributes.
+
+    Raises
+    ------
+    ValueError
+        It is no Dataset, or one that does not say k and g.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> from pseudorigid import Ball, symmetric_orbits, with_parameters
+    >>> found = [symmetric_orbits(Ball(k=0.2, g=0.04), energy, 1) for energy in (0.001, 0.01)]
+    >>> xarray.concat([with_parameters(orbits) for orbits in found], "energy")["energy"].values
+    array([0.001, 0.01 ])
+    """
+    if not (isinstance(dataset, xr.Dataset) and {*"kg"} <= {*dataset.attrs, *dataset.variables}):
+        raise ValueError("dataset is not allowed: a Dataset with the attributes k and g")
+    named = dataset.attrs.keys() & PARAMETERS.keys() - dataset.variables.keys()
+    values = {n: ((), dataset.attrs[n], attributes_of(*PARAMETERS[n])) for n in sorted(named)}
+    result = dataset.assign_coords(values)
+    result.attrs = {name: value for name, value in dataset.attrs.items() if name not in named}
+    return result

@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, SupportsFloat
+from typing import Any, Literal, SupportsFloat
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
@@ -39,6 +39,7 @@ class Picture:
 
     Examples
     --------
+    >>> from pseudorigid import Picture
     >>> picture = Picture([0, 4], [0, 1], ("$n$", "$E$"), title="A line")
     >>> picture.line([0, 4], [0.2, 0.8], color="#0072b2", label="rising")
     >>> picture.dots([1, 3], [0.5, 0.5], "black", 3)
@@ -63,7 +64,11 @@ class Picture:
     def line(self, x: Reals, y: Reals, label: str = "", **line_style: Any) -> None:
         """Draw a line, broken where a coordinate is not finite.
 
-        Above the frame each label is written once, beside the style that it was given first.
+        Parameters
+        ----------
+        x, y : array_like, numbers along one dimension
+        label : str, written once above the frame, beside the style that it was given first
+        **line_style : properties of matplotlib's Line2D
         """
         _text("label", label)
         x, y = coordinates(x=x, y=y)
@@ -78,7 +83,15 @@ class Picture:
         self, x: Reals, y: Reals, color: Any, size: SupportsFloat = 1.0, label: str = "",
         **line_style: Any,
     ) -> None:  # fmt: skip
-        """Draw dots of `size` points."""
+        """Draw dots.
+
+        Parameters
+        ----------
+        x, y : array_like
+        color : a colour of matplotlib
+        size : float, from 0 to 1000 points
+        label, **line_style : as for `line`
+        """
         _text("label", label)
         size = number("size", size, "0 to 1000 points", lambda v: 0.0 <= v <= 1000.0)
         x, y = _columns(x=x, y=y)
@@ -87,13 +100,25 @@ class Picture:
         self._labelled.setdefault(label, {"color": color, "dots": max(size, 2.0)})
 
     def bars(self, x: Reals, low: Reals, high: Reals, **line_style: Any) -> None:
-        """Draw an upright line from low to high at each x, with the keywords of `line`."""
+        """Draw an upright line from low to high at each x.
+
+        Parameters
+        ----------
+        x, low, high : array_like
+        **line_style : as for `line`
+        """
         for at, *span in zip(*_columns(x=x, low=low, high=high), strict=True):
             self.line([at, at], span, **line_style)
 
     @style.pinned()
     def estimates(self, x: Reals, values: Reals, low: Reals, high: Reals, color: Any) -> None:
-        """Draw a dot for each value, joined by a line, with its bar from low to high."""
+        """Draw a dot for each value, joined by a line, with its bar from low to high.
+
+        Parameters
+        ----------
+        x, values, low, high : array_like
+        color : a colour of matplotlib
+        """
         x, values, low, high = _columns(x=x, values=values, low=low, high=high)
         with _checked({"color": color}):
             self._plane.estimates(x, values, low, high, to_hex(color))
@@ -102,11 +127,19 @@ class Picture:
     def note(
         self, x: SupportsFloat, y: SupportsFloat, text: str,
         shift: tuple[SupportsFloat, SupportsFloat] = (0, 0),
-        ha: str = "left", va: str = "center",
+        ha: Literal["left", "center", "right"] = "left",
+        va: Literal["bottom", "center", "top"] = "center",
     ) -> None:  # fmt: skip
-        """Write `text` beside a point, `shift` points away, on the other side if only that fits.
+        """Write a text beside a point, on the other side if only that fits.
 
         Beside a point beyond the axes nothing is written.
+
+        Parameters
+        ----------
+        x, y : float
+        text : str
+        shift : (float, float), in points to the right and up
+        ha, va : {"left", "center", "right"}, {"bottom", "center", "top"}
         """
         one_of("ha", ha, ("left", "center", "right"))
         one_of("va", va, ("bottom", "center", "top"))
@@ -119,9 +152,13 @@ class Picture:
     def colorbar(
         self, colors: Any, low: SupportsFloat, high: SupportsFloat, name: str = ""
     ) -> None:
-        """Draw a scale of two colours or more, for values from low to high, at the right inside.
+        """Draw a scale of colours at the right inside; the limits of x should leave room for it.
 
-        The limits of x should leave room for it.
+        Parameters
+        ----------
+        colors : list of two colours of matplotlib or more
+        low, high : float, the values of the first and the last colour
+        name : str, written above the scale
         """
         low = number("low", low)
         high = number("high", high, "a number above low", lambda value: value > low)
@@ -148,8 +185,13 @@ class Picture:
         sheet.text(edge - 4 * POINT, top + 5 * POINT, name, style.PLAIN, "right", "bottom")
 
     @style.pinned()
-    def render(self, extension: str) -> bytes:
-        """Return the bytes of a file; `extension` is png, svg or pdf."""
+    def render(self, extension: Literal["png", "svg", "pdf"]) -> bytes:
+        """Return the bytes of a file.
+
+        Parameters
+        ----------
+        extension : {"png", "svg", "pdf"}
+        """
         one_of("extension", extension, _FORMATS)
         labels, self._labelled = self._labelled, {}
         entries = [(text, width(text, style.PLAIN) / POINT, labels[text]) for text in labels]
@@ -157,8 +199,13 @@ class Picture:
         return render(self.figure, extension)
 
     def save(self, file: str | os.PathLike[str]) -> "Picture":
-        """Write a PNG, SVG or PDF file, and return the picture, which a notebook shows."""
-        extension = Path(str(file)).suffix[1:]
+        """Write a file, and return the picture, which a notebook shows.
+
+        Parameters
+        ----------
+        file : str or path, which ends with .png, .svg or .pdf
+        """
+        extension: Any = Path(str(file)).suffix[1:]
         if extension not in _FORMATS:
             raise not_allowed("file", file, "a path that ends with .png, .svg or .pdf")
         Path(file).write_bytes(self.render(extension))

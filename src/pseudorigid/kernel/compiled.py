@@ -7,6 +7,7 @@ Machine code is therefore kept in a folder of its own for each state of the pack
 import hashlib
 import os
 import sys
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -58,9 +59,15 @@ class Locator:
         return ""
 
 
-def folder():
-    """Return the folder that holds the folders of all modules."""
-    return os.environ.get("NUMBA_CACHE_DIR") or str(Path(__file__).parent / "__pycache__")
+def folders():
+    """Return the folders that may hold the folders of all modules, the preferred one first."""
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return [chosen]
+    from numba.misc.appdirs import user_cache_dir
+
+    # Without a home, the user's cache is a relative path.
+    cache = user_cache_dir("numba", appauthor=False)
+    return [str(Path(__file__).parent / "__pycache__"), *[cache] * os.path.isabs(cache)]
 
 
 def subfolder(module: str) -> str | None:
@@ -69,25 +76,28 @@ def subfolder(module: str) -> str | None:
     An edit of any file in the module's package, or in this one, gives another name. A program may
     replace this function by one that knows better what a module depends on.
     """
-    return f"{module}-{_digest(*{name.partition('.')[0] for name in (module, __name__)})}"
+    digest = _digest(*{name.partition(".")[0] for name in (module, __name__)})
+    return digest and f"{module}-{digest}"
 
 
 @cache
 def _digest(*packages):
-    """Return a hash of all modules of some packages."""
+    """Return a hash of all modules of some packages, or None for packages in a zip."""
     files = [file for name in packages for file in Path(*sys.modules[name].__path__).rglob("*.py")]
-    return hashlib.sha256(b"".join(file.read_bytes() for file in sorted(files))).hexdigest()[:16]
+    text = b"".join(file.read_bytes() for file in sorted(files))
+    return hashlib.sha256(text).hexdigest()[:16] if files else None
 
 
 @cache
 def _path(module):
-    """Return the folder for a module's machine code, or None if nothing is to be kept."""
+    """Return the first writable folder for a module's machine code, or None if there is none."""
     name = subfolder(module)
     if name is None:
         return None
-    path = os.path.join(folder(), name)
-    try:
-        os.makedirs(path, exist_ok=True)
-    except OSError:
-        return None
-    return path if os.access(path, os.W_OK) else None
+    for folder in folders():
+        path = os.path.join(folder, name)
+        with suppress(OSError):
+            os.makedirs(path, exist_ok=True)
+            if os.access(path, os.W_OK):
+                return path
+    return None

@@ -8,7 +8,7 @@ Transport in Hamiltonian systems, Physica D 13, 1984).
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,7 +23,8 @@ from .actions import PrimaryPair, first_crossing, lobe, saddles_of
 from .polygon import Polygon
 from .sea import as_array, half_axes, ratio, sea_states
 
-SIDES = ("inner", "outer")
+Side = Literal["inner", "outer"]
+SIDES: tuple[Side, ...] = ("inner", "outer")
 # The area of a lobe is computed twice, with these bits and from starts so many periods earlier, to
 # see which digits agree. At 900 bits the flights of Figure 5's orbit are not enclosed.
 _BITS, _PERIODS_EARLIER = (1800, 1200), (20, 30)
@@ -59,7 +60,7 @@ _VARIABLES: dict[str, tuple[Any, ...]] = {
 
 def flux(
     ball: Ball, energy: float, period: int, distance: float, grid: int,
-    orbits: int, impacts: int, sides: Sequence[str] = SIDES,
+    orbits: int, impacts: int, sides: Sequence[Side] = SIDES,
 ) -> xr.Dataset:  # fmt: skip
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
 
@@ -113,7 +114,7 @@ class _Branches(NamedTuple):
     distance: float
 
 
-def _row(branches: _Branches, side: str, grid: int, path: np.ndarray) -> tuple[Any, ...]:
+def _row(branches: _Branches, side: Side, grid: int, path: np.ndarray) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one side."""
     ball, energy, saddles, _ = branches
     saddle, sign = _primary_branch(branches, side)
@@ -217,7 +218,7 @@ def _lobe_ends(primary: PrimaryPair) -> list[np.ndarray]:
     return [start, stop, stop * np.array([1.0, -1.0])]
 
 
-def _traced_lobe(branches: _Branches, saddle: int, side: str, primary: PrimaryPair) -> _TracedLobe:
+def _traced_lobe(branches: _Branches, saddle: int, side: Side, primary: PrimaryPair) -> _TracedLobe:
     """Trace the branch until it passes the ends of the lobe between the primary orbits."""
     ball, energy, saddles, distance = branches
     ends, length = _lobe_ends(primary), 0.25

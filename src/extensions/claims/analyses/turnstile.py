@@ -6,10 +6,10 @@ from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.inputs import number, one_of
 from pseudorigid.dynamics.quantities import require_default_map
 
-from .flux import SIDES, flux
+from .flux import SIDES, Side, flux
 
 
-def turnstile_flux(ball: Ball, energy: float, period: int, side: str = "outer") -> xr.Dataset:
+def turnstile_flux(ball: Ball, energy: float, period: int, side: Side = "outer") -> xr.Dataset:
     """Area that one impact carries through the broken separatrix of a hyperbolic orbit.
 
     The area is that of one lobe of the turnstile, from differences of action, and an equal area
