@@ -22,7 +22,7 @@ from pipeline.checks.verify import Findings
 from pipeline.cli import arguments
 from pipeline.cli.table import WHAT_TO_DO
 from pipeline.config.schema.parts import SETS
-from pipeline.records import pictures
+from pipeline.records import pictures, sources
 from pipeline.records.provenance import read_record, record_path
 from pipeline.records.sources import syntax_hash
 from pseudorigid.figures.canvas.render import png
@@ -167,17 +167,31 @@ FAULTS = [
     (PERIODIC, spoil_attribute, "fig3", f"data: {PERIODIC}: attribute energy differs$", True),
     (ORBITS, cut_to(4000), "fig2", f"data: {ORBITS}: ", True),
     (
-        MOTION,
-        spoil_value,
-        "fig4",
-        rf"data: {MOTION}: variable strain differs from value 1,",
+        MOTION, spoil_value, "fig4", rf"data: {MOTION}: variable strain differs from value 1,",
         True,
     ),
-]
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def whole(accepted, tmp_path_factory):
+    """A copy of `accepted` for faults that are mended."""
+    return accepted.copy(tmp_path_factory.mktemp("verify") / "spoiled")
+
+
+@pytest.fixture
+def mended(whole, accepted, monkeypatch):
+    """Return a function that gives the copy, in which the named file is mended afterwards."""
+    monkeypatch.setattr(sources, "ROOT", whole.path)
+    monkeypatch.setattr(sources, "SRC", whole.path / "src")
+    files = []
+    yield lambda file: files.append(file) or whole
+    shutil.copy2(accepted.path / files[0], whole.path / files[0])
 
 
 @pytest.mark.parametrize(("file", "spoil", "name", "line", "is_result"), FAULTS)
-def test_a_spoiled_file_differs_in_its_layer(moved, file, spoil, name, line, is_result):
+def test_a_spoiled_file_differs_in_its_layer(mended, file, spoil, name, line, is_result):
+    moved = mended(file)
     spoil(moved.path / file)
     found = verified(moved)
     assert found.wrong.keys() == ({name} if "." in name else {f"{name}.png", f"{name}.svg"})

@@ -1,6 +1,7 @@
 """The table, the messages and the status at the end of a run, without the run."""
 
 import hashlib
+import os
 
 import pytest
 from project import fresh_tree, of_scenes
@@ -69,12 +70,25 @@ def test_the_table_of_current_figures_says_whether_they_are_as_committed(make, t
     assert header == ["figure", "files", "state", "as", "committed"]
     assert rows[0][0] == "fig7" and rows[0][-2:] == ["current", "identical"]
     assert rows[1][0] == "fig7a" and rows[1][-1] != "identical"
-    published = tree.path / "paper_figures/fig7.png"
+
+
+def test_a_published_figure_that_is_not_its_drawing_is_published_again(make, tree):
+    path = "paper_figures/fig7.png"
+    published, words = tree.path / path, f"{path}: published again"
     content = published.read_bytes()
     published.unlink()
     status, out, _ = make("fig7")
-    assert status == 0 and "paper_figures/fig7.png: published again: it was missing" in out
+    assert status == 0 and f"{words}: it was missing\n" in out
+    published.write_text("x")
+    os.utime(published, (4e9, 4e9))
+    status, out, _ = make("fig7")
+    assert status == 0 and f"{words}: it differed from results/paper/figures/fig7.png\n" in out
     assert published.read_bytes() == content
+    published.unlink()
+    published.mkdir()
+    status, out, _ = make("fig7", "fig7a")
+    words = "not published: a folder is in its place: move it away"
+    assert status == 1 and f"{path}: {words}\n" in out and "fig7a" in out
 
 
 def test_results_that_were_not_made_are_counted_and_the_first_three_named(make, tree):

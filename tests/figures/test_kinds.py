@@ -104,6 +104,7 @@ def test_ends_have_open_dots_and_jumps_squares():
     picture = box.Box(SCENES["tangle"])
     seen = picture.seen(states_of(data))
     ends, jumps = np.cumsum(data["row_size"].values) - 1, [99, 103]  # jumps: beside the gap
+    assert np.flatnonzero(tangle._jumps(data)).tolist() == jumps
     marks = {"o": 0, "s": 0}
     for artist in figure.artists:
         small = artist.get_markersize() < 3  # not the rings around saddles

@@ -53,14 +53,12 @@ def test_loops_over_lanes_are_vectorised_and_strict():
     states[:] = flights[:] = 1.0
     frames = np.ones(15 * tangents.GROUP)
     for loop, arguments in (
-        (lanes._begin_flights, (row, n, 0.2, 0.04, h)),
-        (lanes._find_ends, (row, n, 0.04)),
-        (lanes._march, (row, n, 0.04)),
-        (lanes._choose, (row, n)),
+        (lanes._begin_flights, (row, n, 0.2, 0.04, h)), (lanes._find_ends, (row, n, 0.04)),
+        (lanes._march, (row, n, 0.04)), (lanes._choose, (row, n)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
         (tangents._observe, (np.ones(tangents._ROWS), 64, 0.2, 1.0, h, states, flights, 0)),
         (spectrum._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
-    ):
+    ):  # fmt: skip
         fresh = compiled(loop, *arguments)
         ((signature, text),) = fresh.inspect_llvm().items()
         assert re.search(r"fdiv <\d+ x double>", text), loop

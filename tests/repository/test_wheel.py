@@ -102,27 +102,18 @@ def test_the_wheel_works_without_the_repository(wheel, environment, tmp_path):
 
 # Lines of a program, each with a mistake, and the code of mypy's error.
 WRONG = {
-    "orbit(ball, state, impact=3)": "call-arg",
-    "orbit(ball, state)": "call-arg",
-    "orbit((0.2, 0.04), state, 3)": "arg-type",
-    "orbit(ball, 0.4, 3)": "arg-type",
-    "Ball('0.2', 0.04)": "arg-type",
-    "ball.k = 0.3": "misc",
-    "ball.impacts(*state)": "attr-defined",
-    "ball.start(None, 0.01)": "arg-type",
-    "symmetric_orbits(ball, '0.01', 6)": "arg-type",
+    "orbit(ball, state, impact=3)": "call-arg", "orbit(ball, state)": "call-arg",
+    "orbit((0.2, 0.04), state, 3)": "arg-type", "orbit(ball, 0.4, 3)": "arg-type",
+    "Ball('0.2', 0.04)": "arg-type", "ball.k = 0.3": "misc", "ball.impacts(*state)": "attr-defined",
+    "ball.start(None, 0.01)": "arg-type", "symmetric_orbits(ball, '0.01', 6)": "arg-type",
     "trace_manifold(ball, 0.01, six, 0, False)": "call-arg",
     "lyapunov_spectrum(ball, state, impacts=[3])": "arg-type",
-    "rotation_number(ball, None)": "arg-type",
-    "residue(3)": "arg-type",
-    "motion(ball, state, '16')": "arg-type",
-    "Picture([0, 1])": "call-arg",
-    "Picture([0, 1], [0, 1], names='xy')": "arg-type",
-    "picture.dots([0, 1], [0, 1])": "call-arg",
-    "picture.dot([0, 1], [0, 1], 'red')": "attr-defined",
-    "picture.save(3)": "arg-type",
+    "rotation_number(ball, None)": "arg-type", "residue(3)": "arg-type",
+    "motion(ball, state, '16')": "arg-type", "Picture([0, 1])": "call-arg",
+    "Picture([0, 1], [0, 1], names='xy')": "arg-type", "picture.dots([0, 1], [0, 1])": "call-arg",
+    "picture.dot([0, 1], [0, 1], 'red')": "attr-defined", "picture.save(3)": "arg-type",
     "pseudorigid.orbits": "attr-defined",
-}
+}  # fmt: skip
 RIGHT = """
 from fractions import Fraction
 from pathlib import Path

@@ -32,11 +32,9 @@ def errors():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(figure_errors, "METHODS", (OURS, SCANS[0], ENGINES[2]))
         return figure_errors.figure_errors(
-            periodic,
-            scenes={"sections": PORTRAIT, "times": MOTION},
-            measures={"sections": "portrait", "times": "motion"},
-            inputs=["periodic/times"],
-        )
+            periodic, scenes={"sections": PORTRAIT, "times": MOTION},
+            measures={"sections": "portrait", "times": "motion"}, inputs=["periodic/times"],
+        )  # fmt: skip
 
 
 def test_the_kinds_with_a_measure_are_studied():

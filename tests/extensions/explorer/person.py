@@ -114,10 +114,8 @@ class Visitor:
             "for (const value of args[1]) {"
             " field.value = value; field.dispatchEvent(new Event('input', {bubbles: true}));"
             " await new Promise(done => setTimeout(done, 60)); }"
-            "field.dispatchEvent(new Event('change', {bubbles: true}))",
-            name,
-            values,
-        )
+            "field.dispatchEvent(new Event('change', {bubbles: true}))", name, values,
+        )  # fmt: skip
 
     def dispatch(self, kinds, across, down, target="section", **more):
         """Dispatch pointer or wheel events at a share of an element's size, all at once."""

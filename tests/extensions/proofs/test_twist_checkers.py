@@ -219,14 +219,10 @@ def test_a_function_falls_through_zero_once_only():
 
     assert margin([plus, falls, falls, minus, minus]) == 1
     for rows in (
-        [plus, minus, plus, minus],
-        [plus, falls, minus, falls, minus],
-        [falls, minus],
-        [plus, falls],
-        [plus, plus],
-        [plus, (arb(0, 1), arb(1)), minus],
+        [plus, minus, plus, minus], [plus, falls, minus, falls, minus], [falls, minus],
+        [plus, falls], [plus, plus], [plus, (arb(0, 1), arb(1)), minus],
         [plus, (arb("nan"), arb("nan")), minus],
-    ):
+    ):  # fmt: skip
         with pytest.raises(NotProvedError, match="only one"):
             margin(rows)
 

@@ -164,11 +164,9 @@ def test_the_article_is_a_draft_until_citation_cff_is_complete(compiled):
     assert {"doi, of the archived software", "ORCIDs of the authors"} <= {*numbers.missing(facts)}
     orcid = "https://orcid.org/0-1"
     facts |= {
-        "authors": [{"given-names": "Ann", "family-names": "Bee", "orcid": orcid}],
-        "doi": "10.1/x",
-        "repository-code": "https://example.org/x",
-        "date-released": "2026-01-01",
-    }
+        "authors": [{"given-names": "Ann", "family-names": "Bee", "orcid": orcid}], "doi": "10.1/x",
+        "repository-code": "https://example.org/x", "date-released": "2026-01-01",
+    }  # fmt: skip
     text = compiled(**numbers._of_citation(facts)).decode()
     assert "Draft." not in text
     for words in ("Ann Bee", orcid, "2026-01-01", "https://doi.org/10.1/x", "example.org/x"):
