@@ -22,7 +22,7 @@ from pipeline.checks.verify import Findings
 from pipeline.cli import arguments
 from pipeline.cli.table import WHAT_TO_DO
 from pipeline.config.schema.parts import SETS
-from pipeline.records import pictures, sources
+from pipeline.records import pictures
 from pipeline.records.provenance import read_record, record_path
 from pipeline.records.sources import syntax_hash
 from pseudorigid.figures.canvas.render import png
@@ -182,8 +182,7 @@ def whole(accepted, tmp_path_factory):
 @pytest.fixture
 def mended(whole, accepted, monkeypatch):
     """Return a function that gives the copy, in which the named file is mended afterwards."""
-    monkeypatch.setattr(sources, "ROOT", whole.path)
-    monkeypatch.setattr(sources, "SRC", whole.path / "src")
+    whole.is_here(monkeypatch)
     files = []
     yield lambda file: files.append(file) or whole
     shutil.copy2(accepted.path / files[0], whole.path / files[0])

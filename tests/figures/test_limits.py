@@ -82,6 +82,7 @@ LINE = {"t": np.array([0.0, 1.0, 2.0]), "y": np.array([0.0, 1.0, 0.0])}
 @pytest.mark.parametrize(("t", "y", "joined", "message"), [
     ([0.4, 0.6], [0.3, 0.7], True, None),  # between the samples
     ([0.4, 0.6], [0.3, 0.7], False, "nothing lies within"),
+    ([0.9, 1.1], [-0.1, 0.5], False, "nothing lies within"),
     ([0.0, 0.2], [-0.9, -0.1], True, r"^axes\.y\.limits .*lie from 0 to 1$"),
     ([0, 2], [-1e4, 1e4], True, None),  # flat
     ([0, 2], [-1e4, 1e4], False, "too wide"),

@@ -107,19 +107,6 @@ def test_a_plain_snakemake_makes_what_an_edit_outdates_and_nothing_else(snakemak
     assert run() == whole - {"periodic"}
 
 
-@pytest.mark.slow
-def test_a_run_that_leaves_a_figure_out_is_no_success(done):
-    """A snakemake that makes nothing and reports success stands for any such cause."""
-    remove(done, f"{PAPER}/figures/fig3.png")
-    package = done.path / "src" / "snakemake"
-    package.mkdir()
-    (package / "__init__.py").touch()
-    (package / "__main__.py").touch()
-    result = done.run()
-    assert result.returncode == 1
-    assert "reproduce: 1 of 14 results not made, or not current: fig3.png\n" in result.stdout
-
-
 def kill(run, how):
     """Kill a run with SIGKILL: all its processes, its process group, or its first process alone."""
     processes = psutil.Process(run.pid).children(recursive=True)
