@@ -117,10 +117,12 @@ def exponents():
 
 
 DATA = {
-    "portrait": lambda: (orbits(),), "tangle": lambda: (orbits(), manifolds(), periodic()),
-    "motion": lambda: (motion(),), "closeup": lambda: (window(),),
+    "portrait": lambda: (orbits(),),
+    "tangle": lambda: (orbits(), manifolds(), periodic()),
+    "motion": lambda: (motion(),),
+    "closeup": lambda: (window(),),
     "exponents": lambda: (exponents(),),
-}  # fmt: skip
+}
 
 
 def module(kind):

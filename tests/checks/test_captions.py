@@ -27,19 +27,27 @@ REGULAR = "exponents of the regular orbit"
 # Kind, fields of its scene beside those of its example, and words that the caption has and has not.
 CASES = [
     (
-        "exponents", {"starts": [-0.44, -0.235, 0.142]}, [REGULAR], [CHAOS, "(a)", "At the end"],
+        "exponents",
+        {"starts": [-0.44, -0.235, 0.142]},
+        [REGULAR],
+        [CHAOS, "(a)", "At the end"],
     ),
     (
-        "exponents", {"starts": [0.6, 0.62]}, [CHAOS, "(a) the largest ones", "the 2 chaotic"],
+        "exponents",
+        {"starts": [0.6, 0.62]},
+        [CHAOS, "(a) the largest ones", "the 2 chaotic"],
         ["regular"],
     ),
     (
-        "exponents", {"starts": [0.6]}, ["1 orbit,", "(a) the largest one,"],
+        "exponents",
+        {"starts": [0.6]},
+        ["1 orbit,", "(a) the largest one,"],
         ["one colour", "ones", "dark to light"],
     ),
     ("exponents", {"starts": [-0.2, 0.6]}, ["the chaotic orbit's largest"], ["the regular"]),
     (
-        "exponents", {"starts": [SLOW, -0.2]},
+        "exponents",
+        {"starts": [SLOW, -0.2]},
         ["the regular orbit tend", "1 undecided orbit makes no whole turn"],
         [CHAOS, "regular orbits"],
     ),
@@ -48,50 +56,68 @@ CASES = [
     (
         "portrait",
         {"starts": [SLOW, 0.6], "impacts": 9, "view": {"elevation": 20, "azimuth": 240}},
-        ["to 1 chaotic orbit", "Others belong to 1 undecided orbit"], ["losed curve", "seen"],
+        ["to 1 chaotic orbit", "Others belong to 1 undecided orbit"],
+        ["losed curve", "seen"],
     ),
     (
-        "portrait", {"starts": [SLOW, 0.99999, -0.2], "impacts": 9},
+        "portrait",
+        {"starts": [SLOW, 0.99999, -0.2], "impacts": 9},
         ["2 orbits cannot be seen, because all of their points", "A regular orbit has"],
         ["undecided", "Grey", "chaotic", "number"],
     ),
     (
         "portrait",
         {"ball": {"k": 1e-6, "g": 1e-9}, "energy": 1e-7, "starts": [-0.3, 0.2], "impacts": 200},
-        ["1 orbit cannot be seen", "Of 400 points 1 is seen"], ["regular"],
+        ["1 orbit cannot be seen", "Of 400 points 1 is seen"],
+        ["regular"],
     ),
     ("exponents", {"starts": ISLANDS[:8]}, ["one colour per orbit", "dark to light"], ["repeat"]),
     (
-        "portrait", {"starts": [0.5], "impacts": 1}, ["1 orbit of 1 impact in"], ["regular orbit"],
+        "portrait",
+        {"starts": [0.5], "impacts": 1},
+        ["1 orbit of 1 impact in"],
+        ["regular orbit"],
     ),
     ("portrait", {"starts": [-0.2], "impacts": 100}, ["has a colour:"], ["Grey", "number"]),
     ("portrait", {"starts": [0.5, 0.6], "impacts": 9}, ["2 chaotic orbits"], ["losed curve"]),
     ("portrait", {"starts": ISLANDS, "impacts": 9}, ["A number beside", "dark to light"], []),
     (
-        "tangle", {"branches": {"inner": {"length": 0.05}}},
+        "tangle",
+        {"branches": {"inner": {"length": 0.05}}},
         ["leave each point", "over 1 orbit in", "cut off"],
         ["meet", "jump", "sharp fold", "chaotic sea"],
     ),
     (
-        "tangle", {"branches": {"outer": {"length": 1.2}}}, ["The outer lines"], ["inner", "jump"],
+        "tangle",
+        {"branches": {"outer": {"length": 1.2}}},
+        ["The outer lines"],
+        ["inner", "jump"],
     ),
     (
-        "tangle", {"ball": SHELL, "energy": 0.1, "period": 1, "type": "inverse hyperbolic"},
-        ["(black dot)"], ["meet", "neighbour", "dots"],
+        "tangle",
+        {"ball": SHELL, "energy": 0.1, "period": 1, "type": "inverse hyperbolic"},
+        ["(black dot)"],
+        ["meet", "neighbour", "dots"],
     ),
     ("tangle", {"branches": {"outer": {"length": 0.05}}}, ["leave each"], ["inner"]),
     (
-        "closeup", {"period": 6}, ["(a black dot)"],
+        "closeup",
+        {"period": 6},
+        ["(a black dot)"],
         ["of the point", "oscillate", "Each crossing", "thick"],
     ),
     (
-        "closeup", {k: v for k, v in SADDLE.items() if k != "starts"} | {"point": 1, "length": 0.4},
-        ["(green, thick)", "(blue, thin)", "the two coincide"], [],
+        "closeup",
+        {k: v for k, v in SADDLE.items() if k != "starts"} | {"point": 1, "length": 0.4},
+        ["(green, thick)", "(blue, thin)", "the two coincide"],
+        [],
     ),
     ("motion", {}, ["every impact (a dot) and"], []),
     ("motion", {"axes": HIGH_UP}, ["every impact and"], ["a dot"]),
     (
-        "rotation", {}, ["80 starts from the fixed point to the rim"],
+        "rotation",
+        {},
+        ["80 starts from the fixed point to the rim"],
         ["plateau", "monotone", "triangle", "fraction"],
     ),
     ("spread", {}, ["a length. Bars"], ["triangle", "paper", "grey"]),
@@ -99,10 +125,13 @@ CASES = [
     ("twist", {"energies": [0.0005, 0.002]}, ["At 2 energies"], ["ring"]),
     ("jumps", {"ball": PAPER, "energy": 0.001, "energies": [0.0012]}, [], ["and after it"]),
     (
-        "jumps", {"ball": PAPER, "energies": [0.002]}, ["with the curves", "a further"], ["three"],
+        "jumps",
+        {"ball": PAPER, "energies": [0.002]},
+        ["with the curves", "a further"],
+        ["three"],
     ),
     ("graph", {}, ["1 orbit of the section, chaotic (pale)"], ["regular"]),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(

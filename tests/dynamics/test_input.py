@@ -71,10 +71,15 @@ def cases(function, **arguments):
 STATE = {"x": 0.125, "xdot": 0.25, "udot": 0.5}
 START = tuple(STATE.values())
 FUNCTIONS_OF_STATES = [
-    BALL.energy, BALL.reflect, BALL.time_to_impact, BALL.impact, BALL.inverse_impact, BALL.jacobian,
+    BALL.energy,
+    BALL.reflect,
+    BALL.time_to_impact,
+    BALL.impact,
+    BALL.inverse_impact,
+    BALL.jacobian,
     lambda x, xdot, udot: orbit(BALL, (x, xdot, udot), 3, keep="last"),
     lambda x, xdot, udot: lyapunov_spectrum(BALL, (x, xdot, udot), 3, 1),
-]  # fmt: skip
+]
 COORDINATES = [case for function in FUNCTIONS_OF_STATES for case in cases(function, **STATE)]
 COORDINATES += cases(BALL.state, x=0.125, xdot=0.25, energy=0.5)
 COORDINATES += cases(BALL.state_xy, x=0.125, y=0.25, energy=0.5)

@@ -20,8 +20,7 @@ def test_axes_hold_the_data_and_have_ticks(low, span, margin):
     assert start <= low and low + span <= end
     if span > 1e-9 * abs(low):
         assert end - start <= 1.6 * span
-    assert 2 <= len(axis["ticks"]) <= 8
-    assert all(start <= tick <= end for tick in axis["ticks"])
+    assert 2 <= len(axis["ticks"]) <= 8 and all(start <= tick <= end for tick in axis["ticks"])
     assert axis["ticks"] == sorted(set(axis["ticks"]))
 
 

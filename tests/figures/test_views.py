@@ -126,8 +126,7 @@ def test_labels_of_a_box_are_whole_apart_and_at_their_axes(which, views, monkeyp
             box = BareBox(scene | {"view": {"elevation": elevation, "azimuth": azimuth}}, ENTRIES)
             wrong += [(elevation, azimuth, *fault) for fault in faults(box, renderer)]
             shapes.append(box.sheet.high / box.sheet.wide)
-    assert not wrong
-    assert len(shapes) > len(views) / 3 and max(1 / min(shapes), *shapes) <= 4
+    assert not wrong and len(shapes) > len(views) / 3 and max(1 / min(shapes), *shapes) <= 4
 
 
 # Limits of x, xdot and udot, a view, and the axis that makes the box too high or too flat from it.

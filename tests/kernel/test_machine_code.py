@@ -72,8 +72,7 @@ def test_code_that_is_not_strict_is_noticed():
 
     loose(1.0, 2.0)
     (signature,) = loose.signatures
-    assert traces(loose, signature)
-    assert LOOSE.search(loose.inspect_llvm(signature))
+    assert traces(loose, signature) and LOOSE.search(loose.inspect_llvm(signature))
     assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
 
 

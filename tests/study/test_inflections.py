@@ -61,10 +61,13 @@ def test_angles_are_those_of_the_independent_solver():
 
 # Evaluations a flight of 20,000 states: uniform, in the sea, near grazing.
 WORK = (
-    (OURS, (2.31, 2.26, 2.15)), (INFLECTIONS, (2.49, 2.41, 2.79)),
-    (SIMPLE_INFLECTIONS, (3.38, 3.37, 2.71)), (BEST_SCAN, (3.07, 2.91, 2.76)),
-    (careful_method(1.0, LANDING), (4.58, 4.55, 6.37)), (careful_method(1.0), (5.55, 5.56, 11.6)),
-)  # fmt: skip
+    (OURS, (2.31, 2.26, 2.15)),
+    (INFLECTIONS, (2.49, 2.41, 2.79)),
+    (SIMPLE_INFLECTIONS, (3.38, 3.37, 2.71)),
+    (BEST_SCAN, (3.07, 2.91, 2.76)),
+    (careful_method(1.0, LANDING), (4.58, 4.55, 6.37)),
+    (careful_method(1.0), (5.55, 5.56, 11.6)),
+)
 
 
 def test_evaluations_of_a_flight():

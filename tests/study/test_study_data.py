@@ -28,9 +28,11 @@ STUDY = {
         stages.accuracy(METHODS[:1], 2).assign(stages.missed(METHODS[:1], [0])), "work"
     ),
     "edges": lambda: stages.with_recorded(stages.failures(stages.EDGE_METHODS[:1], 2), "edges"),
-    "misses": lambda: stages.misses(1000), "drift": lambda: stages.drift(1000), "needs": needs,
+    "misses": lambda: stages.misses(1000),
+    "drift": lambda: stages.drift(1000),
+    "needs": needs,
     "work_all": lambda: measured.timed_work(METHODS[:1], 2, 1),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", STUDY)

@@ -40,8 +40,7 @@ def test_a_plan_is_in_our_words_and_makes_nothing(done):
     result = done.run("-n", "--cores", "1")
     assert result.returncode == 0
     assert result.stdout == f"fig2: energy 0.01 -> 0.0098: orbits, drawing\n{fig7}"
-    assert done.run("fig7", "-n").stdout == fig7
-    assert done.published() == before
+    assert done.run("fig7", "-n").stdout == fig7 and done.published() == before
 
 
 def test_a_second_run_has_nothing_to_do_and_each_says_what_axes_hide(done):
@@ -58,8 +57,7 @@ def test_a_second_run_has_nothing_to_do_and_each_says_what_axes_hide(done):
     before = done.published()
     shutil.rmtree(done.path / ".snakemake")
     again = done.run()
-    assert set(rows(again.stdout).values()) == {"current"}
-    assert done.published() == before
+    assert set(rows(again.stdout).values()) == {"current"} and done.published() == before
     assert not list((done.path / ".snakemake" / "log").glob("*"))  # snakemake is not started
     assert again.stdout.splitlines()[-4:-1] == said.splitlines()[-3:]  # the last is Figure 7's
     assert sum(" axes." in line for line in again.stdout.splitlines()) == 4
@@ -119,8 +117,7 @@ def test_a_figure_that_cannot_exist_is_left_out(edited):
     words = "no inverse hyperbolic orbit of period 1 at energy 0.01 (found: elliptic)"
     lines = (edited.path / "output").read_text().splitlines()
     step, row = [line for line in lines if re.match("absent .*(not made|cannot exist)", line)]
-    assert step.endswith(f"not made: {words}")
-    assert row.endswith("cannot exist")
+    assert step.endswith(f"not made: {words}") and row.endswith("cannot exist")
     assert f"paper_figures/absent.png: cannot exist: {words}" in lines
     again = edited.run("absent")
     assert again.returncode == 1 and "absent  periodic" not in again.stdout  # it is not tried again

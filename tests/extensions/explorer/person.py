@@ -114,8 +114,10 @@ class Visitor:
             "for (const value of args[1]) {"
             " field.value = value; field.dispatchEvent(new Event('input', {bubbles: true}));"
             " await new Promise(done => setTimeout(done, 60)); }"
-            "field.dispatchEvent(new Event('change', {bubbles: true}))", name, values,
-        )  # fmt: skip
+            "field.dispatchEvent(new Event('change', {bubbles: true}))",
+            name,
+            values,
+        )
 
     def dispatch(self, kinds, across, down, target="section", **more):
         """Dispatch pointer or wheel events at a share of an element's size, all at once."""

@@ -68,9 +68,14 @@ def test_only_the_scripts_of_the_page_may_run(text):
     digests = [base64.b64encode(hashlib.sha256(part.encode()).digest()).decode() for part in parts]
     kernel, app, style = (f"'sha256-{digest}'" for digest in digests)
     assert policy.split("; ") == [
-        "default-src 'none'", f"script-src 'wasm-unsafe-eval' {kernel} {app}", f"style-src {style}",
-        "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'",
-    ]  # fmt: skip
+        "default-src 'none'",
+        f"script-src 'wasm-unsafe-eval' {kernel} {app}",
+        f"style-src {style}",
+        "worker-src blob:",
+        "img-src data: blob:",
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
     before = text[: text.index("Content-Security-Policy")]
     assert "<script" not in before and "<style" not in before
 

@@ -9,10 +9,15 @@ from pseudorigid import Ball, orbit
 pytestmark = pytest.mark.slow  # it sees no figure
 # k, g, E, start and what becomes of 40 impacts: some flights are too long at once, some later.
 CASES = [
-    (0.2, 1e-8, 0.01, 0.5), (0.2, 1e-8, 0.01, -0.999), (0.05, 1e-7, 0.02, 0.3),
-    (1.0, 1e-6, 0.3, -0.7), (1 / 3, 3e-6, 1e-5, 0.6), (0.2, 5e-7, 0.04, 0.3),
-    (0.2, 5e-7, 0.04, 0.8), (0.2, 0.04, 0.01, 0.5),
-]  # fmt: skip
+    (0.2, 1e-8, 0.01, 0.5),
+    (0.2, 1e-8, 0.01, -0.999),
+    (0.05, 1e-7, 0.02, 0.3),
+    (1.0, 1e-6, 0.3, -0.7),
+    (1 / 3, 3e-6, 1e-5, 0.6),
+    (0.2, 5e-7, 0.04, 0.3),
+    (0.2, 5e-7, 0.04, 0.8),
+    (0.2, 0.04, 0.01, 0.5),
+]
 
 
 def refusal(ball, start, impacts):

@@ -102,8 +102,7 @@ def test_the_article_is_a_valid_pdf(compiled, data, tmp_path):
         info = run("pdfinfo", file).stdout
         fields = {key: words.strip() for key, words in (x.split(":", 1) for x in info.splitlines())}
         assert (fields["Title"], fields["Tagged"]) == (data["title"], "yes")
-        assert 8 <= int(fields["Pages"]) <= 24
-        assert not {"CreationDate", "ModDate"} & {*fields}
+        assert 8 <= int(fields["Pages"]) <= 24 and not {"CreationDate", "ModDate"} & {*fields}
 
 
 def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing(compiled):

@@ -89,8 +89,7 @@ def test_the_files_of_a_folder_are_compared(accepted, packed, tmp_path):
         (other.path / file).write_text("garbage")
     (other.path / "paper_figures" / "fig7.svg").unlink()
     status, rows, lines = against(accepted, other.path)
-    assert status == 1
-    assert rows[FIG3] == rows[DATA] == "differs"
+    assert status == 1 and rows[FIG3] == rows[DATA] == "differs"
     assert rows["paper_figures/fig7.svg"] == "not in the folder"
     text = "\n".join(lines)
     assert f"drawing: the other {FIG3}: damaged, or not a picture" in text
