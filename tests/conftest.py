@@ -174,6 +174,5 @@ def edited(shared, accepted):
 def moved(accepted, tmp_path, monkeypatch):
     """A copy of `accepted` in another folder, for one fault."""
     tree = accepted.copy(tmp_path / "moved")
-    monkeypatch.setattr(sources, "ROOT", tree.path)
-    monkeypatch.setattr(sources, "SRC", tree.path / "src")
+    tree.is_here(monkeypatch)
     return tree

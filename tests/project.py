@@ -203,6 +203,11 @@ class Tree:
         specs = Freshness(self.path, load(self.config).build_specs()).build_specs
         make_here(self.path, specs, targets, recorded)
 
+    def is_here(self, monkeypatch):
+        """Let this process take it for the project, for one test."""
+        monkeypatch.setattr(sources, "ROOT", self.path)
+        monkeypatch.setattr(sources, "SRC", self.path / "src")
+
     def copy(self, path):
         """Copy it with its results."""
         shutil.copytree(self.path, path, symlinks=True, ignore=NO_CACHES)

@@ -31,12 +31,9 @@ def test_the_lock_is_held_until_the_snakemake_of_a_killed_run_ends(tmp_path, mon
     monkeypatch.setattr(lock, "ROOT", tmp_path)
     monkeypatch.setattr(lock, "LOCK_SECONDS", 0.2)
     run = subprocess.Popen(
-        [sys.executable, "-c", RUN, str(tmp_path)],
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": str(ROOT / "src")},
-        cwd=ROOT,
-    )
+        [sys.executable, "-c", RUN, str(tmp_path)], stdout=subprocess.PIPE, text=True,
+        env=os.environ | {"PYTHONPATH": str(ROOT / "src")}, cwd=ROOT,
+    )  # fmt: skip
     with run:
         snakemake = int(run.stdout.readline())
         run.kill()

@@ -30,8 +30,7 @@ def test_files_that_say_the_same_share_a_row_and_reasons_stand_below(capsys):
 def test_lines_are_wrapped_at_the_width_or_at_the_terminals(monkeypatch):
     text = "one two three"
     monkeypatch.delenv("COLUMNS", raising=False)
-    assert table.wrapped(text) == [text]
-    assert table.wrapped(text, 8) == ["one two", "  three"]
+    assert table.wrapped(text) == [text] and table.wrapped(text, 8) == ["one two", "  three"]
     monkeypatch.setenv("COLUMNS", "5")
     assert table.wrapped(text, 8) == ["one", "  two", "  three"]
     monkeypatch.setenv("COLUMNS", "50")

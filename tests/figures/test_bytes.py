@@ -33,8 +33,7 @@ def test_png_holds_exactly_the_pixels():
 
     figure = draw("portrait")
     with Image.open(BytesIO(render(figure, "png"))) as image:
-        assert image.mode == "RGB"
-        assert round(image.info["dpi"][0]) == style.DPI
+        assert image.mode == "RGB" and round(image.info["dpi"][0]) == style.DPI
         assert set(image.info) == {"dpi", "srgb"}
         assert np.array_equal(np.asarray(image), pixels(figure))
 

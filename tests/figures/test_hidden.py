@@ -21,12 +21,9 @@ from pseudorigid.figures.axes.view import OccludingEllipsoid
 from pseudorigid.figures.canvas import style
 
 SHORT = {
-    "fig2": {"impacts": 100},
-    "fig5": {"impacts": 100, "branches": {"outer": {"length": 0.2}}},
-    "fig6": {"length": 0.2},
-    "fig7": {"impacts": 20_000, "records": 80},
-    "fig8": {"impacts": 100},
-}
+    "fig2": {"impacts": 100}, "fig5": {"impacts": 100, "branches": {"outer": {"length": 0.2}}},
+    "fig6": {"length": 0.2}, "fig7": {"impacts": 20_000, "records": 80}, "fig8": {"impacts": 100},
+}  # fmt: skip
 FIGURES = [f"fig{number}" for number in range(2, 9)]
 
 

@@ -95,8 +95,7 @@ def test_impacts_graze_on_the_rim_which_ends_the_outline():
     assert np.all(y + z >= 0.0) and np.min(y + z) < 0.01
     assert np.allclose((y * y + k * z * z + k * x * x) / 2 - g * x, energy, rtol=0, atol=1e-15)
     normal = np.array([k * x - g, y, k * z])
-    assert np.max(np.abs(picture.view.eye @ normal)) < 1e-15
-    assert 0 < x.size < around.shape[1]
+    assert np.max(np.abs(picture.view.eye @ normal)) < 1e-15 and 0 < x.size < around.shape[1]
 
 
 def test_ends_have_open_dots_and_jumps_squares():
@@ -104,6 +103,7 @@ def test_ends_have_open_dots_and_jumps_squares():
     picture = box.Box(SCENES["tangle"])
     seen = picture.seen(states_of(data))
     ends, jumps = np.cumsum(data["row_size"].values) - 1, [99, 103]  # jumps: beside the gap
+    assert np.flatnonzero(tangle._jumps(data)).tolist() == jumps
     marks = {"o": 0, "s": 0}
     for artist in figure.artists:
         small = artist.get_markersize() < 3  # not the rings around saddles

@@ -20,8 +20,7 @@ def test_axes_hold_the_data_and_have_ticks(low, span, margin):
     assert start <= low and low + span <= end
     if span > 1e-9 * abs(low):
         assert end - start <= 1.6 * span
-    assert 2 <= len(axis["ticks"]) <= 8
-    assert all(start <= tick <= end for tick in axis["ticks"])
+    assert 2 <= len(axis["ticks"]) <= 8 and all(start <= tick <= end for tick in axis["ticks"])
     assert axis["ticks"] == sorted(set(axis["ticks"]))
 
 
@@ -82,6 +81,7 @@ LINE = {"t": np.array([0.0, 1.0, 2.0]), "y": np.array([0.0, 1.0, 0.0])}
 @pytest.mark.parametrize(("t", "y", "joined", "message"), [
     ([0.4, 0.6], [0.3, 0.7], True, None),  # between the samples
     ([0.4, 0.6], [0.3, 0.7], False, "nothing lies within"),
+    ([0.9, 1.1], [-0.1, 0.5], False, "nothing lies within"),
     ([0.0, 0.2], [-0.9, -0.1], True, r"^axes\.y\.limits .*lie from 0 to 1$"),
     ([0, 2], [-1e4, 1e4], True, None),  # flat
     ([0, 2], [-1e4, 1e4], False, "too wide"),

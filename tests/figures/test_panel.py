@@ -20,15 +20,13 @@ def test_labels_that_would_touch_are_thinned_out_evenly():
 @pytest.mark.parametrize(("side", "other"), [("left", "right"), ("bottom", "top")])
 def test_a_note_is_mirrored_if_it_fits_the_frame_only_so(side, other):
     """It is 20 long, 2 away from its point at 0, and a point away from the frame."""
-    after, before = 22.0 + POINT, -22.0 - POINT
+    end = 22.0 + POINT
     for shift, own, mirrored in ((2.0, side, other), (-2.0, other, side)):
-        ends = (before - 0.1, after + 0.1)
-        near, far = ((ends[0], after - 0.1), ends) if shift > 0 else ((before + 0.1, ends[1]), ends)
-        assert _beside(0.0, shift, own, 20.0, *near) == (-shift, mirrored)
-        assert _beside(0.0, shift, own, 20.0, *far) == (shift, own)
-        assert _beside(0.0, shift, own, 20.0, before + 0.1, after - 0.1) == (shift, own)  # neither
-    assert _beside(0.0, 2.0, "center", 20.0, -8.0 - POINT, 12.0 + POINT) == (2.0, "center")
-    assert _beside(0.0, 2.0, "center", 20.0, -7.9 - POINT, 20.0) == (2.0, "center")
+        narrow = [-end - 0.1, end + 0.1]
+        assert _beside(0.0, shift, own, 20.0, *narrow) == (shift, own)
+        narrow[shift > 0] *= 0.99
+        assert _beside(0.0, shift, own, 20.0, *narrow) == (-shift, mirrored)
+        assert _beside(0.0, shift, own, 20.0, 0.1 - end, end - 0.1) == (shift, own)  # on no side
 
 
 def test_a_window_keeps_what_lies_within_both_of_its_axes():

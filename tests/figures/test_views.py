@@ -35,19 +35,16 @@ def axes(x, xdot, udot):
 WHOLE, THIRD, SHORT = [-0.4, -0.2, 0, 0.2, 0.4], [-0.4, 0, 0.4], [0.1, 0.1005, 0.101]
 DENSE = [i / 50 for i in range(-20, 21)]
 BOXES = {
-    "SPACE": SPACE,
-    "FLAT": FLAT,
+    "SPACE": SPACE, "FLAT": FLAT,
     "corners": axes([-0.2, 0, 0.2, 0.4, 0.6], WHOLE, [-0.2, 0, 0.2, 0.4]),
     "long labels": axes(*[[-0.0005, -0.00025, 0, 0.00025, 0.0005]] * 3),
     "large": axes([-20000, 0, 60000], [-40000, 0, 40000], [-20000, 10000, 40000]),
-    "short x": axes(SHORT, THIRD, THIRD),
-    "short xdot": axes(THIRD, SHORT, THIRD),
-    "short udot": axes(THIRD, THIRD, SHORT),
-    "wide x": axes(WHOLE, [-0.1, 0, 0.1], [-0.1, 0, 0.1]),
+    "short x": axes(SHORT, THIRD, THIRD), "short xdot": axes(THIRD, SHORT, THIRD),
+    "short udot": axes(THIRD, THIRD, SHORT), "wide x": axes(WHOLE, [-0.1, 0, 0.1], [-0.1, 0, 0.1]),
     "wide xdot": axes([-0.1, 0, 0.1], WHOLE, [-0.1, 0, 0.1]),
     "many ticks": axes(DENSE, DENSE, DENSE),
     "uneven ticks": axes([-0.4, 0.01, 0.02, 0.4], [-0.4, -0.39, 0.4], [-0.2, -0.19, 0.3, 0.4]),
-}
+}  # fmt: skip
 
 
 class BareBox(Box):
@@ -129,8 +126,7 @@ def test_labels_of_a_box_are_whole_apart_and_at_their_axes(which, views, monkeyp
             box = BareBox(scene | {"view": {"elevation": elevation, "azimuth": azimuth}}, ENTRIES)
             wrong += [(elevation, azimuth, *fault) for fault in faults(box, renderer)]
             shapes.append(box.sheet.high / box.sheet.wide)
-    assert not wrong
-    assert len(shapes) > len(views) / 3 and max(1 / min(shapes), *shapes) <= 4
+    assert not wrong and len(shapes) > len(views) / 3 and max(1 / min(shapes), *shapes) <= 4
 
 
 # Limits of x, xdot and udot, a view, and the axis that makes the box too high or too flat from it.

@@ -15,12 +15,10 @@ from pipeline.records.provenance import BuildSpec, failure
 
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
-    "bad": "raise ValueError('bad input')",
-    "bug": "1 / 0",
-    "short": "raise MemoryError",
+    "bad": "raise ValueError('bad input')", "bug": "1 / 0", "short": "raise MemoryError",
     "killed": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
     "modules": "import sys; print(*[name in sys.modules for name in ('xarray', 'numba')])",
-}
+}  # fmt: skip
 MAIN = """
 import sys
 from concurrent.futures import ThreadPoolExecutor

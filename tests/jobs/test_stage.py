@@ -55,8 +55,7 @@ def test_a_stage_without_a_ball_gets_an_energy_if_the_scene_has_one(computed, en
         return xr.Dataset(data.variables, attrs={"title": "of its own"})
 
     attrs = computed({"count": 4} | energy, function).attrs
-    assert called == {"count": 4} | energy
-    assert attrs["title"] == "of its own" and "k" not in attrs
+    assert called == {"count": 4} | energy and attrs["title"] == "of its own" and "k" not in attrs
 
 
 def test_progress_is_printed_every_four_seconds_at_most(computed, monkeypatch, capsys):

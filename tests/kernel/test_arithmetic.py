@@ -39,13 +39,11 @@ def angles(rng):
     quarters = [float(n * mpmath.pi / 4) for n in [*range(1, 400), *(2**n for n in range(9, 20))]]
     return np.concatenate(
         [
-            rng.uniform(0, math.pi / 4, 3000),
-            rng.uniform(0, 20, 5000),
-            2.0 ** rng.uniform(-40, 20, 3000),
-            any_doubles(rng, 3000, 1022 + 20),
+            rng.uniform(0, math.pi / 4, 3000), rng.uniform(0, 20, 5000),
+            2.0 ** rng.uniform(-40, 20, 3000), any_doubles(rng, 3000, 1022 + 20),
             neighbours(quarters),
         ]
-    )
+    )  # fmt: skip
 
 
 def error_in_ulp(value, exact):
@@ -67,15 +65,12 @@ def test_log_against_mpmath():
     near_one = 1.0 + np.concatenate([[0.0], 2.0 ** rng.uniform(-52, 0, 3000)])
     a = np.concatenate(
         [
-            rng.uniform(0.5, 2.0, 8000),
-            near_one,
-            2.0 - near_one[1:],
-            any_doubles(rng, 4000),
+            rng.uniform(0.5, 2.0, 8000), near_one, 2.0 - near_one[1:], any_doubles(rng, 4000),
             neighbours(2.0 ** np.arange(-1022.0, 1024.0)),
             neighbours([math.sqrt(0.5), math.sqrt(2.0)], 20),
             [5e-324, 1e-310, 1.7976931348623157e308],
         ]
-    )
+    )  # fmt: skip
     a = a[(a > 0) & np.isfinite(a)]
     for x, y in zip(a[a != 1.0], log_each(a[a != 1.0]), strict=True):
         with mpmath.workdps(40):
@@ -89,8 +84,7 @@ def test_special_values():
     for t in (5e-324, 1e-310, 1e-20):
         assert arithmetic.sincos(t) == (t, 1.0)
     assert arithmetic.log(0.0) == arithmetic.log(-0.0) == -math.inf
-    assert arithmetic.log(math.inf) == math.inf
-    assert arithmetic.log(1.0) == 0.0
+    assert arithmetic.log(math.inf) == math.inf and arithmetic.log(1.0) == 0.0
     for a in (-1.0, -math.inf, math.nan):
         assert math.isnan(arithmetic.log(a))
 
@@ -101,8 +95,7 @@ def test_tails_have_no_cancellation(t):
     _, _, sine_tail, cosine_tail, n = arithmetic.quadrant(t)
     with mpmath.workdps(60):
         c, s = mpmath.cos_sin(mpf(t))
-        assert n == 0.0
-        assert abs(sine_tail / (s - mpf(t)) - 1) < 5e-16
+        assert n == 0.0 and abs(sine_tail / (s - mpf(t)) - 1) < 5e-16
         assert abs(cosine_tail / (c - 1 + mpf(t) ** 2 / 2) - 1) < 5e-16
 
 
@@ -111,12 +104,10 @@ def frozen_arguments():
     rng = np.random.default_rng(4)
     return np.concatenate(
         [
-            200.0 * rng.random(100_000) - 100.0,
-            1.6 * rng.random(40_000) - 0.8,
-            any_doubles(rng, 40_000),
-            any_doubles(rng, 20_000, 1023 + 30),
+            200.0 * rng.random(100_000) - 100.0, 1.6 * rng.random(40_000) - 0.8,
+            any_doubles(rng, 40_000), any_doubles(rng, 20_000, 1023 + 30),
         ]
-    )
+    )  # fmt: skip
 
 
 def digest(*arrays):

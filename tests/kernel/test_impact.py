@@ -122,8 +122,7 @@ def test_scaling_by_a_power_of_two(power, k, g, x, v, w):
     one, two = ball_of(k, g), ball_of(k, g * scale)
     *state, tau = one.impact(x, v, w)
     *scaled, tau_scaled = two.impact(x * scale, v * scale, w * scale)
-    assert tau == tau_scaled
-    assert scaled == [a * scale for a in state]
+    assert tau == tau_scaled and scaled == [a * scale for a in state]
     assert np.array_equal(
         one.jacobian(x, v, w), two.jacobian(x * scale, v * scale, w * scale), equal_nan=True
     )
@@ -137,8 +136,7 @@ def test_a_march_has_few_evaluations():
         for x, b, c in rng.uniform(-1.0, 1.0, (4000, 3)):
             if b + c < 0:
                 evaluations.append(flight.first_impact(x, b, c, -(b + c), g)[3])
-    assert np.mean(evaluations) < 3.5
-    assert max(evaluations) < 60
+    assert np.mean(evaluations) < 3.5 and max(evaluations) < 60
 
 
 GRAZING = [  # k, g, x, v, w of states after which v + w rounds below 0

@@ -53,14 +53,12 @@ def test_loops_over_lanes_are_vectorised_and_strict():
     states[:] = flights[:] = 1.0
     frames = np.ones(15 * tangents.GROUP)
     for loop, arguments in (
-        (lanes._begin_flights, (row, n, 0.2, 0.04, h)),
-        (lanes._find_ends, (row, n, 0.04)),
-        (lanes._march, (row, n, 0.04)),
-        (lanes._choose, (row, n)),
+        (lanes._begin_flights, (row, n, 0.2, 0.04, h)), (lanes._find_ends, (row, n, 0.04)),
+        (lanes._march, (row, n, 0.04)), (lanes._choose, (row, n)),
         (tangents._derive, (states, flights, 0, 64, 0.2, 1.0, h)),
         (tangents._observe, (np.ones(tangents._ROWS), 64, 0.2, 1.0, h, states, flights, 0)),
         (spectrum._advance, (frames, 64, 0.2, 1.0, h, states, flights, 0)),
-    ):
+    ):  # fmt: skip
         fresh = compiled(loop, *arguments)
         ((signature, text),) = fresh.inspect_llvm().items()
         assert re.search(r"fdiv <\d+ x double>", text), loop
@@ -74,8 +72,7 @@ def test_code_that_is_not_strict_is_noticed():
 
     loose(1.0, 2.0)
     (signature,) = loose.signatures
-    assert traces(loose, signature)
-    assert LOOSE.search(loose.inspect_llvm(signature))
+    assert traces(loose, signature) and LOOSE.search(loose.inspect_llvm(signature))
     assert FUSED.findall("vfmadd213sd %xmm0, %xmm1, %xmm2")
 
 

@@ -55,8 +55,7 @@ def test_a_file_keeps_values_types_and_attributes(tmp_path):
     assert back["x"].values.tobytes() == dataset()["x"].values.tobytes()
     config = '{"ball":{"g":0.04,"k":0.2},"starts":[0.5]}'
     expected = artifacts.ABOUT | ABOUT | {"config": config, "period": 6, "resolution": 1e-3}
-    assert expected.items() <= back.attrs.items()
-    assert list(back.attrs["window_x"]) == [0.21, 0.2116]
+    assert expected.items() <= back.attrs.items() and list(back.attrs["window_x"]) == [0.21, 0.2116]
 
 
 def test_the_bytes_depend_on_no_process_and_no_order_of_variables(tmp_path):
@@ -88,8 +87,7 @@ def test_an_incomplete_dataset_is_refused(tmp_path, change, words):
     change(bad)
     with pytest.raises(ArtifactError, match=words) as error:
         saved(bad, tmp_path / "a.nc")
-    assert "a.nc" in str(error.value)
-    assert not list(tmp_path.iterdir())
+    assert "a.nc" in str(error.value) and not list(tmp_path.iterdir())
 
 
 def test_a_failing_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
@@ -103,8 +101,7 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypa
     monkeypatch.setattr(artifacts, "_write", half)
     with pytest.raises(FileError, match="cannot be written: disk full"):
         saved(dataset(), path)
-    assert path.read_bytes() == before
-    assert list(tmp_path.iterdir()) == [path]
+    assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
 
 
 def refusal(path):

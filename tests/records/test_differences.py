@@ -15,12 +15,10 @@ STARTS = [0.1, {"x": 0.2, "xdot": 0.0}, 0.3]
         (STARTS, [0.1, {"x": 0.2, "xdot": 0.5}, 0.4], [("a[1].xdot", 0.0, 0.5)]),
         ([1, 2], [1, 2, 3], [("a: number of entries", 2, 3)]),
         ([1, 2], [0], [("a[0]", 1, 0), ("a: number of entries", 2, 1)]),
-        ([1, 2], 5, [("a", [1, 2], 5)]),
-        ([1], [1.0], [("a[0]", 1, 1.0)]),
-        ([True], [1], [("a[0]", True, 1)]),
-        ([1, 2], [1, 2], []),
+        ([1, 2], 5, [("a", [1, 2], 5)]), ([1], [1.0], [("a[0]", 1, 1.0)]),
+        ([True], [1], [("a[0]", True, 1)]), ([1, 2], [1, 2], []),
     ],
-)
+)  # fmt: skip
 def test_the_first_entry_of_a_list_that_differs_is_named(before, after, expected):
     assert list(differing_keys({"a": before}, {"a": after})) == expected
 

@@ -51,8 +51,7 @@ def planned(made):
 
 def test_a_plan_names_what_changed_by_scene(made):
     root, specs = made
-    assert planned(made) == "nothing to make"
-    assert Freshness(*made).state(DRAWING) == "current"
+    assert planned(made) == "nothing to make" and Freshness(*made).state(DRAWING) == "current"
 
     def with_config(*paths, **fields):
         new = {path: specs[path]._replace(config=specs[path].config | fields) for path in paths}
@@ -217,8 +216,7 @@ def test_times_say_what_is_outdated_whatever_they_were(made):
     assert run_again((root, edited)) == [DRAWING]
     assert run_again(made) == []  # the edit is undone
     make(root, edited, DRAWING)
-    assert run_again((root, edited)) == []
-    assert run_again(made) == [DRAWING]
+    assert run_again((root, edited)) == [] and run_again(made) == [DRAWING]
     make(root, specs, DRAWING)
     (root / spec_path(DRAWING)).write_bytes(b"\xff")  # no text
     assert run_again(made) == []

@@ -24,15 +24,11 @@ def test_imports_are_followed_wherever_they_stand(tmp_path, monkeypatch):
     (package / "inner").mkdir(parents=True)
     for name, text in {
         "__init__.py": "\ndef __getattr__(name): ...",
-        "a.py": "def f():\n    from .inner import b\n",
-        "inner/__init__.py": "HERE = 1",
-        "inner/b.py": "from ..c import value\nimport os, pseudorigid.d",
-        "c.py": "import math",
-        "d.py": "from . import a\nfrom .inner import HERE",
-        "unused.py": "",
-        "lazy.py": "from . import Ball",
-        "lost.py": "from .nowhere import x",
-    }.items():
+        "a.py": "def f():\n    from .inner import b\n", "inner/__init__.py": "HERE = 1",
+        "inner/b.py": "from ..c import value\nimport os, pseudorigid.d", "c.py": "import math",
+        "d.py": "from . import a\nfrom .inner import HERE", "unused.py": "",
+        "lazy.py": "from . import Ball", "lost.py": "from .nowhere import x",
+    }.items():  # fmt: skip
         (package / name).write_text(text)
     monkeypatch.setattr(sources, "SRC", tmp_path)
     monkeypatch.setattr(sources, "ROOT", package)

@@ -21,8 +21,7 @@ def the_orbit(scene):
 
 
 def test_the_ball_and_the_energies_are_the_paper_s():
-    assert {"k": BALL.k, "g": BALL.g} == PAPER_BALL
-    assert SCENES.keys() == FIGURES.keys()
+    assert {"k": BALL.k, "g": BALL.g} == PAPER_BALL and SCENES.keys() == FIGURES.keys()
     for name, printed in FIGURES.items():
         for key in SCENES[name].keys() & printed.keys() - {"starts"}:
             assert SCENES[name][key] == printed[key], (name, key)
@@ -49,8 +48,7 @@ def test_the_hyperbolic_point_is_in_the_window_of_figure_6():
 
 def test_the_multipliers():
     multiplier = float(the_orbit("fig6")["multiplier"])
-    assert round(multiplier, 4) == 2.0417
-    assert round(1 / multiplier, 4) == 0.4898
+    assert round(multiplier, 4) == 2.0417 and round(1 / multiplier, 4) == 0.4898
 
 
 def test_the_exponents_of_figure_7():
@@ -62,5 +60,4 @@ def test_the_exponents_of_figure_7():
     final = found[-1]
     assert final[:, 0] == pytest.approx(EXPONENT, abs=0.02)
     assert final[:, 2] == pytest.approx(-EXPONENT, abs=0.02)
-    assert np.max(np.abs(final.sum(axis=1))) < 1e-4
-    assert np.max(np.abs(final[:, 1])) < 1e-4
+    assert np.max(np.abs(final.sum(axis=1))) < 1e-4 and np.max(np.abs(final[:, 1])) < 1e-4

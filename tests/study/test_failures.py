@@ -56,6 +56,8 @@ def test_the_count_of_missed_impacts_is_that_of_an_independent_solver(monkeypatc
     first = int(counted["first"].values[1])
     assert counted["missed"].values[1, -1] == suspects[:10_000].sum() and suspects[first]
     assert np.array_equal(counted["state"].values[1], columns[:, first])
+    monkeypatch.setattr(stages, "MILLION", first // 2 + 1)  # in parts: the miss is in a later one
+    assert stages.missed_flights([SCAN], 10_000).identical(counted)
     monkeypatch.setattr(stages, "ORBIT_METHODS", (OURS, SCAN))
     monkeypatch.setattr(stages, "AGREE_STARTS", 1)
     whole = stages.drift(impacts)

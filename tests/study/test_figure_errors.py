@@ -32,11 +32,9 @@ def errors():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(figure_errors, "METHODS", (OURS, SCANS[0], ENGINES[2]))
         return figure_errors.figure_errors(
-            periodic,
-            scenes={"sections": PORTRAIT, "times": MOTION},
-            measures={"sections": "portrait", "times": "motion"},
-            inputs=["periodic/times"],
-        )
+            periodic, scenes={"sections": PORTRAIT, "times": MOTION},
+            measures={"sections": "portrait", "times": "motion"}, inputs=["periodic/times"],
+        )  # fmt: skip
 
 
 def test_the_kinds_with_a_measure_are_studied():
@@ -85,6 +83,14 @@ def test_errors_across_a_branch_grow_by_the_multiplier_of_an_impact(monkeypatch)
 
     assert error(2.0, 1) == pytest.approx(1.5 * error(4.0, 1), rel=1e-12)
     assert error(0.0625, 2) == pytest.approx(error(4.0, 1), rel=1e-12)
+
+    def with_a_wrong_root(*given):
+        tau, count = OURS.solve(*given)
+        return np.append(tau[:-1], 99.0), count
+
+    lost = SimpleNamespace(solve=with_a_wrong_root)  # it counts as missed, not as an error
+    monkeypatch.setattr(figure_errors, "METHODS", (OURS, lost))
+    assert error(2.0, 1) < 1e-6
 
 
 def test_a_missed_impact_makes_a_picture_of_orbits_wrong(monkeypatch):

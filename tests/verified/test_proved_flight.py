@@ -60,8 +60,7 @@ def test_the_gap_its_derivatives_and_the_end_are_those_of_the_equations():
         its, time = launch(*numbers), arb("1.7")
         true = [mpmath.diff(gap, t, n) for n in range(4)]
         found = its.derivatives(time)
-        assert its.height(time).overlaps(found[0])
-        assert its.slope(time).overlaps(found[1])
+        assert its.height(time).overlaps(found[0]) and its.slope(time).overlaps(found[1])
         end = (position(t), mpmath.diff(lambda t: b * t + g * t * t / 2, t),
                -mpmath.diff(position, t))  # fmt: skip
         for value, number in zip((*found, *its.end(time), its.b, its.c), (*true, *end, b, c),
@@ -112,8 +111,7 @@ def test_a_step_that_is_proposed_too_long_is_not_taken(monkeypatch):
     at = arb(-1), arb(0.5), arb(1), None, arb(1), arb(1e-9)
     assert 0.9 * root(-1, 0.5, 1) < flight._step(*at) < root(-1, 0.5, 1)
     monkeypatch.setattr(flight, "_parabola_root", lambda *of: 1.00001 * root(*of))
-    assert flight._step(*at) == 0
-    assert flight._step(arb(0), *at[1:]) == 0
+    assert flight._step(*at) == 0 and flight._step(arb(0), *at[1:]) == 0
     assert flight._step(arb(-1, 2), *at[1:]) == 0
 
 
@@ -198,8 +196,7 @@ def test_an_interval_isolates_the_first_root_of_flights_near_a_touch(family):
         with mpmath.workdps(60):
             gap = Gap(*(mpf(float(a)) for a in (its.x, -its.s - its.c, its.c, its.s, its.g)))
             low, high = (mpf(a.str(40, radius=False)) for a in (low, high))
-            assert gap(low) < 0 < gap(high)
-            assert low < first_root(gap)[0] < high
+            assert gap(low) < 0 < gap(high) and low < first_root(gap)[0] < high
             assert min(gap.slope(low + (high - low) * i / 40) for i in range(41)) > 0
     assert decided > 12
 

@@ -54,8 +54,7 @@ def test_damaged_and_deleted_results_of_the_named_figures_are_made_again(done):
             line = f"{file.relative_to(done.path)}: changed after it was made: made again"
             assert f"reproduce: {line}" in text
         assert "orbits_fig8.nc: no record of what made it: made again" in text
-    assert contents(done) == before
-    assert {file: file.read_bytes() for file in kept} == kept
+    assert contents(done) == before and {file: file.read_bytes() for file in kept} == kept
     assert not (paper / "figures/fig6.svg").exists()  # whose figure is not named
 
 
@@ -64,8 +63,7 @@ def test_a_bug_in_a_stage_ends_in_one_line_that_names_the_log(edited, accepted):
     log = "results/paper/logs/manifolds_fig5.nc.log"
     reason = f"not made: ZeroDivisionError: division by zero (traceback in {log})"
     step, *table = [line for line in output.splitlines() if re.match("fig5.*not made", line)]
-    assert step.endswith(reason)
-    assert len(table) == 1 and table[0].endswith("not made")
+    assert step.endswith(reason) and len(table) == 1 and table[0].endswith("not made")
     assert f"\npaper_figures/fig5.png, paper_figures/fig5.svg: {reason}\n" in output
     assert "Traceback" not in output and "Traceback" in (edited.path / log).read_text()
     (named,) = re.findall(r"^reproduce: snakemake's log: (.*)$", output, re.MULTILINE)
@@ -88,8 +86,7 @@ def test_a_failing_publication_leaves_the_figure_as_it_was(tmp_path, monkeypatch
         patch.setattr(Path, "write_bytes", write_half)
         with pytest.raises(FileError, match=r"g: cannot be written: Input/output error$"):
             publishing._publish("published.png", "drawing.png")
-    assert published.read_text() == "before"
-    assert sorted(tmp_path.iterdir()) == [drawing, published]
+    assert published.read_text() == "before" and sorted(tmp_path.iterdir()) == [drawing, published]
     assert publishing._publish("published.png", "drawing.png") == "it differed from drawing.png"
     assert published.read_text() == "after"
 
@@ -114,8 +111,7 @@ def test_interrupting_the_start_is_no_traceback(tree, file):
     wait_for(reached.exists)
     run.send_signal(signal.SIGINT)
     output, _ = run.communicate(timeout=30)
-    assert run.returncode != 0
-    assert "Traceback" not in output
+    assert run.returncode != 0 and "Traceback" not in output
 
 
 def test_a_signal_to_the_run_alone_ends_its_jobs(done):

@@ -26,8 +26,7 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
         f"config.yaml: line {impact}: scenes.fig7.impact: unknown key: did you mean impacts?\n"
     )
     result = tree.run()
-    assert (result.returncode, result.stdout) == (1, lines)
-    assert not (tree.path / "results").exists()
+    assert (result.returncode, result.stdout) == (1, lines) and not (tree.path / "results").exists()
 
 
 @pytest.mark.parametrize(("words", "text", "status", "line"), [
@@ -49,8 +48,7 @@ def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_install
     path = path_of_bare_python(tmp_path / "bin")
     result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
     assert (result.returncode, result.stderr.count("\n")) == (status, int(status > 0))
-    assert (result.stdout + result.stderr).startswith(line)
-    assert not (tree.path / ".venv").exists()
+    assert (result.stdout + result.stderr).startswith(line) and not (tree.path / ".venv").exists()
 
 
 def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path):
@@ -110,8 +108,7 @@ def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
         (path / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "{program}" "$2"\n')
         (path / "python3").chmod(0o755)
     result = run(tree.path / "reproduce", env={"PATH": str(path)}, cwd="/")
-    assert (result.returncode, result.stdout) == (1, "")
-    assert result.stderr == f"reproduce: {line}\n"
+    assert (result.returncode, result.stdout) == (1, "") and result.stderr == f"reproduce: {line}\n"
     assert not (tree.path / ".venv").exists()
 
 
@@ -246,8 +243,7 @@ def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
         assert with_uv.run() == MADE, target
     assert with_uv.run() == READY
     (with_uv.tree / "requirements" / "lock.txt").write_text(wheel(with_uv.wheels, "other"))
-    assert with_uv.run() == MADE
-    assert not (with_uv.site / "needed").exists()
+    assert with_uv.run() == MADE and not (with_uv.site / "needed").exists()
 
 
 @pytest.mark.slow
@@ -261,8 +257,7 @@ def test_a_venv_of_somebody_else_stays(with_uv):
     assert with_uv.run() == (1, line)
     venv.unlink()
     venv.write_text("mine")
-    assert with_uv.run() == (1, line)
-    assert venv.read_text() == "mine" and (kept / "bin").is_dir()
+    assert with_uv.run() == (1, line) and venv.read_text() == "mine" and (kept / "bin").is_dir()
 
 
 def start_slowly(set_up):
@@ -343,8 +338,7 @@ def test_added_packages_stay(set_up):
         subprocess.run([set_up.venv / "bin/python", "-c", add], env=environment, check=True)
     wheel(set_up.folder, "mine")
     pip = "PIP_NO_INDEX=1 .venv/bin/python -m pip install -q --find-links .. mine"
-    assert set_up.shell(pip) == ""
-    assert set_up.run() == READY
+    assert set_up.shell(pip) == "" and set_up.run() == READY
     for package in ("needed", "extra", "mine"):
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
 
@@ -353,8 +347,7 @@ def test_added_packages_stay(set_up):
 def test_a_bad_folder_of_wheels_is_reported(with_either):
     set_up = with_either
     nowhere = (2, "reproduce: --offline needs a folder with wheels, which 'nowhere' is not\n")
-    assert set_up.run("--offline", "nowhere") == nowhere
-    assert set_up.run("--offline")[0] == 2
+    assert set_up.run("--offline", "nowhere") == nowhere and set_up.run("--offline")[0] == 2
     (needed,) = set_up.wheels.glob("needed*")
     whole = needed.read_bytes()
     needed.write_bytes(whole[:-9] + b"corrupted")
@@ -362,8 +355,7 @@ def test_a_bad_folder_of_wheels_is_reported(with_either):
         status, output = set_up.run()
         assert status == 1
         line = f"reproduce: could not install the packages: {words}"
-        assert output.splitlines()[-1].startswith(line)
-        assert not (set_up.venv / "stamp").exists()
+        assert output.splitlines()[-1].startswith(line) and not (set_up.venv / "stamp").exists()
         needed.unlink(missing_ok=True)
     needed.write_bytes(whole)
     output = set_up.run(f"--offline={set_up.wheels.name}", "fig3", PSEUDORIGID_WHEELS="")
@@ -384,5 +376,4 @@ def test_settings_choose_where_packages_come_from_and_nothing_else(with_either):
     hostile |= {"PSEUDORIGID_WHEELS": "", "UV_PYTHON": sys.executable}
     assert set_up.run(**hostile, PIP_CONFIG_FILE=str(set_up.folder / "pip.conf")) == MADE
     require_installed(set_up, set_up.installer)
-    assert set_up.shell(".venv/bin/needed-where") == f"{set_up.venv}\n"
-    assert not elsewhere.exists()
+    assert set_up.shell(".venv/bin/needed-where") == f"{set_up.venv}\n" and not elsewhere.exists()

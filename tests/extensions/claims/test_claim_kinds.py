@@ -39,25 +39,19 @@ SCENES = {
 CHANGES = [
     ("spread", 0, "exponent", lambda v: v + 0.003),
     ("clusters", 0, "dependence", lambda v: 0.5 * v),
-    ("rotation", 0, "rotation", lambda v: v + 2e-3),
-    ("jumps", 0, "y", lambda v: 0.9 * v),
+    ("rotation", 0, "rotation", lambda v: v + 2e-3), ("jumps", 0, "y", lambda v: 0.9 * v),
     ("flux", 0, "branch_x", lambda v: v + 0.001 * np.arange(v.shape[1]) / v.shape[1]),
-    ("last_curve", 0, "residue", lambda v: 3.0 * v),
-    ("control", 0, "a", lambda v: 0.5 * v),
+    ("last_curve", 0, "residue", lambda v: 3.0 * v), ("control", 0, "a", lambda v: 0.5 * v),
     ("control_shares", 0, "class_share", lambda v: 0.5 * v),
     ("exclusion", 0, "excluded", lambda v: np.minimum(v, 5)),
-    ("exclusion", 0, "share", lambda v: 0.9 * v),
-    ("exclusion", 1, "x", lambda v: v + 0.005),
-    ("twist", 0, "twist", lambda v: 1.1 * v),
-    ("curves", 0, "x", lambda v: v + 0.005),
-    ("horseshoe", 1, "image_p", lambda v: 1.1 * v),
-    ("graph", 0, "corner_x", lambda v: v + 0.005),
+    ("exclusion", 0, "share", lambda v: 0.9 * v), ("exclusion", 1, "x", lambda v: v + 0.005),
+    ("twist", 0, "twist", lambda v: 1.1 * v), ("curves", 0, "x", lambda v: v + 0.005),
+    ("horseshoe", 1, "image_p", lambda v: 1.1 * v), ("graph", 0, "corner_x", lambda v: v + 0.005),
     ("escape", 0, "distance", lambda v: v * np.linspace(1, 2, v.shape[1])),
-    ("families", 0, "x", lambda v: v + 0.02),
-    ("residues", 0, "trace", lambda v: v + 0.2),
+    ("families", 0, "x", lambda v: v + 0.02), ("residues", 0, "trace", lambda v: v + 0.2),
     ("families", 0, "type", lambda v: np.full(v.shape, "hyperbolic", dtype=object)),
     ("families", 1, "regular", lambda v: 0.5 * v),
-]
+]  # fmt: skip
 
 
 def families_along(parameter, span, levels, step, starts, impacts):

@@ -26,10 +26,8 @@ PROVED_BY_THEOREMS = {21, 26, 29, 30, 52}
 EXPECTED = {
     FALSE: {14, 33},
     CORRECTED: {3, 4, 6, 7, 11, 13, 17, 19, 22, 23, 34, 37, 40, 44, 50, 59, 67, 74},
-    UNDECIDED: {30, 52, 62, 63, 70},
-    UNCHECKED: {51, 58},
-    PROVED: ALGEBRA,
-}
+    UNDECIDED: {30, 52, 62, 63, 70}, UNCHECKED: {51, 58}, PROVED: ALGEBRA,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("proofs", ["", PROVED])

@@ -57,8 +57,7 @@ def test_the_map_jumps_across_the_curve():
         rim = curve["rim_x"].values[i], -curve["rim_y"].values[i]
         beyond = x[400 - i], -y[400 - i]
         ends.sort(key=lambda end: math.dist(end, rim))
-        assert math.dist(ends[0], rim) < 1e-3
-        assert math.dist(ends[1], beyond) < 1e-3
+        assert math.dist(ends[0], rim) < 1e-3 and math.dist(ends[1], beyond) < 1e-3
         assert math.dist(*ends) > 0.01
 
 
@@ -79,8 +78,7 @@ def test_the_image_has_a_gap_where_the_map_jumps_across_the_arc():
 
 def test_no_curve_below_the_first_energy():
     data = jumps(BALL, 0.00175, [0.00177], 100)
-    assert float(data["length"].values[0]) == 0.0
-    assert 0.0 < float(data["length"].values[1]) < 0.02
+    assert float(data["length"].values[0]) == 0.0 and 0.0 < float(data["length"].values[1]) < 0.02
     assert data.attrs["first_energy"] == pytest.approx(0.00176, rel=1e-12)
 
 

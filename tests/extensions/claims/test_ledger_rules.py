@@ -126,8 +126,7 @@ def test_orbits_differ_if_one_mean_is_off_by_more_than_its_own_chance():
     for off, verdict in ((0.0, HOLDS), (4.9, HOLDS), (5.1, FALSE)):
         blocks[:, 2, 0] = 0.2 + noise[:, 2] + off * errors[2] * 6 / 5
         found = chaos.independent_of_start(sea(blocks))
-        assert word(found) == verdict
-        assert found.numbers["furthest"] == pytest.approx(off, abs=1e-6)
+        assert word(found) == verdict and found.numbers["furthest"] == pytest.approx(off, abs=1e-6)
     most = pytest.approx(blocks[:, 2, 0].mean(), abs=1e-15)
     assert found.numbers["most"] == most and found.numbers["least"] < 0.201
     assert word(chaos.independent_of_start(sea(noise[:, :, None] - [0.1, 0.2, 0.3]))) == FALSE
@@ -260,8 +259,7 @@ def test_the_mean_strain_energy_exceeds_a_tenth_by_three_errors():
         share = np.array([0.2 - apart, 0.2 + apart, 0.2])
         table = {"strain_energy": share, "kinetic_energy": 1.0 - share, "time": [1.0, 1.0, 2.0]}
         found = model.strain_energy(data("orbit", **table), right)
-        assert word(found) == verdict
-        assert found.numbers["mean"] == pytest.approx(0.2)
+        assert word(found) == verdict and found.numbers["mean"] == pytest.approx(0.2)
         error = apart * math.sqrt(2 * 3 / 2) / 4
         assert found.numbers["standard_error"] == pytest.approx(error, abs=1e-12), apart
         assert word(model.strain_energy(data("orbit", **table), wrong)) == FALSE
@@ -444,8 +442,7 @@ def test_points_alternate_around_their_middle():
         )
         return word(periodic.alternating_points(orbits, {"twist-six": True}))
 
-    assert verdict(np.arange(0, 12, 2)) == HOLDS
-    assert verdict(np.array([0, 1, 4, 6, 8, 10])) == FALSE
+    assert verdict(np.arange(0, 12, 2)) == HOLDS and verdict(np.array([0, 1, 4, 6, 8, 10])) == FALSE
 
 
 # -- strains in flight -----------------------------------------------------------------------------

@@ -103,8 +103,7 @@ def test_births_are_the_closed_form_and_jumps_begin_where_the_proof_says(curves)
 
 def test_a_chain_of_which_the_resonance_is_not_in_the_plane_has_no_curves():
     few = chains.chains([0.1, 0.11], [1.0, 2.0], [3])
-    assert isinstance(few, xr.Dataset)
-    assert few["kind"].values.tolist() == ["jumps"]
+    assert isinstance(few, xr.Dataset) and few["kind"].values.tolist() == ["jumps"]
 
 
 def test_a_curve_is_known_where_it_passes_and_cut_at_the_plane():

@@ -45,11 +45,9 @@ def local(p=(0, 0, 0, 0, 0, 0), q=(0, 0, 0, 0, 0, 0)):
 def test_coordinates_undo_a_box_also_of_the_mirrored_set():
     for p, q in ((0.25, -0.5), (1, 1), (-1, 0)):
         x, y = SKEW.box(arb(p), arb(q))
-        assert (x, y) == (0.25 + 2 * p - q / 2, -0.5 + p + q)
-        assert SKEW.coordinates(x, y) == (p, q)
+        assert (x, y) == (0.25 + 2 * p - q / 2, -0.5 + p + q) and SKEW.coordinates(x, y) == (p, q)
         assert SKEW.mirrored("R").coordinates(x, -y) == (q, p)
-    assert (SKEW.area, SKEW.mirrored("R").area) == (2.5, 2.5)
-    assert SKEW.mirrored("R").name == "R"
+    assert (SKEW.area, SKEW.mirrored("R").area) == (2.5, 2.5) and SKEW.mirrored("R").name == "R"
 
 
 @pytest.mark.parametrize("u", [(1, 0), (-1, 0), (0, 0)])
@@ -112,8 +110,7 @@ def test_curvatures_are_enclosed_over_the_whole_set():
         return x * x * x * x * x * x * x * x * x
 
     its = hsets.local_map(made(lambda x, y: (power(x), power(y))), ONE, ONE)
-    assert its.curvatures[0][0].contains(1)
-    assert its.curvatures[1][2].contains(1)
+    assert its.curvatures[0][0].contains(1) and its.curvatures[1][2].contains(1)
 
 
 EDGES = [  # coefficient, its enclosures of p' at p = 1 and at p = -1, and of q'
@@ -143,8 +140,7 @@ def test_the_hull_holds_the_derivatives_of_all_points(place):
         hull = local(*((terms, [0] * 6) if row == 0 else ([0] * 6, terms))).hull()
         middle = [2 * sign * (place == 1), 2 * sign * (place == 2)]
         for value, centre, width in zip(hull[row], middle, half_widths, strict=True):
-            assert value.contains(centre)
-            assert abs(value.rad() - width) < 1e-7
+            assert value.contains(centre) and abs(value.rad() - width) < 1e-7
         assert all(value == 0 for value in hull[1 - row])
 
 
@@ -197,8 +193,7 @@ def test_a_hyperbolic_relation_needs_its_covering_and_its_cones():
         return hsets.prove_hyperbolic(made(lambda x, y: (a * x + b * y, d * y)), ONE, LEFT)
 
     margins, cone, its = prove(4, 2.5, 0.5)
-    assert margins == (pytest.approx(0.5), pytest.approx(0.5))
-    assert cone > 0
+    assert margins == (pytest.approx(0.5), pytest.approx(0.5)) and cone > 0
     assert its.slopes == ((4, 2.5), (0, 0.5))
     with pytest.raises(NotProvedError, match="N does not cover M"):
         prove(4, 3, 0.5)
@@ -236,8 +231,7 @@ def test_a_covering_on_cells_holds_for_a_folded_image(side, narrow):
     with pytest.raises(NotProvedError):
         hsets.covering_margins(hsets.local_map(made(folded), source, ONE), source, ONE)
     beyond, room = hsets.prove_covering(made(folded), source, ONE)
-    assert 0.2 < beyond < 0.77
-    assert 0 < room < 0.19
+    assert 0.2 < beyond < 0.77 and 0 < room < 0.19
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -429,10 +423,8 @@ def test_a_graph_has_all_coverings_and_the_least_margins(graph_of):
     assert found.digits["entropy"].overlaps(arb("0.405465108108164", 1e-15))
     second = found.parts["graph"].connections[1]
     assert (second.source, second.target, second.low, second.high) == (0, 1, -1, Fraction(-1, 2))
-    assert second.impacts == 2
-    assert second.strip.box(arb(-1), arb(0)) == (-4, -2)
-    assert second.strip.box(arb(1), arb(1)) == (-2, 0)
-    assert second.chain[0].centre == (1, 0)
+    assert second.impacts == 2 and second.strip.box(arb(-1), arb(0)) == (-4, -2)
+    assert second.strip.box(arb(1), arb(1)) == (-2, 0) and second.chain[0].centre == (1, 0)
     with pytest.raises(NotProvedError, match=r"entropy is not proved to be above 0\.41"):
         graph_of(entropy="0.41")
 

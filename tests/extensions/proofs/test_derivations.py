@@ -40,8 +40,7 @@ def test_the_misprints_are_found_and_no_others(derived):
 def test_numbers_that_come_with_formulas(derived):
     value = derived["value"].to_series()
     assert value["euler_tensor"] == 0.2  # a solid sphere
-    assert value["shell"] == pytest.approx(1 / 3, rel=1e-15)
-    assert value["modes"] == 2.0
+    assert value["shell"] == pytest.approx(1 / 3, rel=1e-15) and value["modes"] == 2.0
     assert value["softness"] == 5.0  # Young's modulus is 5 rho g R
     assert value["bound"] == pytest.approx(BALL.energy_bounds()[1], abs=1e-16)
     assert value["smooth"] == pytest.approx(0.00176, rel=1e-14)
@@ -55,8 +54,7 @@ def test_numbers_that_come_with_formulas(derived):
 def test_a_wrong_flight_is_noticed(monkeypatch, strain):
     wrong = sp.Lambda((x, b, c, tau), (x + b * tau + g * tau**2 / 2, strain))
     monkeypatch.setattr(motion, "flight", wrong)
-    assert not motion.flights().printed
-    assert not motion.impact_map().corrected
+    assert not motion.flights().printed and not motion.impact_map().corrected
 
 
 def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
@@ -68,8 +66,7 @@ def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
     monkeypatch.setattr(forms, "action", lambda x, b, c, t: symbols.action(x, b, c, t) + x * t)
     assert not forms.area().printed
     monkeypatch.setattr(motion, "energy", lambda x, v, w: symbols.energy(x, v, w) + v * w)
-    assert not motion.conserved_energy().printed
-    assert not motion.bound_in_flight().printed
+    assert not motion.conserved_energy().printed and not motion.bound_in_flight().printed
 
 
 # ---- formulas of the code

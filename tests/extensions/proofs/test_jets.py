@@ -107,8 +107,7 @@ def test_the_chart_is_that_of_the_energy():
             x, y = map(arb, point)
             v, w = PAPER.velocities(x, y)
             assert abs(v * v / 2 + k * w * w / 2 - g * x + k * x * x / 2 - energy) < 1e-55
-            assert abs(v - k * w - y) < 1e-55
-            assert abs(v + w - PAPER.speed(x, y)) < 1e-55
+            assert abs(v - k * w - y) < 1e-55 and abs(v + w - PAPER.speed(x, y)) < 1e-55
             its, wanted = PAPER.flight(x, y), launch(k, g, x, v, w, v + w)
             assert all(abs(getattr(its, a) - getattr(wanted, a)) < 1e-55 for a in "xbcsg")
             after = PAPER.impact(x, y)

@@ -277,8 +277,7 @@ def test_the_loop_is_closed_and_the_chain_leads_to_the_jump_set(circle):
     chain = [it.name for it in found.parts["chain"]]
     loop = [f"S_{i} S_{(i + 1) % 6}" for i in range(6)]
     links = [f"{a} {b}" for a, b in pairwise(["S_0", *chain])]
-    assert calls[:-2] == loop + links
-    assert calls[-2] == "landings"
+    assert calls[:-2] == loop + links and calls[-2] == "landings"
     assert calls[-1].startswith(f"{chain[-1]} ")
     assert chain == [f"M_{i}" for i in range(1, len(chain) + 1)]
     assert found.margins == {"beyond": 0.5, "room": 0.75, "cones": 0.25, "crossing": 0.125}

@@ -39,8 +39,7 @@ def test_every_symmetric_orbit_is_proved_on_request(k, g, energy, period):
     for i in range(orbits.sizes["orbit"]):
         orbit = orbits.isel(orbit=i)
         proved = prove_orbit(ball, orbit)
-        assert proved.type == orbit["type"].item()
-        assert proved.radius > 0
+        assert proved.type == orbit["type"].item() and proved.radius > 0
         assert float(proved.trace) == pytest.approx(orbit["trace"].item(), rel=1e-6, abs=1e-6)
         points = np.array([[float(a) for a in point] for point in proved.points]).T
         assert points.shape == (2, period)
@@ -114,10 +113,8 @@ def orbit_impacts(starts, impacts_each):
 def test_impacts_are_proved_and_errors_small():
     impacts, told = orbit_impacts([0.534522, -0.44], [400, 200]), []
     result = prove_impacts("1/5", "1/25", impacts, progress=told.append)
-    assert told == [*range(600)]
-    assert result.verdict == "proved"
-    assert 0 < result.margins["worst error"] < 1e-12
-    assert "600 impacts" in result.line()
+    assert told == [*range(600)] and result.verdict == "proved"
+    assert 0 < result.margins["worst error"] < 1e-12 and "600 impacts" in result.line()
 
 
 @pytest.mark.parametrize("scene", ["fig4", "fig6", "fig7"])
@@ -147,14 +144,12 @@ def sets(six):
 
 
 def test_the_data_of_the_horseshoe_show_the_committed_certificate(sets):
-    assert sets.sizes["set"] == 6 + 2 * 59 + 1
-    assert np.isnan(sets["chain"].values).sum() == 6
+    assert sets.sizes["set"] == 6 + 2 * 59 + 1 and np.isnan(sets["chain"].values).sum() == 6
     rows = [row for field in ("saddles", "approach")
             for row in numbers(THEOREMS["horseshoe-outer"].text(), field)]  # fmt: skip
     assert sets["x"].values[: 6 + 59].tolist() == [float(row[0]) for row in rows]
     p, q = sets["image_p"].values, sets["image_q"].values
-    assert np.abs(p[:2]).min() > 1
-    assert np.abs(q).max() < 1
+    assert np.abs(p[:2]).min() > 1 and np.abs(q).max() < 1
     middle = sets.isel(set=int(np.flatnonzero(sets["chain"].values == 0)[0]))
     assert middle["y"].item() == 0
     assert middle["corner_x"].mean().item() == pytest.approx(middle["x"].item(), abs=1e-12)
@@ -171,8 +166,7 @@ def test_the_twist_of_another_ball_and_its_proved_zero():
 def test_the_data_of_a_proved_curve(monkeypatch):
     monkeypatch.setattr(scenes, "theorems_at", lambda *_: [SMALL])
     data = scenes.scene_curves(BALL, 0.01, [0.17865])
-    assert data.sizes["curve"] == 1
-    assert 0.0069 < data["share"].item() < 0.007
+    assert data.sizes["curve"] == 1 and 0.0069 < data["share"].item() < 0.007
     area = Polygon(np.stack([data["x"].values[:-1], data["y"].values[:-1]])).area()
     assert 0.99 * data["area"].item() < area < data["area"].item()
 
@@ -181,8 +175,7 @@ def test_the_data_of_a_proved_graph():
     data = scenes.scene_graph(BALL, 0.005)
     assert 0.05 < data["entropy"].item() < 0.051
     ends = data["connection"].values < 0
-    assert ends.sum() == 2
-    assert ends.size - 2 == (data["impacts"].values - 1).sum()
+    assert ends.sum() == 2 and ends.size - 2 == (data["impacts"].values - 1).sum()
     with pytest.raises(ValueError, match=r"at k = 1/5, .*: there are those at .*E/g.2 = 25/4"):
         scenes.scene_graph(BALL, 0.006)
     scaled = scenes.scene_graph(Ball(0.2, 0.08), 0.02)

@@ -39,10 +39,8 @@ def test_every_theorem_is_proved_with_positive_margins_in_a_line(results):
     for name, result in results.items():
         line = result.line()
         assert result.verdict == "proved", line
-        assert min(result.margins.values()) > 0
-        assert "\n" not in line
-        assert line.startswith(f"{name}.toml: ")
-        assert line.endswith("; proved")
+        assert min(result.margins.values()) > 0 and "\n" not in line
+        assert line.startswith(f"{name}.toml: ") and line.endswith("; proved")
     assert THEOREMS["fixed-point"].check("nonsense").line().endswith("; not proved")
 
 
@@ -134,8 +132,7 @@ def test_the_closed_forms_of_the_fixed_point_are_those_of_the_package(theta):
 
 def test_the_dataset_of_a_theorem_has_the_verdict_on_its_certificate(monkeypatch):
     whole = theorem_verdict("six-elliptic").attrs
-    assert whole["verdict"] == "proved"
-    assert whole["line"] == THEOREMS["six-elliptic"].check().line()
+    assert whole["verdict"] == "proved" and whole["line"] == THEOREMS["six-elliptic"].check().line()
     other = THEOREMS["six-inverse"].text()
     monkeypatch.setattr(type(THEOREMS["six-elliptic"]), "text", lambda theorem: other)
     broken = theorem_verdict("six-elliptic").attrs

@@ -72,8 +72,7 @@ def test_a_run_with_more_or_too_few_bits_gives_the_same_orbit(bits, monkeypatch)
 def test_starts_of_a_scene_may_be_fractions_of_the_radius_or_points(starts, impacts):
     data = true_scene_orbits(BALL, 0.01, starts, impacts)
     doubles = scene_orbits(BALL, 0.01, starts, impacts)
-    assert data.sizes == doubles.sizes
-    assert set(data.variables) == set(doubles.variables)
+    assert data.sizes == doubles.sizes and set(data.variables) == set(doubles.variables)
     for name in data.variables:
         assert data[name].attrs == doubles[name].attrs
         if name == "type":
@@ -128,8 +127,7 @@ def test_the_true_point_stays_in_the_set_of_a_run():
                     assert abs(side) <= radius + arb(2) ** -1500
                 for z, ball in zip(true.centre, run._box(bits), strict=True):
                     assert ball.contains(z)
-        assert run.count > 10
-        assert 0 < max(run.radii) < arb(2) ** -70
+        assert run.count > 10 and 0 < max(run.radii) < arb(2) ** -70
 
 
 @pytest.mark.parametrize("side", [0, 1])
@@ -156,8 +154,7 @@ def test_a_frame_is_orthogonal_along_the_longer_column():
         frame, inverse = enclosed_run._orthogonal_frame(columns, list(map(arb, radii)))
         a, b = frame[0, 0], frame[1, 0]
         assert abs(a * direction[1] - b * direction[0]) < 1e-14
-        assert (frame[0, 1], frame[1, 1]) == (-b, a)
-        assert abs(a * a + b * b - 1) < 1e-14
+        assert (frame[0, 1], frame[1, 1]) == (-b, a) and abs(a * a + b * b - 1) < 1e-14
         unit = frame * inverse
         assert all(unit[i, j].contains(int(i == j)) for i in (0, 1) for j in (0, 1))
 

@@ -219,14 +219,10 @@ def test_a_function_falls_through_zero_once_only():
 
     assert margin([plus, falls, falls, minus, minus]) == 1
     for rows in (
-        [plus, minus, plus, minus],
-        [plus, falls, minus, falls, minus],
-        [falls, minus],
-        [plus, falls],
-        [plus, plus],
-        [plus, (arb(0, 1), arb(1)), minus],
+        [plus, minus, plus, minus], [plus, falls, minus, falls, minus], [falls, minus],
+        [plus, falls], [plus, plus], [plus, (arb(0, 1), arb(1)), minus],
         [plus, (arb("nan"), arb("nan")), minus],
-    ):
+    ):  # fmt: skip
         with pytest.raises(NotProvedError, match="only one"):
             margin(rows)
 
@@ -398,8 +394,7 @@ def test_the_normal_form_is_that_of_a_map_with_known_twists(twists, monkeypatch)
     """The second twist depends on coordinates unless the first one is 0."""
     monkeypatch.setattr(twist, "complex_map", lambda *_: map_of(0.179, twists))
     form = twist.normal_form(None, None, 5)
-    assert abs(form.twists[0] - twists[0]) < 1e-25
-    assert len(form.twists) == 2
+    assert abs(form.twists[0] - twists[0]) < 1e-25 and len(form.twists) == 2
     if twists[0] == 0:
         assert abs(form.twists[1] - twists[1]) < 1e-25
     monkeypatch.setattr(twist, "complex_map", lambda *_: map_of(0.179, twists, 0))

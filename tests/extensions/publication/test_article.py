@@ -102,8 +102,7 @@ def test_the_article_is_a_valid_pdf(compiled, data, tmp_path):
         info = run("pdfinfo", file).stdout
         fields = {key: words.strip() for key, words in (x.split(":", 1) for x in info.splitlines())}
         assert (fields["Title"], fields["Tagged"]) == (data["title"], "yes")
-        assert 8 <= int(fields["Pages"]) <= 24
-        assert not {"CreationDate", "ModDate"} & {*fields}
+        assert 8 <= int(fields["Pages"]) <= 24 and not {"CreationDate", "ModDate"} & {*fields}
 
 
 def test_the_web_page_is_a_draft_whose_links_have_targets_and_that_loads_nothing(compiled):
@@ -164,11 +163,9 @@ def test_the_article_is_a_draft_until_citation_cff_is_complete(compiled):
     assert {"doi, of the archived software", "ORCIDs of the authors"} <= {*numbers.missing(facts)}
     orcid = "https://orcid.org/0-1"
     facts |= {
-        "authors": [{"given-names": "Ann", "family-names": "Bee", "orcid": orcid}],
-        "doi": "10.1/x",
-        "repository-code": "https://example.org/x",
-        "date-released": "2026-01-01",
-    }
+        "authors": [{"given-names": "Ann", "family-names": "Bee", "orcid": orcid}], "doi": "10.1/x",
+        "repository-code": "https://example.org/x", "date-released": "2026-01-01",
+    }  # fmt: skip
     text = compiled(**numbers._of_citation(facts)).decode()
     assert "Draft." not in text
     for words in ("Ann Bee", orcid, "2026-01-01", "https://doi.org/10.1/x", "example.org/x"):
