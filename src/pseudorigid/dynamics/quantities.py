@@ -135,7 +135,9 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     exponentially along a chaotic one; the averages of the turns over the two halves of a regular
     orbit agree. An orbit is regular if both are so after two successive numbers of impacts, of
     which the smaller one is at least 16,000, and chaotic if the logarithm of the vector's length
-    grows far more than along any regular orbit, twice. RATES
+    grows far more than along any regular orbit, twice. Of 1,024 orbits of the paper's ball each, at
+    E = 0.01 and at E = 0.001, and of a shell at E/g^2 = 1.2, none was wrong, and 0, 0.4 and 0.6 %
+    were undecided (`./reproduce atlas verdicts`).
 
     Examples
     --------
@@ -150,7 +152,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     rotation, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
         types[finite], rotation[finite], followed[finite] = judged(ball, columns, impacts)
-    dims, turns = orbit_dims(finite.shape), "rotation number around the fixed point, turns an impact"
+    dims, turns = orbit_dims(finite.shape), "turns an impact around the fixed point"
     table = {
         "type": (dims, types, "regular, chaotic, undecided or undefined"),
         "rotation_number": (dims, rotation, turns),

@@ -140,7 +140,7 @@ def _numbers_in_lanes(
     lengths: list[int], k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray, centre: np.ndarray,
     expected: np.ndarray,
 ) -> _Numbers:  # fmt: skip
-    """Follow orbits in lanes; winding numbers below LEAST_REGULAR, which decide nothing, are NaN."""
+    """Follow orbits in lanes; those below LEAST_REGULAR have no winding numbers."""
     turning, growing = windows(lengths)
     short = sum(length < LEAST_REGULAR for length in lengths)
     turning = turning[3 * short :]
