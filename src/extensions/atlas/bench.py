@@ -4,6 +4,7 @@ Cells are drawn at random over the plane of the atlas.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -81,7 +82,7 @@ def lines(seconds: dict[str, tuple[float, float, float]]) -> list[str]:
 
 
 @jit
-def _follow(x, v, w, k, impacts, vectors, turns):
+def _follow(x: Any, v: Any, w: Any, k: float, impacts: int, vectors: int, turns: bool) -> Any:
     """Follow at most GROUP orbits with unit tangent vectors, and count turns if `turns` is true."""
     n, coefficients = x.size, impact_coefficients(k)
     x, v, w, tau = x.copy(), v.copy(), w.copy(), np.empty(n)
@@ -104,7 +105,10 @@ def _follow(x, v, w, k, impacts, vectors, turns):
 
 
 @jit
-def _carry(tangents, vector, row, n, k, coefficients, states, flights, sums):
+def _carry(
+    tangents: Any, vector: int, row: int, n: int, k: float, coefficients: Any, states: Any,
+    flights: Any, sums: Any,
+) -> None:  # fmt: skip
     """Carry a tangent vector of each orbit over an impact."""
     for i in range(n):
         at = vector + i
@@ -117,7 +121,7 @@ def _carry(tangents, vector, row, n, k, coefficients, states, flights, sums):
 
 
 @jit
-def _turn(row, n, k, states, sums):
+def _turn(row: int, n: int, k: float, states: Any, sums: Any) -> None:
     """Add the turn of each orbit around the centre of the section."""
     for i in range(n):
         at = row + i

@@ -44,7 +44,7 @@ def draw(scene: dict[str, Any], data: xr.Dataset) -> Figure:
         title(sheet, frames[-2], f"Wrong verdicts, {place}")
         corner(sheet, frames[-1], f"{data['orbits'].values[row]:,} orbits")
     letters(sheet, *frames[::2])
-    entries = [(name, *_METHODS[name]) for name in data["name"].values]
+    entries: list[Any] = [(name, *_METHODS[name]) for name in data["name"].values]
     entries.append((_UNDECIDED, style.VERMILION, "o", True))
     key(sheet, entries, 152, columns=2, size=7.0)
     return sheet.figure
