@@ -137,7 +137,9 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 64_00
     exponentially along a chaotic one; the averages of the turns over the two halves of a regular
     orbit agree. An orbit is regular if both are so after two successive numbers of impacts, of
     which the smaller one is at least 16,000, and chaotic if the logarithm of the vector's length
-    grows far more than along any regular orbit, twice. RATES
+    grows far more than along any regular orbit, twice. Of 1,024 orbits of the paper's ball each, at
+    E = 0.01 and at E = 0.001, and of a shell at E/g^2 = 1.2, none was wrong, and 0, 0.4 and 0.6 %
+    were undecided (`./reproduce atlas verdicts`).
 
     Examples
     --------
