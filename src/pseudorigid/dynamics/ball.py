@@ -91,10 +91,9 @@ class Ball:
         return _plain(kinetic - self.g * x + 0.5 * self.k * x * x)
 
     def energy_bounds(self) -> tuple[float, float]:
-        """Return the lowest energy and the paper's upper bound.
+        """Return the lowest energy, -g^2/(2k), and the paper's bound, k/2 - g (m omega^2 R^2).
 
-        They are -g^2/(2k), at rest on the floor, and k/2 - g, eq. (31), which is to keep u > -1, in
-        m omega^2 R^2.
+        At the lowest energy the ball rests on the floor. The bound, eq. (31), is to keep u > -1.
         """
         return -self.g * self.g / (2.0 * self.k), 0.5 * self.k - self.g
 
