@@ -73,7 +73,7 @@ def test_the_locks_hold_the_requested_packages(requested, lock):
 
 def test_additional_packages_have_the_versions_of_the_lock():
     locked = pins("requirements/lock.txt")
-    for file in ("test", "study", "slurm", "explorer", "site", "wheel"):
+    for file in ("test", "study", "slurm", "explorer", "site"):
         pinned = pins(f"requirements/{file}.txt")
         assert pinned and {name: locked.get(name, pinned[name]) for name in pinned} == pinned
     locked |= pins("requirements/study.txt")

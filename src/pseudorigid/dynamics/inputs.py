@@ -21,9 +21,7 @@ class _Array(Protocol):  # a Series of pandas is one
 # Real numbers, also Fractions and arrays, and lists of them. The ArrayLike of numpy includes text.
 _Real = SupportsFloat | _Array
 Reals = TypeAliasType("Reals", _Real | Sequence[_Real | Sequence[SupportsFloat]])
-StateLike = TypeAliasType(
-    "StateLike", tuple[Reals, Reals, Reals] | list[Any] | np.ndarray | xr.Dataset
-)
+StateLike = TypeAliasType("StateLike", tuple[Reals, Reals, Reals] | list | np.ndarray | xr.Dataset)
 _STATE = ("x", "xdot", "udot")
 _END_OF_COUNTS = 2**53  # beyond it a double does not hold every whole number
 

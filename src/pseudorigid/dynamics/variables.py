@@ -117,9 +117,7 @@ def final_exponents(lyapunov: xr.Dataset) -> np.ndarray:
 
 
 def with_parameters(dataset: xr.Dataset) -> xr.Dataset:
-    """Make coordinates of the attributes k, g and energy, so that combined datasets keep them.
-
-    `xarray.concat` keeps only the first dataset's attributes.
+    """Make coordinates of the attributes k, g and energy, which `xarray.concat` would lose.
 
     Parameters
     ----------
@@ -129,13 +127,13 @@ def with_parameters(dataset: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        k (m R^2), g (omega^2 R) and energy (m omega^2 R^2) are scalar coordinates, except where a
-        variable has that name, and no attributes.
+        With k (m R^2), g (omega^2 R) and energy (m omega^2 R^2) as scalar coordinates. An attribute
+        stays one if a variable has its name.
 
     Raises
     ------
     ValueError
-        It is no Dataset, or one that does not say k and g.
+        It is no Dataset, or has no k and g.
 
     Examples
     --------
