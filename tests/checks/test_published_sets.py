@@ -2,6 +2,7 @@
 
 import hashlib
 import shutil
+import subprocess
 
 import pytest
 from runs import contents
@@ -62,6 +63,30 @@ def test_the_pictures_of_a_removed_scene_are_listed(moved):
     assert status == 0 and {"fig7.png  gone", *lines} <= {*said}
     assert verified(moved).findings == lines
     assert (moved.path / "paper_figures" / "fig7.png").is_file()
+
+
+def test_a_picture_of_a_scene_that_is_gone_is_removed_if_it_was_published_here(moved):
+    """What git tracks, what another hand drew, and what an unknown repository has stay."""
+    figures, drawn = moved.path / "paper_figures", moved.path / "results/paper/figures"
+    for name in ("gone", "tracked", "other"):
+        (drawn / f"{name}.png").write_bytes(name.encode())
+        (figures / f"{name}.png").write_bytes(name.encode())
+    (figures / "other.png").write_bytes(b"edited")
+    removes = "no scene makes it: ./reproduce accept removes it, or put its scene back"
+    by_hand = "no scene makes it: delete it, or put its scene back"
+    assert [by_hand] * 3 == [line.partition(": ")[2] for line in verified(moved).findings]
+    accepting(moved)
+    assert (figures / "gone.png").exists()
+    commit(moved.path, *(f"paper_figures/{f.name}" for f in figures.iterdir() if f.stem != "gone"))
+    untrack = ["git", "-C", moved.path, "rm", "-q", "--cached", "paper_figures/other.png"]
+    subprocess.run(untrack, check=True)
+    lines = [f"paper_figures/{name}.png: {by_hand}" for name in ("other", "tracked")]
+    assert verified(moved).findings == [f"paper_figures/gone.png: {removes}", *lines]
+    status, said = accepting(moved)
+    assert status == 0 and said[0] == "paper_figures/gone.png: removed: no scene makes it"
+    assert not (figures / "gone.png").exists()
+    assert (figures / "tracked.png").exists() and (figures / "other.png").exists()
+    assert verified(moved).findings == lines
 
 
 def with_scenes(tree, other, *names):

@@ -59,7 +59,7 @@ MISTAKES = {
     "variant": ": variant needs a name:",
     "variant paper": ": no variant paper:",
     "variant lower-energi": ": no variant lower-energi: did you mean lower-energy?",
-    "variant lower-energy fig99": ": no figure fig99: did you mean fig2, fig3 or fig4?",
+    "variant lower-energy fig99": ": no variant or figure fig99: did you mean fig2, fig3 or fig4?",
     "fig3 --strict": ": no argument --strict: verify has it",
     "variant --coers 1": " variant: no argument --coers: did you mean --cores?",
     "-c0": ": argument -c/--cores: '0' is not allowed: expected 1 or more, or all",
@@ -81,7 +81,7 @@ def test_a_mistake_is_one_line_with_the_nearest_name(capsys, line):
 
 def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
     args = arguments.read(["variant", "low", "-c2", "fig3", "--", "-j", "5", "x"])
-    assert (args.variant, args.figure, args.cores) == ("low", ["fig3"], "2")
+    assert (args.variant, args.cores) == (["low", "fig3"], "2")
     assert (args.options, args.makes_nothing) == (["-j", "5", "x"], False)
     args = arguments.read(["variant", "--cores", "2", "-n"])
     assert (args.cores, args.options, args.makes_nothing) == ("2", [], True)

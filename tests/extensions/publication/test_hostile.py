@@ -115,11 +115,12 @@ def test_a_result_with_a_fitting_record_differs_in_its_layer(moved, path, like, 
 # ---- special files ----
 
 MANIFEST = "paper_figures/MANIFEST.json"
-OTHERS = {"a FIFO": os.mkfifo, "a folder": os.mkdir}
+OTHERS = {"a special file": os.mkfifo, "a folder": os.mkdir}
 
 
 @pytest.mark.parametrize(
-    ("file", "what"), [(DATA, "a FIFO"), (FIG3, "a folder"), *slowly((MANIFEST, "a FIFO"))]
+    ("file", "what"),
+    [(DATA, "a special file"), (FIG3, "a folder"), *slowly((MANIFEST, "a special file"))],
 )
 def test_a_special_file_hangs_nothing(moved, tmp_path, file, what):
     (moved.path / file).unlink()
@@ -136,7 +137,11 @@ def test_a_special_file_hangs_nothing(moved, tmp_path, file, what):
 
 @pytest.mark.parametrize(
     ("file", "what"),
-    [(record_path(DATA), "a FIFO"), (log_path(DATA), "a folder"), ("config.yaml", "a FIFO")],
+    [
+        (record_path(DATA), "a special file"),
+        (log_path(DATA), "a folder"),
+        ("config.yaml", "a special file"),
+    ],
 )
 def test_a_special_file_beside_a_result_or_as_config_is_one_line(moved, file, what):
     for path in (DATA, file):

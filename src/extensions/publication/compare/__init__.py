@@ -3,11 +3,12 @@
 Nothing is computed here: the variants must have their results.
 """
 
+import csv
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-import pandas as pd
 from matplotlib.figure import Figure
 
 from pipeline.checks.quantities import measured
@@ -36,7 +37,10 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
 
 def over_range(root: Path, config: Config, name: str, scenes: Sequence[str]) -> None:
     """Print what the variants of a range report, and save it as text, as CSV and in pictures."""
-    of, folder, rows = config.ranges[name], root / "results/compare" / name, []
+    of, folder = config.ranges[name], root / "results/compare" / name
+    rows: list[Sequence[object]] = [
+        ["figure", "quantity", "variant", "value", "number", "standard deviation", "text"]
+    ]
     comparison = _Comparison(root, config, [m for m in of.members if m in config.variants])
     faulty, lines = [m for m in of.members if m in config.faulty], [f"{name}: {of.path}"]
     lines += [f"{member}: not made, see the mistake above" for member in faulty]
@@ -51,8 +55,8 @@ def over_range(root: Path, config: Config, name: str, scenes: Sequence[str]) -> 
         found += comparison.save(scene, folder / f"{scene}.png", labels, curves)
         found += [f"{m}: {state}" for m, state in states.items() if m not in current]
         lines += ["", scene, *(f"  {line}" for line in found)]
-    table = pd.DataFrame(rows, columns=quantities.COLUMNS).to_csv(index=False, lineterminator="\n")
-    for suffix, text in {"txt": "\n".join([*lines, ""]), "csv": table}.items():
+    csv.writer(table := io.StringIO(), lineterminator="\n").writerows(rows)
+    for suffix, text in {"txt": "\n".join([*lines, ""]), "csv": table.getvalue()}.items():
         write_whole(folder / f"quantities.{suffix}", text)
         lines.append(f"results/compare/{name}/quantities.{suffix}")
     print(*lines, sep="\n")

@@ -15,19 +15,17 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
 Reported = Mapping[str, Mapping[str, str]]  # variant -> quantity -> its value as text
-# of the CSV file
-COLUMNS = ("figure", "quantity", "variant", "value", "number", "standard deviation", "text")
 _NUMBER = re.compile(r"(-?\d[\d,]*(?:\.\d+)?(?:e[-+]\d+)?)(?:, standard deviation (\S+))?")
 # pixels: height of a panel, the space above each and below them all, and ends from left to right
 _HIGH, _ROOM, _BELOW, _LEFT, _RIGHT = 210, 75, 110, 180, 1005
 
 
-def number(text: str) -> tuple[float, float] | None:
-    """Return the number that a text is and its standard deviation, NaN without one, else None."""
+def number(text: str) -> tuple[float, float | None] | None:
+    """Return the number that a text is, with its standard deviation if it has one, else None."""
     if not (match := _NUMBER.fullmatch(text)):
         return None
-    value, deviation = match.groups("nan")
-    return float(value.replace(",", "")), float(deviation)
+    value, deviation = match.groups()
+    return float(value.replace(",", "")), float(deviation) if deviation else None
 
 
 def table(of: Range, reported: Reported) -> Iterator[str]:
@@ -72,7 +70,7 @@ def curves(of: Range, reported: Reported) -> Figure | None:
     sheet = Sheet(style.COLUMN, high + -high % 75)  # whole quarters of an inch
     top = sheet.high - _ROOM
     for name in drawn:
-        pairs = np.array([each or (np.nan, np.nan) for each in numbers[name]])
+        pairs = np.array([each or (None, None) for each in numbers[name]], dtype=float)
         value, deviation = pairs[order].T
         text = f"{name} and standard deviation" if np.isfinite(deviation).any() else name
         ends = value - np.nan_to_num(deviation), value + np.nan_to_num(deviation)

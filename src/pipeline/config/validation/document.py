@@ -97,7 +97,7 @@ def check(given: object, main_alone: bool = False) -> Config:
     blocks = given.items() if isinstance(given, dict) else ()
     mappings = {key: block for key, block in blocks if isinstance(block, dict)}
     own = mappings.get("variants", {})  # validated one by one
-    document, mistakes = validate(Document, given | {"variants": {}} if own else given, ())
+    document, mistakes = validate(Document, dict(blocks) | {"variants": {}} if own else given, ())
     ball, _ = validate(BallBlock, mappings.get("ball"), ())
     if ball and (words := g_mistake(ball.k, ball.g)):
         mistakes.append(refusal(("ball", "g"), ball.g, words))
