@@ -7,7 +7,7 @@ import numpy as np
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.verdict import windows
 from pseudorigid.kernel.tangents import begin, propagate_with_tangent
-from study.measured import Call
+from study.bench import Call
 
 from .cell import numbers_of_cells
 from .starts import sunflower_points
