@@ -21,7 +21,7 @@ from pseudorigid.figures.canvas.sheet import POINT
 COLUMN = 89 / 25.4 * 72  # points: the width of a journal's column
 TEXT, INDEX = 6.0, 4.9  # points: least sizes of texts, and of their exponents and indices
 OF_TEXT, OF_LINES = 4.5, 3.0  # least contrasts with what is behind
-BAND = 3.0  # points: a wider line is a band, a cell or a halo
+BAND, SAMPLE = 3.0, 4.9  # points: a wider line is a band or a halo, a wider mark its sample
 _TOUCH = 0.25  # points that a text may lie on a line or on another text
 _SVG, _LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 _MARK_TO_TEXT, _LINE_TO_TEXT = 7 - 6 / POINT, 7 - 20 / POINT  # points, in `panel.key`
@@ -95,7 +95,7 @@ class Line:
 
     @property
     def is_band(self):
-        return self.width > BAND and not self.shape
+        return self.width > (SAMPLE if self.shape else BAND)
 
     def meets(self, frame):
         """Return whether a side or a mark reaches a frame (left, top, right, bottom)."""
@@ -156,14 +156,7 @@ class Drawing:
         self._walk(self.root)
         self.texts = [item for item in self.items if isinstance(item, Text)]
         self.lines = [item for item in self.items if isinstance(item, Line)]
-        bands = {line.color for line in self.lines if line.is_band}
-        samples = [line for line in self.lines if line.shape and line.color in bands]
-        boxes = [[*line.points.min(axis=0), *line.points.max(axis=0)] for line in self.lines]
-        reach = np.array(
-            [[-line.width, -line.width, line.width, line.width] for line in self.lines]
-        )
-        self.boxes = np.reshape(boxes, (-1, 4)) + np.reshape(reach, (-1, 4)) / 2
-        self.data = [line for line in self.lines if not line.quiet and line not in samples]
+        self.data = [line for line in self.lines if not line.quiet]
 
     def _walk(self, element):
         name = ""

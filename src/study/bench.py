@@ -5,25 +5,31 @@ shows less. Calls take turns, so that what slows the machine down slows all of t
 """
 
 import os
+import platform
 import statistics
 import time
+from collections.abc import Callable
 from importlib import import_module
+from importlib.metadata import version
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from pipeline.cli.arguments import Arguments
+from pipeline.cli.errors import print_error
 from pipeline.declaration import files
 from pseudorigid.dynamics.ball import State
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 
-from .measured import Call, machine
 from .methods import Method, libraries
 from .methods import counted_methods as counted
 from .stages import certified_orbit
 from .states import BALL, ENERGY, chaotic
 
+PACKAGES = ("numpy", "numba", "scipy", "heyoka", "pynamicalsys", "cyrk")
 REPETITIONS = 9  # of a call
 IMPACTS = 200_000
 LANES = 1024  # orbits of an ensemble
@@ -34,6 +40,15 @@ ORBIT, SPECTRUM = "one orbit, an impact", "spectrum here"
 FLIGHTS = "flights by the march"
 BY_MARCH = "one orbit, in this form"
 Triple = tuple[float, float, float]
+
+
+class Call(NamedTuple):
+    """A call that is timed, and the call with which it is compared, if there is one."""
+
+    function: Callable[[], object]
+    units: int  # impacts or other units of work that it does
+    base: str = ""  # name of the other call
+    aim: str = ""  # of the ratio
 
 
 def run(args: Arguments) -> int:
@@ -47,6 +62,7 @@ def run(args: Arguments) -> int:
     timed = calls()
     for module in more:
         timed |= module.calls()
+    print_error(f"timing {len(timed)} calls on one core, each {REPETITIONS} times: some minutes")
     seconds = _interleaved(timed)
     lines = [f"{'':42}{'median (lowest-highest)':>30}  {'ratio':>7}  {'to':24}aim"]
     for name, call in timed.items():
@@ -85,7 +101,9 @@ def calls() -> dict[str, Call]:
         BY_MARCH: of_one_orbit(counted.OURS, "at most 1.15", ORBIT),
         "one orbit by inflections": of_one_orbit(counted.INFLECTIONS, "0.85 to 1.05"),
         "by inflections, simple": of_one_orbit(counted.SIMPLE_INFLECTIONS, "0.95 to 1.2"),
-        "by the best scan, steps of 1": of_one_orbit(counted.BEST_SCAN, "0.95 to 1.2"),
+        "by the scan by rotation": of_one_orbit(counted.ROTATED_SCAN, "0.85 to 1"),
+        "by the march by table": of_one_orbit(counted.ROTATED_MARCH, "0.9 to 1.1"),
+        "by the best scan, steps of 1": of_one_orbit(counted.BEST_SCAN, "0.9 to 1.1"),
         "by a careful scan, steps of 1": of_one_orbit(counted.careful_method(1.0), "at least 1.3"),
         "usual scan 0.1, bisection to 1e-12": of_one_orbit(counted.SCANS[7], "at least 5"),
         FLIGHTS: flights(counted.OURS, "", 20_000, ""),
@@ -113,10 +131,12 @@ def _interleaved(timed: dict[str, Call]) -> dict[str, Triple]:
 
     Before this each call is made once, so that it compiles.
     """
+    print_error("compiling: each call once")
     for call in timed.values():
         call.function()
     seconds: dict[str, list[float]] = {name: [] for name in timed}
-    for _ in range(REPETITIONS):
+    for i in range(REPETITIONS):
+        print_error(f"timing: round {i + 1} of {REPETITIONS}")
         for name, call in timed.items():
             start = time.process_time()
             call.function()
@@ -129,6 +149,27 @@ def _spread(seconds: Triple) -> str:
     size, unit = next((u for u in UNITS if seconds[0] >= u[0]), UNITS[-1])
     middle, low, high = (s / size for s in seconds)
     return f"{middle:.4g} ({low:.4g}-{high:.4g}) {unit}"
+
+
+def machine() -> dict[str, str]:
+    """Return the processor, its cores and load, and the versions of packages."""
+    return {
+        "processor": _processor(),
+        "cores": str(os.cpu_count()),
+        "load": f"{os.getloadavg()[0]:.1f}",
+        "python": platform.python_version(),
+        **{name: version(name) for name in PACKAGES},
+    }
+
+
+def _processor() -> str:
+    """Return the name of the processor and its widest SIMD instructions."""
+    known = Path("/proc/cpuinfo")  # Linux has it
+    lines = known.read_text(encoding="utf-8").splitlines() if known.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    flags = next((line for line in lines if line.startswith(("flags", "Features"))), "")
+    simd = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower SIMD"
+    return f"{names[0] if names else platform.machine()} ({simd})"
 
 
 @jit

@@ -18,38 +18,52 @@ from pseudorigid.figures.axes.zero import PanelWithZeros, axis_with_zero
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
-# Colour and mark of each family of methods. The five that matter most have a colour and a label
-# beside their marks, others are grey, and captions name them. A method has one mark in all charts,
-# open where it is as commonly written.
-_GREY, _DARK, _USUAL = "#9a9a9a", "#5c5c5c", True
+# Colour and mark of each family of methods. A method has one mark in all charts, open where it is
+# as commonly written.
+_GREY, _DARK, _USUAL = "#8a8a8a", "#5c5c5c", True
 _SCANS = "scan 0.5 + bisection", "scan 0.1 + bisection", "scan 0.01 + bisection", "scan 0.5 to 0.01"
 STYLES: dict[str, tuple[Any, ...]] = {
     "certified march": (style.VERMILION, "o"),
     "inflections": (style.BLUE, "D"),
-    "careful scan (best)": ("#882255", "p"),
-    "heyoka with care": (style.GREEN, "s"),
+    "scan by rotation": (style.GREEN, "X"),
+    "march by table": (style.ORANGE, "P"),
+    "careful scan (best)": (_DARK, "p"),
+    "heyoka with care": ("#882255", "s"),
     "DOP853 with care": (style.BLACK, "^"),
     "inflections (simple)": (_DARK, "D"),
-    **{f"careful scan{form}": (_DARK, "p") for form in ("", " (landing)", " (simple)")},
-    "CyRK DOP853 with care": (_GREY, "<"),
+    **{f"careful scan{form}": (_DARK, "8") for form in ("", " (landing)", " (simple)")},
     "LSODA with care": (_GREY, "X"),
     "RK45 with care": (_GREY, "v"),
+    "CyRK DOP853 with care": (_GREY, "<"),
     **dict.fromkeys(_SCANS, (_GREY, "h", _USUAL)),
     "time stepping": (_GREY, ">", _USUAL),
-    "heyoka": (_GREY, "s", _USUAL),
-    "DOP853": (_GREY, "^", _USUAL),
+    "heyoka": ("#882255", "s", _USUAL),
+    "DOP853": (style.BLACK, "^", _USUAL),
     "LSODA": (_GREY, "X", _USUAL),
     "RK45": (_GREY, "v", _USUAL),
 }
-_SHORT = {"certified march": "march", "careful scan (best)": "best scan"}  # names in labels
-_NOT_DRAWN = "careful scan", "careful scan (landing)"  # between the best scan and the simple one
+# Methods that a chart of work names: those that are fast and exact, and others.
+_FAST = {
+    "certified march": "march",
+    "inflections": "inflections",
+    "scan by rotation": "scan by rotation",
+    "careful scan (best)": "best scan",
+}
+_SLOW = {
+    "scan 0.1 + bisection": "scan",
+    "heyoka with care": "heyoka",
+    "heyoka": "heyoka",
+    "DOP853 with care": "DOP853",
+    "DOP853": "DOP853",
+}
 LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
 _ZERO_DECADE = -18  # at which zeros are drawn, below errors of a double, which are above 1e-17
-_COSTS = {"evaluations": (0, 4), "seconds": (-8, -2)}  # decades
 _RECORD, _IMPACT = 10, 20  # places at which lines have labels
-_ROW = 27  # pixels: height of a row of a table
+_ROW = 31  # pixels: height of a row of a table
+_NEED = 130  # pixels: height of a scene in the chart of what each needs
 # Colour, mark and rise in a row of each family of hard states.
-_SEARCHES = (style.BLACK, "o", 0.2), ("#9a9a9a", "D", 0.0), (style.SKY, "v", -0.2)
+_SEARCHES = (style.BLACK, "o", 0.28), ("#7a7a7a", "D", 0.0), (style.SKY, "v", -0.28)
+_BAND = "#fbeedd"
 _COUNTS = ["0", *(rf"$10^{e}$" for e in range(5))]  # labels
 Entry = tuple[Any, ...]  # of a key: text, colour, mark, and whether it is hollow
 Scene = dict[str, Any]  # a block of the checked config
@@ -58,62 +72,78 @@ method_key = partial(key, columns=3, size=7.0)
 
 @style.pinned()
 def work(scene: Scene, data: xr.Dataset) -> Figure:
-    """Draw a work-precision diagram for one set of states: median and worst error against cost.
+    """Draw the worst error of a flight's time against its cost in time, for one set of states.
 
+    Times are in units of the march's. Methods that are fast and exact have a panel of their own.
     The worst error is at the top if a root is wrong.
-    CyRK evaluates as often as DOP853, so that it is drawn against seconds alone. Labels have the
-    evaluations, and the time of a flight in units of the march's, measured in one run.
     """
     which = ("uniform", "grazing").index(scene["states"])
-    cost = "seconds" if "seconds" in data else "evaluations"
-    timed = "" if cost == "seconds" else "timed_"
-    seconds = data[f"{timed}seconds"].values[:, which]
-    times = dict(zip(data[f"{timed}name"].values.tolist(), seconds.tolist(), strict=True))
-    left_out = [*_NOT_DRAWN, *(["CyRK DOP853 with care"] if timed else [])]
-    data = data.isel(set=which, method=~data["family"].isin(left_out))
-    families = [family for family in STYLES if family in data["family"]]
-    entries = _entries(families, families)
-    sheet, top = chart_sheet(1260)
-    across = decades(_COSTS[cost], f"{cost.capitalize()} per flight")
-    median = axis_with_zero(_ZERO_DECADE, 0, "Median relative error of the flight time")
-    worst = replace(median, name="Worst relative error")
-    panels = (
-        PanelWithZeros(sheet, (LEFT, top - 480, RIGHT, top), across.blank(), median),
-        PanelWithZeros(sheet, (LEFT, top - 1045, RIGHT, top - 565), across, worst),
+    times = dict(zip(data["timed_name"].values, data["timed_flight"].values[:, which], strict=True))
+    data = data.isel(set=which)
+    wrong = data["wrong"].values > 0.0
+    worst = np.where(wrong, 1.0, data["worst"].values)
+    cost = np.array([times[name] for name in data["name"].values])
+    points = {
+        family: (cost[own], worst[own])
+        for family in [*_FAST, *_SLOW]
+        if (own := data["family"].values == family).any()
+    }
+    sheet = Sheet(style.COLUMN, 675)
+    up = axis_with_zero(_ZERO_DECADE, 1, "Worst relative error of a flight's time")
+    across = decades((-0.5, 4.5), "Time of a flight (march: 1)")
+    panel = PanelWithZeros(sheet, (LEFT, 165, 590, 600), across, up)
+    fast = {family: points[family] for family in _FAST if family in points}
+    most = 5 * math.ceil(2e15 * max(float(y.max()) for _, y in fast.values())) + 5  # in 1e-16
+    near = Axis((0.8, 1.4), (0.8, 1.0, 1.2, 1.4), "Time (march: 1)")
+    up = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
+    detail = Panel(sheet, (705, 165, 1030, 600), near, up)
+    letters(sheet, panel.frame, detail.frame)
+    _stack(detail, fast)
+    box = (10**-0.3, 10**0.3), (1e-17, 1e-16 * most)
+    (left, right), (low, high) = panel.place(*box)
+    panel.sheet.draw(
+        [left, right, right, left, left], [low, low, high, high, low], color=style.FRAME, lw=0.6
     )
-    letters(sheet, *(panel.frame for panel in panels))
-    if data["wrong"].values.any():
-        corner(sheet, panels[1].frame, "at the top: some roots are wrong")
-    x, of = data[cost].values, np.array([families.index(f) for f in data["family"].values])
-    worst_error = np.where(data["wrong"].values > 0.0, 1.0, data["worst"].values)
-    note = RIGHT - 420, panels[0].frame[1], RIGHT, panels[0].frame[1] + 40
-    for panel, y in zip(panels, (data["median"].values, worst_error), strict=True):
-        labels: list[tuple[float, float, str, str]] = []
-        drawn: list[np.ndarray] = []
-        for i, (text, color, marker, hollow) in reversed([*enumerate(entries)]):
-            own = np.flatnonzero(of == i)
-            panel.line(x[own], y[own], color=color, lw=0.5 if hollow else 0.9)
-            panel.dots(x[own], y[own], color, hollow=hollow, marker=marker)
-            places = np.stack(panel.place(x[own], y[own]), axis=1)
-            is_grey = color in (_GREY, _DARK)
-            drawn.extend(places[:, None] if is_grey else [places])  # texts cross grey lines
-            if is_grey:
-                continue
-            short = _SHORT.get(text, text.removesuffix(" with care"))
-            if panel is panels[0]:
-                method = data.isel(method=own[-1])
-                ratio = times[method["name"].item()] / times["certified march"]
-                short += f": {_two_digits(method['evaluations'])}, {_two_digits(ratio)}"
-            labels.append((x[own[-1]], y[own[-1]], short, color))
-        label(panel, drawn, labels, [note])
-    text = "labels: evaluations, time (march: 1)"
-    sheet.text(RIGHT - 12, note[1] + 22, text, ha="right", size=7.0)
+    panel.note(box[0][1], box[1][0], "see (b)", shift=(3, 4))
+    _curves(panel, points, _SLOW, [(left, low, right + 130, high)])
+    if wrong[np.isin(data["family"].values, [*points])].any():
+        sheet.text(RIGHT + 30, 40, "at $10^0$: wrong roots", ha="right", size=7.0)
+    tuned = ("tuned", style.FRAME, "^"), ("as commonly written", style.FRAME, "^", True)
+    key(sheet, tuned, 40, columns=2, left=LEFT, width=380, size=7.0)
     return sheet.figure
 
 
-def _two_digits(value: Any) -> str:
-    """Return a number with two digits, or all before the decimal point."""
-    return f"{float(f'{float(value):.2g}'):g}"
+def _stack(panel: Panel, points: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
+    """Draw a mark for each method, errors in 1e-16, with names above each other, in order."""
+    order = sorted(points, key=lambda family: float(points[family][0][-1]))
+    top = max(1e16 * float(y[-1]) for _, y in points.values())
+    for i, family in enumerate(reversed(order)):
+        (color, marker, *_), (x, y) = STYLES[family], points[family]
+        panel.dots(x[-1:], 1e16 * y[-1:], color, marker=marker)
+        (across,), (up,) = panel.place(x[-1], 1e16 * y[-1])
+        _, (base,) = panel.place(x[-1], top)
+        at = base + 38 + 34 * i
+        panel.sheet.draw([across, across], [up, at - 2], color=color, lw=0.5, zorder=3)
+        panel.sheet.text(across - 4, at + 12, _FAST[family], size=7.0, color=color)
+
+
+def _curves(
+    panel: Panel,
+    points: dict[str, tuple[np.ndarray, np.ndarray]],
+    names: dict[str, str],
+    taken: Sequence[tuple[float, ...]] = (),
+) -> None:
+    """Draw and name the curves of some families, with a mark at the finest setting."""
+    drawn, labels = [], []
+    for family, name in names.items():
+        if family not in points:
+            continue
+        (color, marker, *hollow), (x, y) = STYLES[family], points[family]
+        panel.line(x, y, color=color, lw=0.9, ls="--" if hollow else "-")
+        panel.dots(x[-1:], y[-1:], color, hollow=bool(hollow), marker=marker)
+        drawn.append(np.stack(panel.place(x, y), axis=1))
+        labels.append((x[-1], y[-1], name, color))
+    label(panel, drawn, labels, taken)
 
 
 def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> list[Entry]:
@@ -124,10 +154,10 @@ def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> lis
     entries, x = _entries(data["name"].values, data["family"].values), data[over].values
     labels, drawn = [], []
     for i, (entry, y) in enumerate(zip(entries, data[name].values, strict=True)):
-        text, color, *_ = entry
+        text, color, _, hollow = entry
         panel.line(x, y, color=color, lw=0.9, ls=_dashes(entry))
         drawn.append(np.stack(panel.place(x, y), axis=1))
-        if text.startswith("scan") and entry not in entries[:i]:
+        if text.startswith("scan ") and hollow and entry not in entries[:i]:
             labels.append((x[at], y[at], text.rpartition(", ")[2], style.BLACK))
     label(panel, drawn, labels)
     return entries
@@ -201,11 +231,11 @@ def energy(scene: Scene, data: xr.Dataset) -> Figure:
     letters(sheet, upper.frame, lower.frame)
     shaded, _ = lower.place([1e-13, 1e-6], 1.0)
     wide = (shaded[1] - shaded[0]) / POINT
-    lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color="#fbeedd", zorder=0.1)
+    lower.line([10**-9.5] * 2, [0.1, 1e4], lw=wide, color=_BAND, zorder=0.1)
     ends = zip(data["drift"].values[:, -1], data["missed"].values, strict=True)
     for name, entry, end in zip(data["name"].values, entries, ends, strict=True):
         text, color, marker, hollow = entry
-        lower.dots(*end, color, hollow=hollow, marker=marker)
+        lower.dots(*end, color, size=2.4, hollow=hollow, marker=marker)
         if color == _GREY:
             is_one_of_many = entries.count(entry) > 1
             setting = name.partition(", ")[0].removeprefix("scan ")
@@ -237,25 +267,27 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
     Hollow marks are methods that missed impacts. At the right are the evaluations per impact of the
     two cheapest methods that suffice.
     """
-    scenes, families = data.sizes["scene"], data["family"].values
-    sheet = Sheet(style.COLUMN, 75 * (5 + scenes))
-    top, bottom = sheet.high - 75, sheet.high - 75 * (1 + scenes)
+    scenes, names, families = data.sizes["scene"], data["name"].values, data["family"].values
+    sheet = Sheet(style.COLUMN, 75 * math.ceil((_NEED * scenes + 500) / 75))
+    top, bottom = sheet.high - 75, sheet.high - 75 - _NEED * scenes
     middles = [scenes - 0.5 - i for i in range(scenes)]
-    names = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
-    up = Axis((0, scenes), middles, labels=names)
-    across = axis_with_zero(-16, 6, "Error of the picture / what it can hide")
+    labels = [re.sub(r"^fig(?=\d+$)", "Figure ", name) for name in data["scene"].values]
+    up = Axis((0, scenes), middles, labels=labels)
+    across = axis_with_zero(-16, 6, "Error of the picture / largest that cannot be seen")
     panel = PanelWithZeros(sheet, (LEFT, bottom, 720, top), across, up)
-    panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=1.0)
+    panel.line([1.0, 1.0], [0, scenes], color=style.FRAME, lw=0.5)
+    rows = {family: i for i, family in enumerate(dict.fromkeys(families))}  # in a scene's strip
     heading = "Evaluations per impact, of the two cheapest that suffice"
     corner(sheet, (LEFT, bottom, sheet.wide - 15, top), heading)
-    methods = [text for text, *_ in _entries(data["name"].values, families)]
+    methods = [text for text, *_ in _entries(names, families)]
     for i, middle in enumerate(middles):
         row = data.isel(scene=i)
         errors = row["error"].values / float(row["limit"])
         missed = row["missed"].values > 0
         for family, error, hollow in zip(families, errors, missed, strict=True):
             hue, marker, *_ = STYLES[family]
-            panel.dots(error, middle, hue, hollow=hollow, marker=marker)
+            at = middle + 0.42 - 0.84 * rows[family] / max(len(rows) - 1, 1)
+            panel.dots(error, at, hue, size=2.2, hollow=hollow, marker=marker)
         circles = np.where(missed, " \N{WHITE CIRCLE}", "")
         named = list(zip(row["evaluations"].values, methods, circles, strict=True))
         best = int(row["cheapest"])
@@ -264,8 +296,14 @@ def figure_errors(scene: Scene, data: xr.Dataset) -> Figure:
         y = float(panel.place(1.0, middle)[1][0])
         for shift, text in ((14, "{1} {0:.1f}".format(*named[best])), (-16, second)):
             sheet.text(740, y + shift, text, size=7.0)
-    entries = [entry[:3] for entry in _kinds(_entries(families, families))]
-    method_key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 135)
+    hidden = (
+        "Cannot be seen: less than a pixel, or for a mean exponent",
+        "than three standard errors.",
+    )
+    for i, text in enumerate(hidden):
+        sheet.text(60, bottom - 122 - 36 * i, text, size=7.0)
+    entries = [(*entry[:3], False) for entry in _kinds(_entries(families, families))]
+    method_key(sheet, [*entries, ("impacts missed", style.FRAME, "o", True)], bottom - 205)
     return sheet.figure
 
 
@@ -278,7 +316,7 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     names, searched = data["name"].values.tolist(), data["searched_name"].values.tolist()
     entries = dict(zip(names, _entries(names, data["family"].values), strict=True))
     rows = len(searched)
-    sheet, top = chart_sheet(925 + 56 * rows)
+    sheet, top = chart_sheet(1040 + 56 * rows)
     up = replace(axis_with_zero(-1, 4.3, "Impacts missed", 1), labels=_COUNTS)
     flights = [*data["flights"].values, *data["long_flights"].values]
     powers = [len(str(n)) - 1 for n in flights]
@@ -298,10 +336,11 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
         short = re.sub(r"careful (scan) (.*) \((.*)\)", r"\3 \1 \2", text).partition(",")[0]
         notes.append((x[-1], count[-1], short, style.BLACK))
         drawn.append(np.stack(upper.place(x, count), axis=1))
-    label(upper, drawn, notes, [(LEFT, top - 30 - 40 * len(none), LEFT + 255, top)])
-    for i, text in enumerate(["none missed among:", *none]):
-        upper.note(2.9, 10**4.0, text, (0, -9 * i))
-    high = top - 640
+    label(upper, drawn, notes)
+    none = [", ".join(none[i : i + 3]) for i in range(0, len(none), 3)]
+    for i, text in enumerate(["Misses none among: " + none[0], *none[1:]] if none else []):
+        sheet.text(60, top - 600 - 38 * i, text, size=7.0)
+    high = top - 800
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
     share = axis_with_zero(-7, 0, "Share of hard states at which it fails", 2)
     middles = [rows - 0.5 - i for i in range(rows)]
@@ -310,9 +349,10 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     shares = data["failed"].values / data["tried"].values
     families = []
     for j, (color, marker, rise) in enumerate(_SEARCHES):
-        lower.dots(shares[:, j], np.array(middles) + rise, color, marker=marker)
+        lower.dots(shares[:, j], np.array(middles) + rise, color, size=3.0, marker=marker)
         families.append((data["families"].values[j].replace("_", " "), color, marker))
     method_key(sheet, families, frame[1] - 130)
+    title(sheet, frame, "States that are hard to decide", size=8.0)
     letters(sheet, upper.frame, lower.frame)
     return sheet.figure
 

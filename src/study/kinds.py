@@ -8,19 +8,12 @@ DRAWN_BY = "study.charts.{}"  # the function of each kind that names no other on
 
 
 class Work(Picture):
-    """error and failures of each method against its evaluations"""
+    """error and failures of each method against its time"""
 
     stages = ("work",)
 
     states: Literal["uniform", "grazing"]
     """Set of states before the flights: over the whole section, or close to grazing."""
-
-
-class MeasuredWork(Work):
-    """error and failures of each method against its seconds, measured on this machine"""
-
-    stages = ("work_all",)
-    drawn_by = "study.charts.work"
 
 
 class Edges(Picture):

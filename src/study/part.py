@@ -2,7 +2,7 @@
 
 from pipeline.declaration import Command, Part, SceneSet, SnakemakeCommand, Stage
 
-_STAGES, _MEASURED = "study.stages", "study.measured"
+_STAGES = "study.stages"
 _RECORDED = "src/study/recorded.json"  # what libraries gave, once
 PART = Part(
     needs=("paper",),
@@ -12,7 +12,6 @@ PART = Part(
         "misses": Stage(f"{_STAGES}.misses", reads=_RECORDED),
         "drift": Stage(f"{_STAGES}.drift"),
         "needs": Stage("study.figure_errors.figure_errors", more="study.compared.with_paper"),
-        "work_all": Stage(f"{_MEASURED}.work_all", measured=True, alone=True),
     },
     sets={
         "study": SceneSet(
@@ -22,8 +21,7 @@ PART = Part(
     commands={
         "study": SnakemakeCommand(
             "compare speed and accuracy of methods, in more_figures/study/",
-            packages="study",
-            details="Installs the packages of the other methods first (once).",
+            details="What other packages gave was recorded, so that they are not installed.",
         ),
         "benchmark": Command(
             "measure speeds and print a table of their ratios",
@@ -34,7 +32,6 @@ PART = Part(
     },
     seconds={
         "results/study/needs.nc": 90,
-        "results/study/work_all.nc": 80,
         "results/study/drift.nc": 35,
         "results/study/misses.nc": 40,
     },

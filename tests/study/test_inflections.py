@@ -19,9 +19,12 @@ from study import stages, states
 from study.methods import inflections
 from study.methods.counted_methods import (
     BEST_SCAN,
+    COUNTS,
     INFLECTIONS,
     LANDING,
     OURS,
+    ROTATED_MARCH,
+    ROTATED_SCAN,
     SIMPLE_INFLECTIONS,
     careful_method,
 )
@@ -59,29 +62,51 @@ def test_angles_are_those_of_the_independent_solver():
         assert min(off, 2 * mpmath.pi - off) <= 2.5 * math.ulp(float(truth)), (y, x)
 
 
-# Evaluations a flight of 20,000 states: uniform, in the sea, near grazing.
-WORK = (
-    (OURS, (2.31, 2.26, 2.15)),
-    (INFLECTIONS, (2.49, 2.41, 2.79)),
-    (SIMPLE_INFLECTIONS, (3.38, 3.37, 2.71)),
-    (BEST_SCAN, (3.07, 2.91, 2.76)),
-    (careful_method(1.0, LANDING), (4.58, 4.55, 6.37)),
-    (careful_method(1.0), (5.55, 5.56, 11.6)),
-)
+# Sines with cosines, rotations and inverse functions of a flight: uniform, near grazing, in the
+# sea, and at touches of 1e-6. The page of the study has these numbers.
+NONE = (0.0, 0.0, 0.0, 0.0)
+WORK = {
+    OURS: ((2.31, 2.16, 2.27, 6.38), NONE, NONE),
+    INFLECTIONS: ((2.06, 1.93, 2.08, 8.64), NONE, (0.42, 0.87, 0.35, 2.0)),
+    ROTATED_SCAN: ((2.06, 1.67, 2.07, 5.64), (0.34, 0.64, 0.30, 1.72), NONE),
+    ROTATED_MARCH: ((2.01, 1.71, 2.01, 4.16), (0.35, 0.45, 0.31, 2.97), NONE),
+    BEST_SCAN: ((3.08, 2.77, 2.93, 11.4), NONE, NONE),
+    SIMPLE_INFLECTIONS: ((2.13, 1.58, 2.14, 8.93), NONE, (1.24, 1.12, 1.23, 2.0)),
+    careful_method(1.0, LANDING): ((4.58, 6.38, 4.56, 11.7), NONE, NONE),
+}
 
 
-def test_evaluations_of_a_flight():
-    sea = stages.certified_orbit(states.BALL, states.chaotic(), 20_000)[0]
-    sets = states.uniform(20_000), sea, states.grazing(20_000)
-    for method, work in WORK:
-        counts = [method.solve(states.BALL, *columns)[1].mean() for columns in sets]
-        assert counts == pytest.approx(work, rel=0.01), method.name
+def test_what_a_flight_costs():
+    data = stages.counts([*WORK])
+    for i, work in enumerate(WORK.values()):
+        for name, wanted in zip(COUNTS, work, strict=True):
+            assert data[name].values[i] == pytest.approx(wanted, rel=0.02), (i, name)
+
+
+def test_rotations_find_the_roots_of_the_march():
+    """Also where the gap has a maximum near 0, and at wide angles after long flights."""
+    sea, _ = stages.certified_orbit(states.BALL, states.chaotic(), 50_000)
+    touches = [states.near_miss(height, 300) for height in (1e-3, -1e-3, 1e-9, -1e-9)]
+    for columns in (sea, states.uniform(20_000), states.grazing(20_000), *touches):
+        truth = OURS.solve(states.BALL, *columns)[0]
+        for method in (ROTATED_SCAN, ROTATED_MARCH):
+            tau, _ = method.solve(states.BALL, *columns)
+            assert not stages.is_wrong(tau, truth).any()
+            near = np.abs(tau / truth - 1.0)
+            assert np.median(near) < 3e-16 and (near > 1e-12).mean() < 0.06  # flat roots at touches
+
+
+def test_orbits_by_rotation_keep_the_energy():
+    start = states.chaotic()
+    for method in (ROTATED_SCAN, ROTATED_MARCH, BEST_SCAN):
+        track, _ = method.orbit(states.BALL, start, 20_000)
+        assert stages.energy_drift(states.BALL, start, track)[-1] < 1e-11
 
 
 @pytest.mark.parametrize("count", [10**5, *slowly(2 * 10**7)])
-def test_inflections_differ_at_no_flight_of_the_sea(count):
-    data = stages.missed_flights([INFLECTIONS, SIMPLE_INFLECTIONS], count)
-    assert data["missed"].values[:, -1].tolist() == [0, 0, 0]
+def test_inflections_and_rotations_differ_at_no_flight_of_the_sea(count):
+    methods = [INFLECTIONS, SIMPLE_INFLECTIONS, ROTATED_SCAN, ROTATED_MARCH]
+    assert not stages.missed_flights(methods, count)["missed"].values[:, -1].any()
 
 
 def test_a_touch_within_rounding_is_passed_by_the_march():

@@ -27,23 +27,15 @@ def marks(figure, family):
     return np.concatenate([np.column_stack(line.get_data()) for line in lines]) * figure.dpi
 
 
-def work_data(cost, median=1e-10, worst=1e-6, wrong=0.0, of="evaluations"):
+def work_data(cost=10.0, worst=1e-6, wrong=0.0, names=FAMILIES):
     """Return a method of each family; the numbers given are the second one's, in the second set."""
-    values = {"evaluations": 100.0, "median": median, "worst": worst, "wrong": wrong, of: cost}
     table = {}
-    for name, value in values.items():
-        other = {"wrong": 0.3, "evaluations": 100.0}.get(name, 1e-8)
-        rows = np.full((2, 2), other)
+    for name, value in {"worst": worst, "wrong": wrong, "timed_flight": cost}.items():
+        rows = np.full((2, 2), {"worst": 5e-16, "wrong": 0.0, "timed_flight": 1.0}[name])
         rows[1, 1] = value
-        table[name] = ("method", "set"), rows
-    return xr.Dataset(named() | table | timed(FAMILIES))
-
-
-def timed(names, march=2e-7):
-    """Return recorded seconds of methods, of which the first takes `march`, and others 1e-7."""
-    seconds = np.full((len(names), 2), 1e-7)
-    seconds[0] = march
-    return {"timed_name": ("timed", [*names]), "timed_seconds": (("timed", "set"), seconds)}
+        table[name] = ("timed" if name == "timed_flight" else "method", "set"), rows
+    of_methods = {name: ("method", np.array(names, dtype=object)) for name in ("name", "family")}
+    return xr.Dataset(of_methods | table | {"timed_name": ("timed", [*names])})
 
 
 def moved(before, after):
@@ -51,27 +43,35 @@ def moved(before, after):
     return np.round(after - before, 1)
 
 
-@pytest.mark.parametrize(("of", "base"), [("evaluations", 10.0), ("seconds", 1e-5)])
-def test_work_is_drawn_where_its_numbers_are(of, base):
-    def drawn(states=1, cost=base, **change):
-        return marks(study.work(scene(states), work_data(cost, of=of, **change)), FAMILIES[1])
+def test_work_is_drawn_where_its_numbers_are():
+    def drawn(states=1, **change):
+        return marks(study.work(scene(states), work_data(**change)), FAMILIES[1])
 
     before = drawn()
-    decade = moved(before, drawn(cost=10 * base))
-    assert set(decade[:, 1]) == {0.0}
-    right = decade[:, 0].max()
-    assert sorted(decade[:, 0]) == [0.0] * (len(before) - 2) + [right] * 2
-    assert right > 50
-    assert np.abs(moved(before, drawn(cost=1000 * base))[:, 0].max() - 3 * right) < 0.2
-    height = 480 / 18  # 18 decades in 480 pixels
+    for cost, wanted in ((100.0, 440 / 5), (1e4, 3 * 440 / 5)):
+        (step,) = moved(before, drawn(cost=cost))
+        assert step == pytest.approx([wanted, 0], abs=0.2)
     for change, wanted in (
-        ({"median": 1e-14}, -4 * height),
-        ({"worst": 1e-4}, 2 * height),
-        ({"wrong": 0.009}, 6 * height),  # to the top
+        ({"worst": 1e-4}, 2 * 435 / 19),  # 19 decades in 435 pixels
+        ({"wrong": 0.009}, 6 * 435 / 19),  # to 1
     ):
-        up = moved(before, drawn(**change))
-        assert up[up != 0] == pytest.approx([wanted], abs=0.2)
+        (step,) = moved(before, drawn(**change))
+        assert step == pytest.approx([0, wanted], abs=0.2)
     assert not np.array_equal(drawn(states=0), before)
+
+
+def test_fast_methods_are_drawn_in_a_panel_of_their_own():
+    names = "certified march", "inflections"
+
+    def drawn(cost, worst):
+        return marks(study.work(scene(1), work_data(cost, worst, names=names)), names[1])
+
+    before = drawn(1.0, 5e-16)
+    assert moved(before, drawn(1.2, 5e-16))[0] == pytest.approx([0.2 / 0.6 * 325, 0], abs=0.2)
+    assert moved(before, drawn(1.0, 4e-16))[0] == pytest.approx([0, -435 / 10], abs=0.2)
+    figure = study.work(scene(1), work_data(1.04, 5e-16, names=names))
+    assert {"march", "inflections"} <= {*texts(figure)}
+    assert_legible(figure, slack=4)
 
 
 def failing(near, touch):
@@ -113,31 +113,21 @@ def test_shares_have_colours_in_order_and_zero_has_its_own():
     assert light == sorted(light, reverse=True) and len(set(light)) == 5
 
 
-def test_labels_have_evaluations_and_times_relative_to_the_march():
-    data = work_data(48.7)
-    data["name"] = data["family"] = "method", np.array(["certified march", "inflections"])
-    data = data.assign(timed(["certified march", "inflections"]))
-    assert texts(study.work(scene(1), data)).count("inflections: 49, 0.5") == 1
-    assert texts(study.work(scene(1), data)).count("march: 100, 1") == 1
-
-
 def test_zeros_are_drawn_at_an_end_named_zero():
-    zeros = study.work(scene(1), work_data(100.0, 0.0, 0.0, 0.0))
-    tiny = marks(study.work(scene(1), work_data(100.0, 1e-30, 1e-30)), FAMILIES[1])
+    zeros = study.work(scene(1), work_data(worst=0.0))
+    tiny = marks(study.work(scene(1), work_data(worst=1e-30)), FAMILIES[1])
     assert np.min(tiny[:, 1]) == np.min(marks(zeros, FAMILIES[1])[:, 1])
     assert texts(zeros).count("0") >= 2
 
 
 @pytest.mark.parametrize("wrong", [0.0, 0.3])
 def test_wrong_roots_are_named_if_there_are_any(wrong):
-    data = work_data(100.0, wrong=wrong)
-    data["wrong"] = ("method", "set"), np.full((2, 2), wrong)
-    figure = study.work(scene(1), data)
-    assert ("at the top: some roots are wrong" in texts(figure)) == (wrong > 0)
+    figure = study.work(scene(1), work_data(wrong=wrong))
+    assert ("at $10^0$: wrong roots" in texts(figure)) == (wrong > 0)
 
 
-def test_methods_as_usually_written_have_hollow_marks_and_those_with_care_full_ones():
-    figure = study.work(scene(1), work_data(100.0))
+def test_methods_as_commonly_written_have_hollow_marks_and_tuned_ones_full_ones():
+    figure = study.work(scene(1), work_data())
     for family, fill in zip(FAMILIES, (study.STYLES[FAMILIES[0]][0], "white"), strict=True):
         color, mark, *_ = study.STYLES[family]
         dots = [a for a in figure.artists if a.get_marker() == mark and len(a.get_xdata())]

@@ -4,12 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 from described import assert_describes_itself, stages_of
 from project import shipped
 
 from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
-from study import figure_errors, measured, stages
+from study import figure_errors, stages
 from study.methods.counted_methods import METHODS
 
 BALL = Ball(0.2, 0.04)
@@ -24,14 +25,20 @@ def needs():
 
 
 STUDY = {
-    "work": lambda: stages.with_recorded(
-        stages.accuracy(METHODS[:1], 2).assign(stages.missed(METHODS[:1], [0])), "work"
+    "work": lambda: xr.merge(
+        [
+            stages.with_recorded(
+                stages.accuracy(METHODS[:1], 2).assign(stages.missed(METHODS[:1], [0])), "work"
+            ),
+            stages.counts(METHODS[:1], 20),
+            stages.recorded("times"),
+        ],
+        combine_attrs="override",
     ),
     "edges": lambda: stages.with_recorded(stages.failures(stages.EDGE_METHODS[:1], 2), "edges"),
     "misses": lambda: stages.misses(1000),
     "drift": lambda: stages.drift(1000),
     "needs": needs,
-    "work_all": lambda: measured.timed_work(METHODS[:1], 2, 1),
 }
 
 

@@ -27,7 +27,7 @@ from pseudorigid.kernel.tangents import (
     push_tangent,
     turn_between,
 )
-from study.measured import Call
+from study.bench import Call
 
 from .cell import numbers_of_cells
 from .starts import sunflower_points

@@ -133,10 +133,30 @@ def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
     rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
     return {
         "largest exponent": rows[0],
+        "standard error of each largest, from eighths of its run, in the order of the starts": (
+            ", ".join(f"{error:.4f}" for error in _errors_of_largest(lyapunov))
+        ),
         **mean,
         "all three of an orbit, at the end": "; ".join(rows[1:]),
         "impacts of each orbit": f"{int(lyapunov['impact'].values[-1]):,}",
     }
+
+
+def _errors_of_largest(lyapunov: xr.Dataset) -> list[float]:
+    """Return the standard error of each largest exponent from the spread of parts of the run.
+
+    It is too small where an orbit stays near islands for longer than an eighth of its run.
+    """
+    import numpy as np
+
+    impact, errors = lyapunov["impact"].values, []
+    for column in lyapunov["exponent"].values.max(axis=2).T:
+        known = np.flatnonzero(np.isfinite(column))
+        ends = np.unique(known[np.arange(1, 9) * known.size // 8 - 1]) if known.size >= 8 else known
+        sums = np.diff(impact[ends] * column[ends], prepend=0.0)
+        parts = sums / np.diff(impact[ends], prepend=0)
+        errors.append(np.std(parts, ddof=1) / np.sqrt(parts.size) if parts.size > 1 else np.nan)
+    return errors
 
 
 def exponents_facts(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from pseudorigid.dynamics.ball import Ball
 Flights = tuple[np.ndarray, np.ndarray]
 
 
-@dataclass
+@dataclass(frozen=True)
 class Method:
     """A method that finds the next impact; methods of a family differ in one setting."""
 

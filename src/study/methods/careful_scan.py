@@ -14,10 +14,11 @@ from pseudorigid.kernel.flight import (
     gap,
     impact_free_time,
     rises_to_its_root,
+    rotated,
 )
 from pseudorigid.kernel.impact import MOST_SCAN_STEPS
 
-from .landing import land
+from .landing import Landing, land
 
 # What a scan takes from the march. The first step is from a bound of the second derivative, or
 # from the march's bound of the third; then its landing; then also from below, and impact-free time.
@@ -28,8 +29,8 @@ _DEEP = 0.1  # R; below it the parabola at a point near the maximum is trusted
 @jit
 def careful_scan(
     x: float, b: float, c: float, s: float, g: float, step: float, care: float
-) -> tuple[float, int]:
-    """Return the next impact's time and the evaluations of the gap; NaN if there is no root."""
+) -> Landing:
+    """Return tau, P and Q at the next impact, and evaluations; tau is NaN if there is no root."""
     amplitude = math.sqrt(x * x + c * c)
     t = 2.0 * s / (g + amplitude) if care == PARABOLA else first_step(x, c, s, g, amplitude)
     t = min(t, step) if t > 0.0 else step
@@ -43,23 +44,22 @@ def careful_scan(
         ends = care == BEST and f < 0.0 and rises_to_its_root(-f, df, ddf, q, g, bound)
         if ends or (care >= LANDING and f >= 0.0):
             low, high = (t, math.inf) if ends else (low, t)
-            tau, _, _, count = land(low, high, t, f, df, ddf, p, q, x, b, c, s, g, bound, count)
-            return tau, count
+            return land(low, high, t, f, df, ddf, p, q, x, b, c, s, g, bound, count)
         if f >= 0.0:
             break
         is_rising = df > 0.0
         if rising and not is_rising:
-            top, f, df, ddf, looks = _maximum(low, t, df, ddf, x, b, c, s, g)
+            top, f, df, ddf, looks = maximum(low, t, df, ddf, x, b, c, s, g)
             count += looks
             if f >= 0.0:
-                t = top
+                t, p, q = top, ddf - g, df - (b + g * top)
                 break
         low, rising = t, is_rising
         t += step
         if low < free and low * rate >= rise:
             t, rising = max(t, free), False
         if count > MOST_SCAN_STEPS:
-            return math.nan, count
+            return math.nan, p, q, count
     high = t
     while f != 0.0:
         newton = -f / df if df != 0.0 else math.inf
@@ -67,23 +67,24 @@ def careful_scan(
         after = t + h
         if low < after <= high:
             if abs(h) <= 1e-5 * t and abs(h * ddf) <= 1e-3 * abs(df):  # its error is h^3
-                return after, count
+                p, q = rotated(p, q, h)
+                return after, p, q, count
         else:
             after = 0.5 * (low + high)
         if after in (low, high, t):
             break
         t = after
-        f, df, ddf, _, _ = gap(t, x, b, c, s, g, quadrant(t))
+        f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
         count += 1
         if f < 0.0:
             low = t
         else:
             high = t
-    return t, count
+    return t, p, q, count
 
 
 @jit
-def _maximum(
+def maximum(
     low: float, high: float, df: float, ddf: float, x: float, b: float, c: float, s: float, g: float
 ) -> tuple[float, float, float, float, int]:
     """Return a time in (low, high), from Newton's method on f' from `high`, with f, f', f'' there.

@@ -15,15 +15,16 @@ from pseudorigid.kernel.formulas import impact_coefficients
 from pseudorigid.kernel.impact import MOST_SCAN_STEPS, rebound, scan
 from pseudorigid.kernel.impact import step as certified_step
 
-from . import Flights, Method, inflections
+from . import Flights, Method, inflections, rotations
 from .careful_scan import BEST, CUBIC, LANDING, PARABOLA, careful_scan
 
 # Kinds of method: the certified march; the paper's, steps of constant length until the gap changes
-# sign and then bisection; steps of a physics engine; a tuned scan; and inflections.
-MARCH, SCAN, ENGINE, CAREFUL, PIECES = 0, 1, 2, 3, 4
+# sign and then bisection; steps of a physics engine; a tuned scan; inflections; and rotations.
+MARCH, SCAN, ENGINE, CAREFUL, PIECES, TURNS = 0, 1, 2, 3, 4, 5
 Settings = tuple[int, float, float]  # kind, step, and tolerance (time units) or care
 Parameters = tuple[float, float, tuple[float, float]]  # k, g and the impact's coefficients
-NextImpact = tuple[float, float, float, float, int]  # tau, x, xdot, udot, evaluations of the gap
+NextImpact = tuple[float, float, float, float, int, int, int]  # tau, x, xdot, udot, COUNTS
+COUNTS = "sines", "rotations", "inverses"  # sines with their cosines, and inverse functions
 
 
 @jit
@@ -41,9 +42,9 @@ def _engine(x: float, b: float, c: float, g: float, step: float) -> NextImpact:
         position += step * v
         strain += step * w
         if position + strain >= 0.0 and v + w >= 0.0:
-            return count * step, position, v, w, count
+            return count * step, position, v, w, count, 0, 0
         if count >= MOST_SCAN_STEPS:
-            return math.nan, position, v, w, count
+            return math.nan, position, v, w, count, 0, 0
 
 
 @jit
@@ -53,42 +54,52 @@ def _next_impact(settings: Settings, ball: Parameters, x: float, v: float, w: fl
     k, g, coefficients = ball
     if kind == MARCH:
         x, v, w, tau, count, _ = certified_step(x, v, w, k, g, coefficients, None)
-        return tau, x, v, w, count
+        return tau, x, v, w, count, 0, 0
     b, c, s = rebound(v, w, k, coefficients)
-    if kind == PIECES:
-        tau, p, q, count = inflections.first_impact(x, b, c, s, g, tolerance)
-        return tau, p, b + g * tau, max(q, -(b + g * tau)), count
     if kind == ENGINE:
         return _engine(x, b, c, g, step)
-    if kind == CAREFUL:
-        tau, count = careful_scan(x, b, c, s, g, step, tolerance)
+    turns, angles = 0, 0
+    if kind == PIECES:
+        tau, p, q, count, angles = inflections.first_impact(x, b, c, s, g, tolerance)
+    elif kind == TURNS:
+        tau, p, q, count, turns = rotations.first_impact(x, b, c, s, g, tolerance)
+    elif kind == CAREFUL:
+        tau, p, q, count = careful_scan(x, b, c, s, g, step, tolerance)
     else:
         tau, count = scan(x, b, c, g, step, tolerance)
-    sine, cosine = sincos(tau)
-    return tau, x * cosine - c * sine, b + g * tau, x * sine + c * cosine, count
+        sine, cosine = sincos(tau)
+        return tau, x * cosine - c * sine, b + g * tau, x * sine + c * cosine, 1 + count, 0, 0
+    v = b + g * tau
+    return tau, p, v, max(q, -v), count, turns, angles
 
 
 @jit
 def _flights(
     settings: Settings, ball: Parameters, states: np.ndarray, out: np.ndarray, count: np.ndarray
 ) -> None:
-    """Write x, xdot, udot and tau after a flight from each state (3, n), and its evaluations.
+    """Write x, xdot, udot and tau after a flight from each state (3, n), and its COUNTS (3, n).
 
     The states are read one after the other, and may be those that are written.
     """
-    for i in range(count.size):
+    for i in range(out.shape[1]):
         x, v, w = states[0, i], states[1, i], states[2, i]
-        out[3, i], out[0, i], out[1, i], out[2, i], count[i] = _next_impact(settings, ball, x, v, w)
+        tau, x, v, w, count[0, i], count[1, i], count[2, i] = _next_impact(settings, ball, x, v, w)
+        out[0, i], out[1, i], out[2, i], out[3, i] = x, v, w, tau
 
 
-@dataclass
+@dataclass(frozen=True)
 class CountedMethod(Method):
     """A method of one of the kinds above."""
 
     settings: Settings
 
     def solve(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
-        """Return flight times of states, arrays (n,), and evaluations of the gap."""
+        """Return flight times of states, and evaluations: all of COUNTS but rotations."""
+        tau, (sines, _, inverses) = self.counted(ball, x, xdot, udot)
+        return tau, sines + inverses
+
+    def counted(self, ball: Ball, x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> Flights:
+        """Return flight times of states, arrays (n,), and COUNTS (3, n)."""
         out = np.empty((4, x.size))
         return out[3], self._fly(ball, np.array([x, xdot, udot]), out)
 
@@ -100,11 +111,12 @@ class CountedMethod(Method):
         """
         track = np.empty((4, 1 + impacts))
         track[:3, 0] = state
-        return track[:, 1:], int(self._fly(ball, track[:3, :-1], track[:, 1:]).sum())
+        sines, _, inverses = self._fly(ball, track[:3, :-1], track[:, 1:]).sum(axis=1)
+        return track[:, 1:], int(sines + inverses)
 
     def _fly(self, ball: Ball, states: np.ndarray, out: np.ndarray) -> np.ndarray:
-        """Write a flight from each state, and return their evaluations."""
-        count = np.empty(out.shape[1], np.int64)
+        """Write a flight from each state, and return their COUNTS."""
+        count = np.empty((3, out.shape[1]), np.int64)
         _flights(self.settings, (ball.k, ball.g, impact_coefficients(ball.k)), states, out, count)
         return count
 
@@ -113,6 +125,8 @@ OURS = CountedMethod("certified march", "certified march", (MARCH, 0.0, 0.0))
 INFLECTIONS = CountedMethod("inflections", "inflections", (PIECES, 0.0, inflections.BEST))
 _SIMPLE = "inflections (simple)"
 SIMPLE_INFLECTIONS = CountedMethod(_SIMPLE, _SIMPLE, (PIECES, 0.0, inflections.SIMPLE))
+ROTATED_SCAN = CountedMethod("scan by rotation", "scan by rotation", (TURNS, 0.0, rotations.SCAN))
+ROTATED_MARCH = CountedMethod("march by table", "march by table", (TURNS, 0.0, rotations.MARCH))
 
 
 def scan_method(step: float, tolerance: float) -> CountedMethod:
@@ -140,6 +154,6 @@ CAREFUL_SCANS = tuple(
     careful_method(step, care) for care in (CUBIC, PARABOLA) for step in (1.0, 0.5, 0.25)
 )
 BEST_SCAN = careful_method(1.0, BEST)
-BEST_METHODS = OURS, INFLECTIONS, BEST_SCAN
+BEST_METHODS = OURS, INFLECTIONS, ROTATED_SCAN, ROTATED_MARCH, BEST_SCAN
 _OTHERS = SIMPLE_INFLECTIONS, careful_method(1.0, LANDING)
 METHODS = *BEST_METHODS, *_OTHERS, *CAREFUL_SCANS, *SCANS, *ENGINES[:3]

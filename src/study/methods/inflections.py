@@ -73,21 +73,21 @@ def first_inflection(x: float, c: float, g: float, r: float, convex: bool) -> fl
 
 @jit
 def first_impact(x: float, b: float, c: float, s: float, g: float, care: float) -> Impact:
-    """Return tau, P and Q at the first impact, and evaluations."""
+    """Return tau, P and Q at the first impact, sines and cosines, and inverse functions."""
     s = max(s, 0.0)
     amplitude = amplitude_bound(x, c)
     bend = g + x
     start = first_step(x, c, s, g, amplitude)
     if start == 0.0 or (bend > 0.0 and amplitude * start <= _SLACK * bend and start < WIDE):
         p, q = rotated(x, c, start)
-        return start, p, q, 0
+        return start, p, q, 0, 0
     rise, rate, free = impact_free_time(x, b, g, amplitude)
     if start < free and start * rate >= rise:
         start = free
     square = (x - g) * bend + c * c  # of Q at inflections, if there are any
     convex = bend > 0.0 or (bend == 0.0 and c <= 0.0)
     # f < 0 at t, or t = 0; no impact happens before t.
-    t, f, df, ddf, p, q, count = 0.0, 0.0, -s, bend, x, c, 0
+    t, f, df, ddf, p, q, count, angles = 0.0, 0.0, -s, bend, x, c, 0, 0
     if care == BEST or convex or not square > 0.0:
         t = start
         f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
@@ -97,10 +97,12 @@ def first_impact(x: float, b: float, c: float, s: float, g: float, care: float) 
             _, _, is_sure = series(f, df, ddf, p, q, t, amplitude)
         if is_sure or not (square > 0.0 and f < 0.0):
             low = t if f < 0.0 else 0.0
-            return land(low, math.inf, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count)
+            return *land(
+                low, math.inf, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count
+            ), angles
     r = math.sqrt(square)
     z = first_inflection(x, c, g, r, convex)
-    count += 1
+    angles += 1
     concave_length = 0.0
     while True:
         if z < free and z * rate >= rise:
@@ -114,25 +116,29 @@ def first_impact(x: float, b: float, c: float, s: float, g: float, care: float) 
                 fz, dz = x + z * (b + 0.5 * g * z) + g, b + g * z + qz
             if fz >= 0.0:
                 if df <= 0.0 or (dz > 0.0 and fz * df < -f * dz):  # the end is nearer to the root
-                    return land(t, z, z, fz, dz, ddz, pz, qz, x, b, c, s, g, amplitude, count)
-                return land(t, z, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count)
+                    return *land(
+                        t, z, z, fz, dz, ddz, pz, qz, x, b, c, s, g, amplitude, count
+                    ), angles
+                return *land(t, z, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count), angles
             # Tangents at both ends of a concave piece bound the maximum of the gap.
             while not convex and dz < 0.0 < df:
                 if f * (df - dz) + df * (fz - f - dz * (z - t)) < 0.0:
                     break
                 after = t - f / df
                 if df * df >= -2.0 * f * (amplitude - g) or after == t:
-                    return land(t, z, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count)
+                    return *land(t, z, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count), angles
                 if after >= z:
                     break
                 low, t = t, after
                 f, df, ddf, p, q = gap(t, x, b, c, s, g, quadrant(t))
                 count += 1
                 if not f < 0.0:  # by rounding
-                    return land(low, t, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count)
+                    return *land(
+                        low, t, t, f, df, ddf, p, q, x, b, c, s, g, amplitude, count
+                    ), angles
             t, f, df, ddf, p, q = z, fz, dz, ddz, pz, qz
         if concave_length == 0.0:
             concave_length = 2.0 * angle(r, g)
-            count += 1
+            angles += 1
         convex = not convex
         z += _TURN - concave_length if convex else concave_length

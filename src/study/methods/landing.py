@@ -6,7 +6,8 @@ from pseudorigid.kernel.arithmetic import quadrant
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.flight import gap, newton, rotated, series
 
-Impact = tuple[float, float, float, int]  # tau, P, Q and evaluations of the gap
+Landing = tuple[float, float, float, int]  # tau, P, Q, and the sines and cosines of a flight
+Impact = tuple[float, float, float, int, int]  # the same, and rotations or inverse functions
 
 
 @jit
@@ -14,7 +15,7 @@ def land(
     low: float, high: float, t: float,
     f: float, df: float, ddf: float, p: float, q: float,
     x: float, b: float, c: float, s: float, g: float, amplitude: float, count: int,
-) -> Impact:  # fmt: skip
+) -> Landing:  # fmt: skip
     """Return the only root between `low` and `high`, where the gap rises, from a point t there.
 
     The steps are those of `pseudorigid.kernel.flight`: a series, or else Newton's method.

@@ -79,7 +79,7 @@ class Flight(NamedTuple):
 Integrate = Callable[[Flight, float, bool, list[int]], Any]
 
 
-@dataclass
+@dataclass(frozen=True)
 class ExternalSolver(Method):
     """A method of a library, applied to one flight at a time.
 

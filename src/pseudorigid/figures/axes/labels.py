@@ -34,7 +34,7 @@ def label(
         wide = width(text, 7.0) + 2
         for right, high in _SHIFTS:
             at, middle = own_x + (right if right > 0 else right - wide), own_y + high
-            box = at - 4, middle - 12, at + wide, middle + 12
+            box = at - 4, middle - 14, at + wide, middle + 14
             hides = (marks > box[:2]).all(axis=1) & (marks < box[2:]).all(axis=1)
             over = any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3]
                        for b in taken)  # fmt: skip
@@ -42,6 +42,6 @@ def label(
             if inside and not over and not hides.any():
                 break
         taken.append(box)
-        near = at - 4 if at > own_x else at + wide - 4
+        near = at - 4 if at > own_x else at + wide + 2
         panel.sheet.draw([own_x, near], [own_y, middle], color=color, lw=0.4, zorder=3)
         panel.sheet.text(at, middle, text, size=7.0, color=color)
