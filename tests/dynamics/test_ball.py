@@ -13,7 +13,9 @@ from pseudorigid.dynamics.ensemble import ImpactMap
 every = settings(derandomize=True, deadline=None)
 numbers = st.floats(-2.0, 2.0, allow_subnormal=False)
 # Of any energy: eq. (31) bounds that of balls with g < k.
-balls = st.builds(lambda k, share: ball_of(k, k / share), st.floats(0.01, 1.0), st.floats(1e-4, 1.0))
+balls = st.builds(
+    lambda k, share: ball_of(k, k / share), st.floats(0.01, 1.0), st.floats(1e-4, 1.0)
+)
 
 
 def test_balls_are_equal_by_value():

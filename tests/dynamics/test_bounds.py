@@ -118,7 +118,10 @@ def test_a_dimensionless_ball_has_the_map_of_all_balls_with_its_k():
     assert unit.g == 1.0 and unit.energy_bounds() == (-2.5, math.inf)
     found = pseudorigid.symmetric_orbits(unit, 1000.0, 1)
     assert found.sizes["orbit"] > 1
-    for call, name in ((lambda: unit.section(-2.5), "energy"), (lambda: Ball.dimensionless(0), "k")):
+    for call, name in (
+        (lambda: unit.section(-2.5), "energy"),
+        (lambda: Ball.dimensionless(0), "k"),
+    ):
         with pytest.raises(ValueError, match=f"^{name} = "):
             call()
 
