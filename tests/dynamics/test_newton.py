@@ -10,6 +10,7 @@ from slowly import slowly
 
 from pseudorigid import Ball, periodic_orbits, symmetric_orbits
 from pseudorigid.dynamics import ensemble, newton
+from pseudorigid.dynamics.variables import chart
 
 
 def disk(ball, energy, orbits):
@@ -70,7 +71,7 @@ def test_a_chain_with_traces_of_2_to_rounding_is_two_orbits():
 @pytest.mark.parametrize("period", [6, 7])
 def test_symmetric_orbits_from_the_grid_alone_start_on_a_line(monkeypatch, period):
     expected = symmetric_orbits(BALL, 0.01, period)
-    monkeypatch.setattr(newton, "distinct_orbits", lambda *arguments: [])
+    monkeypatch.setattr(newton, "distinct_orbits", lambda *arguments: ([], 1.0))
     orbits = periodic_orbits(BALL, 0.01, period)
     assert orbits["symmetric"].values.all()
     np.testing.assert_allclose(orbits["trace"], expected["trace"], rtol=1e-11)
@@ -87,3 +88,35 @@ def test_the_number_of_threads_does_not_change_a_bit(monkeypatch):
         found.append(periodic_orbits(Ball(1 / 3, 0.03), 0.02, 3))
     assert found[0].identical(found[1])
     assert found[0].sizes["orbit"] == 4
+
+
+@pytest.mark.parametrize(("k", "g", "energy", "period", "count", "traces"), [
+    (1 / 3, 0.02, 0.02, 6, 25, (7739.07, -9120.85)),
+    *slowly(
+        (0.2, 0.01, 0.02, 4, 15, ()),
+        (0.25, 0.005, 0.01, 3, 28, ()),
+        (1 / 3, 0.02, 0.02, 5, 15, ()),
+    ),
+])  # fmt: skip
+def test_unstable_orbits_at_high_energies_are_found(k, g, energy, period, count, traces):
+    """At E/g^2 of 50 and more; Newton's method from 1,400^2 starts shows at most as many."""
+    ball = Ball(k, g)
+    orbits = periodic_orbits(ball, energy, period)
+    check(ball, energy, period, orbits)
+    assert (orbits.sizes["orbit"], orbits.attrs["unsolved"]) == (count, 0)
+    for trace in traces:  # a pair of mirror images each
+        assert np.sum(np.abs(orbits["trace"].values / trace - 1.0) < 1e-5) == 2
+    if period == 6:  # a search by 400^2 starts misses an orbit here
+        points = chart(k, *(orbits[name].values for name in ("x", "xdot", "udot")))
+        place = 0.0341431882504158, 0.0187101025390912
+        gaps = [abs(a - b) for a, b in zip(points, place, strict=True)]
+        assert np.min(np.maximum(*gaps)) < 1e-9
+
+
+def test_a_coarse_search_says_that_it_is(monkeypatch):
+    monkeypatch.setattr(newton, "SEARCHES", ((60, 0),))
+    few = periodic_orbits(Ball(1 / 3, 0.02), 0.02, 6)
+    assert few.sizes["orbit"] < 25 and few.attrs["least_points_seen"] < 0.2
+    assert few.attrs["points_seen"] < 0.7
+    whole = periodic_orbits(BALL, 0.01, 6)
+    assert whole.attrs["points_seen"] == whole.attrs["least_points_seen"] == 1.0

@@ -4,6 +4,8 @@ Fixed points are those of the closed form in 40 digits, and brute force over the
 no symmetric orbit that the search misses.
 """
 
+import math
+
 import mpmath
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from sections import BALL
 from slowly import slowly
 
 from pseudorigid import Ball, symmetric_orbits
+from pseudorigid.dynamics import fixed_point, periodic
 from pseudorigid.dynamics.periodic import _sign_changes
 from pseudorigid.dynamics.variables import of_type
 
@@ -88,7 +91,7 @@ def fixed_points(k, g, energy):
 
 FIXED = [
     *SETTINGS, (0.2, 0.004, 0.05), (0.2, 0.001, 0.09), (0.5, 0.01, 0.2), (1.0, 0.02, 0.4),
-    (0.03, 0.0005, 0.01), (0.2, 0.04, -0.004 + 1e-9),
+    (0.03, 0.0005, 0.01), (0.2, 0.04, -0.004 + 1e-9), *slowly((0.2, 3e-5, 0.09)),
 ]  # fmt: skip
 
 
@@ -139,3 +142,34 @@ def test_a_sign_change_is_found_in_each_interval_up_to_the_ends_of_a_line(root):
             assert (low, high) == (pytest.approx([root]), np.nextafter(low, 1.0))
         else:
             assert low.size == high.size == 0
+
+
+def test_the_symmetric_fixed_point_is_found_at_any_energy():
+    """Some 1,800 fixed points lie along the line; the elliptic family's one is next to its end."""
+    ball = Ball(0.2, 3e-5)
+    orbits = symmetric_orbits(ball, 0.09, 1)
+    x, trace, _ = fixed_point.numbers(ball.k, 0.09 / ball.g**2)
+    nearest = int(np.argmin(np.abs(orbits["tau"].values[:, 0] - 2.0 * math.pi)))
+    assert 0.0 < float(orbits["tau"][nearest, 0]) < 2.0 * math.pi
+    assert abs(float(orbits["x"][nearest, 0]) / (ball.g * x) - 1.0) < 1e-9
+    assert abs(float(orbits["trace"][nearest]) / trace - 1.0) < 1e-6
+    assert orbits.attrs["unsolved"] == 0 and orbits.attrs["line_points_seen"] == 1.0
+
+
+def test_the_search_counts_both_points_of_an_orbit_on_symmetry_lines(monkeypatch):
+    for period in (1, 2, 5, 6, 7):
+        assert symmetric_orbits(BALL, 0.01, period).attrs["line_points_seen"] == 1.0
+    monkeypatch.setattr(periodic, "HALVINGS", 0)
+    monkeypatch.setattr(periodic, "RESOLUTION", 60)
+    orbits = symmetric_orbits(Ball(1 / 3, 0.02), 0.02, 6)
+    assert orbits.sizes["orbit"] < 11 and orbits.attrs["line_points_seen"] < 0.9
+
+
+def test_stretched_lines_are_searched_in_finer_cells(monkeypatch):
+    """An orbit of period 3 at E/g^2 = 2,500 lies between equal cells, which see 81."""
+    found = symmetric_orbits(Ball(0.2, 0.002), 0.01, 3)
+    monkeypatch.setattr(periodic, "HALVINGS", 0)
+    equal = symmetric_orbits(Ball(0.2, 0.002), 0.01, 3)
+    bits = [{orbit.tobytes() for orbit in data["x"].values} for data in (found, equal)]
+    assert found.sizes["orbit"] == 82 and bits[1] <= bits[0]
+    assert equal.attrs["line_points_seen"] < found.attrs["line_points_seen"]

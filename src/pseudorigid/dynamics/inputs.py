@@ -32,7 +32,7 @@ def doubles(name: str, value: Any) -> np.ndarray:
     Raises ValueError, with the argument's name, for text, None, a bool, a complex number, ..., and
     for numbers beyond the range of doubles.
     """
-    if type(value) is float:
+    if type(value) is float or (type(value) is np.ndarray and value.dtype == np.float64):
         return np.asarray(value)
     try:
         return _converted(value)

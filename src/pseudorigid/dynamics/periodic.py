@@ -4,6 +4,9 @@ Let P be the map and R the reversor, (x, y) -> (x, -y). A symmetric orbit of eve
 on Fix R (y = 0) and returns to it after m impacts, or does so on Fix RP. An orbit of odd period 2m
 + 1 starts on Fix R and is on Fix RP after m impacts. On Fix RP the flight that follows is symmetric
 in time: b + g tau/2 = 0. `newton` searches for orbits without that symmetry.
+
+Each symmetric orbit has two points on these lines. The search finds them one by one, so that their
+count says how complete it is. Fixed points are in closed form, with tau = 2 theta.
 """
 
 import math
@@ -15,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from ..kernel import formulas
 from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball, require_ball
@@ -23,11 +27,12 @@ from .polish import polished
 from .variables import NAMES, TIME, described, variables
 
 Function = Callable[[np.ndarray], np.ndarray]
-_Line = tuple[Function, np.ndarray, Callable[..., np.ndarray]]
+_Line = tuple[Function, np.ndarray, Callable[..., np.ndarray], int]
 
-# Cells into which a symmetry line is divided to find sign changes. For the paper's ball at energies
-# 0.0017, 0.01 and 0.03, ten times as many cells show no further orbit of a period up to 12.
-RESOLUTION = 20_000
+# Cells into which a symmetry line is divided to find sign changes. A cell is then halved, up to
+# HALVINGS times and to MOST_CELLS in all, until its image after half of the impacts is shorter than
+# FINE, in section radii.
+RESOLUTION, HALVINGS, MOST_CELLS, FINE = 20_000, 8, 500_000, 0.03
 # Distance in section radii below which two points are the same. The error of a solution is smaller,
 # and the cells of the search are wider.
 SAME = 1e-9
@@ -43,6 +48,10 @@ NEWTON_STEPS = 5  # at those energies and periods no more than three helped
 
 def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -> xr.Dataset:
     """Find all symmetric orbits of a prime period that the resolution of the search shows.
+
+    Fixed points, of period 1, are complete. Of longer periods, orbits may be missing where images
+    of a symmetry line are so long that both points of an orbit on these lines lie within cells of
+    the search; `line_points_seen` tells.
 
     Parameters
     ----------
@@ -66,7 +75,8 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -
         right to the last bit. Those of others are right to rounding times up to MOST_GROWTH and
         `1/|trace - 2|`; for periods up to 40 all tried were good to 2e-12 section radii and traces
         to 1e-12. Attributes: resolution, the number of cells of each line; unsolved, the number of
-        orbits that were seen but on which Newton's method does not converge.
+        orbits that were seen but on which Newton's method does not converge; line_points_seen, the
+        share of the orbits' points on symmetry lines, two each, that the search found one by one.
 
     Raises
     ------
@@ -87,14 +97,21 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -
     """
     require_ball(ball)
     period, energy = whole_number("period", period), number("energy", energy)
-    orbits = ((orbit, True) for orbit in distinct_orbits(ball, energy, period))
-    return dataset_of(ball, energy, period, orbits)
+    orbits, seen = distinct_orbits(ball, energy, period)
+    return dataset_of(ball, energy, period, [(orbit, True) for orbit in orbits], seen)
 
 
 def dataset_of(
-    ball: Ball, energy: float, period: int, orbits: Iterable[tuple[np.ndarray, bool]]
+    ball: Ball,
+    energy: float,
+    period: int,
+    orbits: Iterable[tuple[np.ndarray, bool]],
+    seen: float,
 ) -> xr.Dataset:
-    """Solve for orbits (4, period), each with whether it is symmetric, and return their dataset."""
+    """Solve for orbits (4, period), each with whether it is symmetric, and return their dataset.
+
+    `seen` is the share of the points of symmetric orbits on symmetry lines that the search found.
+    """
     _, radius = ball.section(energy)
     solved, unsolved = [], 0
     for orbit, symmetric in orbits:
@@ -128,29 +145,112 @@ def dataset_of(
         "type": ("orbit", types, "type of stability"),
     }
     attrs = {"k": ball.k, "g": ball.g, "energy": energy, "period": period}
-    attrs |= {"resolution": RESOLUTION, "unsolved": unsolved}
+    attrs |= {"resolution": RESOLUTION, "unsolved": unsolved, "line_points_seen": seen}
     return xr.Dataset(of_points | described(of_orbits), attrs=attrs)
 
 
-def distinct_orbits(ball: Ball, energy: float, period: int) -> Iterator[np.ndarray]:
-    """Yield the points (4, period) of each orbit of this prime period on the symmetry lines."""
+def distinct_orbits(ball: Ball, energy: float, period: int) -> tuple[list[np.ndarray], float]:
+    """Return the points (4, period) of each orbit of this prime period on the symmetry lines.
+
+    Also returned is the share of their points on these lines that were found one by one.
+    """
     _, radius = ball.section(energy)
-    seen = np.empty((3, 0))
+    orbits: list[np.ndarray] = []
+    seen, owners = np.empty((3, 0)), np.empty((2, 0), dtype=np.int64)  # orbit and index of a point
+    found = set[tuple[int, int]]()
+    for state in _line_points(ball, energy, period):
+        points = _orbit_from(ball, state, period)
+        if np.any(_are_near(points[:3, :1], points[:3, 1:], radius)):
+            continue  # the prime period is a divisor
+        near = _are_near(points[:3, :1], seen, radius)
+        if near.any():
+            found.add((*owners[:, np.argmax(near)].tolist(),))
+            continue
+        found.add((len(orbits), 0))
+        indices = np.stack((np.full(period, len(orbits)), np.arange(period)))
+        seen, owners = np.append(seen, points[:3], axis=1), np.append(owners, indices, axis=1)
+        orbits.append(points)
+    return orbits, len(found) / (len(orbits) * min(period, 2)) if orbits else 1.0
+
+
+def _are_near(point: np.ndarray, others: np.ndarray, radius: float) -> np.ndarray:
+    """Return which points (3, n) are the same as a point (3, 1)."""
+    return np.asarray(np.all(np.abs(point - others) < SAME * radius, axis=0))
+
+
+def _line_points(ball: Ball, energy: float, period: int) -> Iterator[np.ndarray]:
+    """Yield the states on symmetry lines that return after `period` impacts."""
+    _, radius = ball.section(energy)
     for line in _lines(ball, energy, period):
-        for state in _solutions(ball, line, period, radius):
-            points = _orbit_from(ball, state, period)
-            others = np.append(seen, points[:3, 1:], axis=1)
-            if np.any(np.all(np.abs(points[:3, :1] - others) < SAME * radius, axis=0)):
-                continue  # the orbit was seen before, or its prime period is a divisor
-            seen = np.append(others, points[:3, :1], axis=1)
-            yield points
+        yield from _solutions(ball, line, period, radius)
+    if period == 1:
+        yield from fixed_points(ball, energy).T
+
+
+def fixed_points(ball: Ball, energy: float) -> np.ndarray:
+    """Return the states (3, n) of all fixed points of the map.
+
+    With the formulas of `fixed_point`, energies of fixed points fall and rise once between
+    multiples of pi of theta = tau/2. A root beyond pi counts if no earlier impact ends the flight.
+    """
+    k, e = ball.k, energy / (ball.g * ball.g)
+    longest = math.sqrt((2.0 * k * e + 1.0) / (1.0 + k))  # E is larger beyond this theta
+    ends = math.pi * np.arange(int(longest / math.pi) + 2)
+
+    def rest_and_slope(theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return 1 - theta cot(theta) and its derivative."""
+        sine, cosine = sincos_each(theta)
+        return 1.0 - theta * cosine / sine, (theta / sine - cosine) / sine
+
+    def falls(theta: np.ndarray) -> np.ndarray:
+        rest, slope = rest_and_slope(theta)
+        return np.asarray((1.0 + k) * theta + rest * slope < 0.0)
+
+    def is_below(theta: np.ndarray) -> np.ndarray:
+        rest, _ = rest_and_slope(theta)
+        return np.asarray((1.0 + k) * theta * theta + rest * rest - 1.0 < 2.0 * k * e)
+
+    with np.errstate(all="ignore"):
+        lowest, _ = _bisected(ends[:-1], ends[1:], falls)
+        rising = _bisected(lowest, ends[1:], is_below)[0]
+        falling = _bisected(ends[:-1], lowest, lambda theta: ~is_below(theta))[1]
+        theta = np.concatenate((rising, falling))
+        x = ball.g / k * (1.0 - rest_and_slope(theta)[0])
+        states = np.stack(formulas.chart_state(k, ball.g, energy, x, 0.0))
+    states = states[:, np.isfinite(states).all(axis=0)]
+    _, gaps = _gaps(ball, states, 1)
+    return states[:, gaps < JUMP * ball.section(energy)[1]]
+
+
+def _refined(ball: Ball, line: _Line, radius: float) -> np.ndarray:
+    """Return the parameters of a line, and more where its image is stretched.
+
+    Cells are halved as in a bisection, so that this does not change the bits of a solution.
+    """
+    states_at, parameters, defect, impacts = line
+
+    def ends(parameters: np.ndarray) -> np.ndarray:
+        image = ball.after(states_at(parameters), impacts)[:3]
+        return np.vstack((image, defect(*image)))
+
+    found = ends(parameters)
+    for _ in range(HALVINGS):
+        # A comparison with NaN, off the line, is false.
+        wide = np.max(np.abs(found[:, 1:] - found[:, :-1]), axis=0) > FINE * radius
+        if not wide.any() or parameters.size > MOST_CELLS:
+            break
+        at = np.flatnonzero(wide) + 1
+        middle = 0.5 * (parameters[at - 1] + parameters[at])
+        found = np.insert(found, at, ends(middle), axis=1)
+        parameters = np.insert(parameters, at, middle)
+    return parameters
 
 
 def _lines(ball: Ball, energy: float, period: int) -> Iterator[_Line]:
     """Yield the symmetry lines on which orbits of a period are searched for.
 
-    A line has a function from parameters (n,) to states (3, n), the parameters to search, and the
-    defect of states, which is 0 for an orbit after half of its impacts.
+    A line has a function from parameters (n,) to states (3, n), the parameters to search, the
+    defect of states, which is 0 for an orbit after half of its impacts, and their number.
     """
     centre, radius = ball.section(energy)
     k, g = ball.k, ball.g
@@ -167,14 +267,19 @@ def _lines(ball: Ball, energy: float, period: int) -> Iterator[_Line]:
 
     # The rim is left out, because a ball there is at rest.
     inside = (2.0 * np.arange(RESOLUTION) + 1.0) / RESOLUTION - 1.0
-    if period % 2:
-        yield on_r, inside, off_rp
+    half, odd = divmod(period, 2)
+
+    def off_r(x: np.ndarray, xdot: np.ndarray, udot: np.ndarray) -> np.ndarray:
+        return np.asarray(xdot - k * udot)  # y is 0 on Fix R
+
+    yield on_r, inside, off_rp if odd else off_r, half
+    if period == 1:
         return
-    yield on_r, inside, lambda x, xdot, udot: xdot - k * udot  # y is 0 on Fix R
     longest = radius * np.sqrt(k) / g
     for sign in (1.0, -1.0):
         on_rp = partial(symmetric_flights, ball, energy, sign)
-        yield on_rp, longest * np.arange(1, RESOLUTION + 1) / RESOLUTION, off_rp
+        thetas = longest * np.arange(1, RESOLUTION + 1) / RESOLUTION
+        yield on_rp, thetas, off_r if odd else off_rp, half + odd
 
 
 def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray) -> np.ndarray:
@@ -197,12 +302,12 @@ def symmetric_flights(ball: Ball, energy: float, sign: float, theta: np.ndarray)
 
 def _solutions(ball: Ball, line: _Line, period: int, radius: float) -> Iterator[np.ndarray]:
     """Yield the states on one symmetry line that return after `period` impacts."""
-    states_at, parameters, defect = line
+    states_at, _, defect, impacts = line
 
     def defect_halfway(parameters: np.ndarray) -> np.ndarray:
-        return defect(*ball.after(states_at(parameters), period // 2)[:3])
+        return defect(*ball.after(states_at(parameters), impacts)[:3])
 
-    states = states_at(np.concatenate(_sign_changes(defect_halfway, parameters)))
+    states = states_at(np.concatenate(_sign_changes(defect_halfway, _refined(ball, line, radius))))
     _, gaps = _gaps(ball, states, period)
     states, gaps = states.reshape(3, 2, -1), gaps.reshape(2, -1)
     for root in range(gaps.shape[1]):
@@ -212,15 +317,19 @@ def _solutions(ball: Ball, line: _Line, period: int, radius: float) -> Iterator[
 
 def _sign_changes(value: Function, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the ends, neighbouring doubles, of sign changes of `value`, NaN off the line."""
-    on_line = ~np.isnan(value(parameters))
-    low, high = parameters[:-1].copy(), parameters[1:].copy()
+    found = value(parameters)
+    low, high, at_low, at_high = (
+        a.copy() for a in (parameters[:-1], parameters[1:], found[:-1], found[1:])
+    )
     # Where a line ends between two parameters, its last point replaces the parameter beyond it.
-    (leaves,) = np.nonzero(on_line[:-1] & ~on_line[1:])
-    high[leaves] = _bisected(low[leaves], high[leaves], lambda p: ~np.isnan(value(p)))[0]
-    (enters,) = np.nonzero(~on_line[:-1] & on_line[1:])
-    low[enters] = _bisected(low[enters], high[enters], lambda p: np.isnan(value(p)))[1]
-    at_low = value(low)
-    change = at_low * value(high) <= 0.0
+    enters, leaves = np.isnan(at_low), np.isnan(at_high)
+    (ends,) = np.nonzero(enters != leaves)
+    if ends.size:
+        enter = enters[ends]
+        on, off = _bisected(low[ends], high[ends], lambda p: np.isnan(value(p)) == enter)
+        low[ends], high[ends] = np.where(enter, off, low[ends]), np.where(enter, high[ends], on)
+        at_low[ends], at_high[ends] = value(low[ends]), value(high[ends])
+    change = at_low * at_high <= 0.0
     at_low = at_low[change]
     return _bisected(low[change], high[change], lambda p: at_low * value(p) > 0.0)
 
