@@ -63,6 +63,11 @@ def make(
     """
     left_out, before = config.left_out.get(group, {}), Freshness(ROOT, config.build_specs())
     results = [path for path in (*drawings.values(), *data) if path in before.build_specs]
+    made = before.outdated(with_dependencies(before.build_specs, results))
+    if made and not args.makes_nothing:
+        from .packages import add_imported  # takes long to import
+
+        add_imported({file for path in made for file in before.build_specs[path].sources})
     status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
         for drawing in drawings.values():
