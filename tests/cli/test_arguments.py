@@ -7,9 +7,9 @@ import sys
 import pytest
 from commands import answer, mistake
 from documents import complaint
-from project import run
+from project import ROOT, run
 
-from pipeline.cli import arguments
+from pipeline.cli import arguments, main, packages
 from pipeline.command_list import all_commands
 from pipeline.config.schema.parts import SETS
 from pipeline.declaration import parts
@@ -106,3 +106,18 @@ def test_no_scene_has_the_name_of_a_command():
     for key in filter(None, (each.key for each in SETS.values())):
         given = {"ball": {"k": 0.2, "g": 0.04}, "scenes": {"fig3": block}, key: {"verify": block}}
         assert complaint(given).startswith(f"{key}: 'verify' is not allowed")
+
+
+@pytest.mark.parametrize(("words", "lists"), [
+    ("fig3", []), ("list", []), ("test -q", ["test"]), ("prove -n", []), ("prove", ["algebra"]),
+    ("fig3 -- --dag", []), ("fig3 -- --report", ["report"]), ("-- --report=a.html", ["report"]),
+])  # fmt: skip
+def test_a_command_installs_its_packages_unless_it_makes_nothing(monkeypatch, words, lists):
+    if words.split()[0] not in {"fig3", "--", *all_commands()}:
+        pytest.skip("starts from all parts")
+    installed = []
+    monkeypatch.setattr(packages, "add_packages", lambda *names: installed.extend(names))
+    monkeypatch.setattr(main, "set_environment", lambda: None)
+    monkeypatch.setattr(main, "imported", lambda name: lambda args: 0)
+    monkeypatch.chdir(ROOT)
+    assert (main.main(words.split()), installed) == (0, lists)

@@ -20,8 +20,11 @@ def snakemake(folder, *arguments):
 
 def test_it_makes_the_same_files_where_no_environment_knows_the_sources(tree):
     tree.write(of_scenes("fig7"))
+    # The Python of the jobs finds the sources of the tests too.
+    tree.append("pseudorigid/dynamics/lyapunov.py", "open('loaded here', 'w').close()\n")
     result = snakemake(tree.path)
     assert result.returncode == 0, result.stderr
+    assert (tree.path / "loaded here").exists()
     drawn = (tree.path / "results/paper/figures/fig7.png").read_bytes()
     assert (tree.path / "paper_figures/fig7.png").read_text() == "committed"
     tree.succeed()  # publishes what is there
