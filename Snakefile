@@ -39,9 +39,9 @@ for name, function, result, inputs in other_rules():
             **(of_kind(name.removeprefix("draw_")) if drawing else {}),
         priority: priority
         localrule: name in JOINED
-        conda:
-            "workflow/envs/python.yaml"
         threads: (lambda wildcards: workflow.cores) if name in ALONE else 1
+        resources:
+            **resources_of(name),
         shell:
             "python -P -m pipeline.jobs.job {input.specification}"
 

@@ -14,7 +14,10 @@ _FIGURES = "figures to draw, by their names in config.yaml; without a name, all"
 COMMANDS = {
     "list": Command(
         "figures, charts and datasets that can be made, and their states",
-        {"name": "figures, sets of figures or variants to list; without a name, all"},
+        {
+            "name": "figures, sets of figures or variants to list; without a name, all",
+            "--json": "print a list of files with command, kind, variant, scene, path and state",
+        },
         group="figures",
     ),
     "variant": SnakemakeCommand(
@@ -27,6 +30,7 @@ COMMANDS = {
         {
             "--strict": "exit with status 1 for notes too",
             "--committed": "compare committed files alone: nothing has to be computed here",
+            "--json": "print the findings about each published folder as JSON",
         },
         details="The layers are config, source, environment, data, drawing and file. The exit "
         "status is 1 for other bytes, for results that this tree did not make, and for figures of "

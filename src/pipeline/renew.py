@@ -12,7 +12,7 @@ import jinja2
 
 from .config import MAIN, ConfigError, reference
 from .config.schema.kinds import KINDS
-from .declaration import RENEW, imported, parts
+from .declaration import RENEW, Stage, imported, parts
 from .records.files import read_text, write_whole
 from .records.sources import ROOT
 
@@ -34,13 +34,13 @@ def rules() -> str:
     """Return the text of the rules for the part that has the main set of scenes."""
     name, part = next((name, part) for name, part in parts().items() if MAIN in part.sets)
     found = [
-        {"name": n, "function": stage.function, "stages": stage.inputs, "file": f"{n}_{{scene}}.nc"}
+        stage._asdict() | {"name": n, "stages": stage.inputs, "file": f"{n}_{{scene}}.nc"}
         for n, stage in part.stages.items()
     ]
     for kind, of in KINDS.items():
         if of.__module__ == f"{name}.kinds":
-            of_kind = {"name": f"draw_{kind}", "function": of.drawn_by, "stages": of.stages}
-            found.append(of_kind | {"file": "{scene}.{extension}", "kind": kind})
+            of_kind = {"name": f"draw_{kind}", "stages": of.stages, "kind": kind}
+            found.append(Stage(of.drawn_by)._asdict() | of_kind | {"file": "{scene}.{extension}"})
     text = Path(__file__).with_name("rules.smk.jinja").read_text(encoding="utf-8")
     environment = jinja2.Environment(trim_blocks=True, keep_trailing_newline=True)
     return environment.from_string(text).render(rules=found)

@@ -98,6 +98,28 @@ def test_verify_ends_with_why_it_fails_and_what_to_do(moved, command):
     assert end[3:] == [WHAT_TO_DO] and WHAT_TO_DO in command("list")[1]
 
 
+def test_scripts_get_the_findings_and_the_states_as_json(moved, command):
+    spoil_pixel(moved.path / FIGURE)
+    (moved.path / "paper_figures/mine.png").write_text("x")
+    status, lines = command("verify", "--json")
+    (found,) = json.loads("\n".join(lines))
+    assert (status, found["folder"], len(found["files"])) == (1, "paper_figures", 14)
+    different = {name: layers for name, layers in found["files"].items() if layers}
+    assert different.keys() == {"fig3.png"} and different["fig3.png"].keys() == {"drawing"}
+    assert found["failures"][0].startswith("paper_figures/mine.png: no scene makes it")
+    assert found["unchecked"] == [] and isinstance(found["notes"], list)
+    status, lines = command("list", "--json", "fig3")
+    listed = json.loads("\n".join(lines))
+    states = {file["path"]: file["state"] for file in listed}
+    keys = {"command", "kind", "variant", "scene", "path", "state"}
+    assert status == 0 and all(file.keys() == keys for file in listed)
+    assert states[FIGURE] == "differs" and states["paper_figures/fig3.svg"] == "identical"
+    assert states[PERIODIC] == "current"
+    kinds = {file["path"]: file["kind"] for file in listed}
+    assert (kinds[FIGURE], kinds[PERIODIC]) == ("figure", "data")
+    assert {file["scene"] for file in listed} == {"fig3"}
+
+
 SETS_WITH_TEXTS = [name for name, each in SETS.items() if each.texts]
 
 

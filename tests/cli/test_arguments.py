@@ -6,10 +6,10 @@ from importlib import metadata
 import pytest
 from commands import answer, mistake
 from documents import complaint
-from project import path_of_bare_python, run
+from project import ROOT, path_of_bare_python, run
 
 import pseudorigid
-from pipeline.cli import arguments
+from pipeline.cli import arguments, main, packages
 from pipeline.command_list import all_commands
 from pipeline.config.schema.parts import SETS
 from pipeline.declaration import parts
@@ -124,3 +124,18 @@ def test_the_versions_are_the_projects_and_that_of_snakemake(capsys):
     snakemake = metadata.version("snakemake")
     line = f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}\n"
     assert answer(capsys, "--version") == (0, line, "")
+
+
+@pytest.mark.parametrize(("words", "lists"), [
+    ("fig3", []), ("list", []), ("test -q", ["test"]), ("prove -n", []), ("prove", ["algebra"]),
+    ("fig3 -- --dag", []), ("fig3 -- --report", ["report"]), ("-- --report=a.html", ["report"]),
+])  # fmt: skip
+def test_a_command_installs_its_packages_unless_it_makes_nothing(monkeypatch, words, lists):
+    if words.split()[0] not in {"fig3", "--", *all_commands()}:
+        pytest.skip("starts from all parts")
+    installed = []
+    monkeypatch.setattr(packages, "add_packages", lambda *names: installed.extend(names))
+    monkeypatch.setattr(main, "set_environment", lambda: None)
+    monkeypatch.setattr(main, "imported", lambda name: lambda args: 0)
+    monkeypatch.chdir(ROOT)
+    assert (main.main(words.split()), installed) == (0, lists)

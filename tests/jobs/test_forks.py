@@ -1,5 +1,6 @@
 """Forked jobs: each ends as a program of its own would, also when many start at once."""
 
+import errno
 import multiprocessing
 import os
 import signal
@@ -88,6 +89,35 @@ def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys)
     assert forks.run(multiprocessing.get_context("fork"), spec, "halving")
     assert forks.PROGRESS.pop(spec.result) == "60%, halving"
     assert capsys.readouterr().err == "a warning\n"
+
+
+@pytest.mark.parametrize("log", ["kept", "not written"])
+def test_a_job_that_cannot_start_for_want_of_file_handles_says_so(
+    tmp_path, monkeypatch, capsys, log
+):
+    def refuse(duplex):
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").write_text("") if log == "not written" else None
+    spec = BuildSpec("results/paper/0.nc", "fig", "step", {}, "", "", {}, [])
+    assert not forks.run(SimpleNamespace(Pipe=refuse), spec)
+    said = failure(spec.result) if log == "kept" else capsys.readouterr().err.rstrip()
+    assert said.endswith("the job could not start: Too many open files (limits: ulimit -a)")
+
+
+def test_a_job_whose_forking_process_has_ended_says_so(tmp_path, monkeypatch):
+    def end():
+        raise EOFError
+
+    monkeypatch.chdir(tmp_path)
+    context = multiprocessing.get_context("fork")
+    process = SimpleNamespace(start=end)
+    context = SimpleNamespace(Pipe=context.Pipe, Process=lambda target, args: process)
+    spec = BuildSpec("results/paper/0.nc", "fig", "step", {}, "", "", {}, [])
+    assert not forks.run(context, spec)
+    words = "memory or file handles may be short (limits: ulimit -a)"
+    assert failure(spec.result) == f"the job could not start: {words}"
 
 
 def test_a_job_without_a_log_says_if_the_disk_is_full(tmp_path, monkeypatch):

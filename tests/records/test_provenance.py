@@ -8,6 +8,7 @@ from importlib import metadata
 
 import pytest
 
+from pipeline.records import provenance
 from pipeline.records.files import FileError
 from pipeline.records.provenance import (
     BuildSpec,
@@ -106,6 +107,19 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
 
 
 # What computes and what draws: not sympy (its results are compared), nor what runs the jobs.
+def test_a_package_that_is_installed_on_demand_has_the_version_that_would_be(monkeypatch):
+    """So that a new .venv outdates no result of proofs."""
+    here, installed = provenance.versions(), metadata.version
+
+    def lacking(name):
+        if name == "python-flint":
+            raise metadata.PackageNotFoundError
+        return installed(name)
+
+    monkeypatch.setattr(metadata, "version", lacking)
+    assert provenance.versions() == here and here["python-flint"]
+
+
 COMPUTING = "llvmlite", "netCDF4", "numba", "numpy", "python-flint", "scipy", "xarray"
 DRAWING_PACKAGES = "deflate", "fonttools", "matplotlib", "pyparsing"
 

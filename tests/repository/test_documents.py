@@ -14,7 +14,7 @@ from pipeline.command_list import COMMANDS, all_commands
 PATTERNS = "*.md", "docs/**/*.md", "src/**/README.md", "src/extensions/*/*/*.md", "tests/README.md"
 DOCUMENTS = sorted({str(file.relative_to(ROOT)) for each in PATTERNS for file in ROOT.glob(each)})
 # Folders of the repository; results and .venv are left out.
-FOLDERS = (".github", "src", "tests", "config", "docs", "workflow", "profiles", "requirements")
+FOLDERS = (".github", "src", "tests", "docs", "workflow", "profiles", "requirements")
 FOLDERS += ("paper_figures", "more_figures")
 PATHS = [*ROOT.glob("*"), *(path for folder in FOLDERS for path in (ROOT / folder).rglob("*"))]
 FILES = [str(path.relative_to(ROOT)) for path in PATHS if path.is_file()]

@@ -13,9 +13,12 @@ import grimp
 import pytest
 import yaml
 from project import ROOT, SHIPPED, run
-from test_style import pins
+from test_style import requested
 
+from pipeline import config
+from pipeline.cli import packages
 from pipeline.command_list import COMMANDS
+from pipeline.config import MAIN
 from pipeline.config.schema import scene
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.parts import SETS, SETTINGS
@@ -182,8 +185,10 @@ def test_the_engine_has_no_name_of_a_part():
     assert found == []
 
 
-# Where packages that are not in the lock are imported, and the file in requirements/ that has them.
+# Where packages that are not in the lock are imported, and the file in requirements/ that has them;
+# those of packages._ON_DEMAND may be imported anywhere.
 ADDED = {
+    "src/extensions/publication/site/conf.py": "site",
     "src/extensions/atlas/gpu/card.py": "gpu",
     "src/study/methods/libraries.py": "study",
     "src/extensions/explorer/page.py": "explorer",
@@ -215,11 +220,26 @@ def packages_of(source):
 SOURCES = {str(f.relative_to(ROOT)): f.read_text() for f in (ROOT / "src").rglob("*.py")}
 
 
-def test_every_imported_package_is_in_the_lock_of_the_commands_that_reach_it():
+def test_every_imported_package_is_named_in_the_list_of_the_commands_that_reach_it():
+    """And no other package is, so that a run installs what the sources need and what that needs."""
+    on_demand = {PACKAGES.get(name, name): each for name, each in packages._ON_DEMAND.items()}
+    imported, lists = {}, {*on_demand.values(), *ADDED.values(), "main"}
     for file, source in SOURCES.items():
-        locks = ["lock", ADDED[file]] if file in ADDED else ["lock"]
-        known = {name for lock in locks for name in pins(f"requirements/{lock}.txt")}
-        assert {name.lower() for name in packages_of(source)} <= known, file
+        for name in packages_of(source):
+            imported.setdefault(on_demand.get(name) or ADDED.get(file, "main"), set()).add(name)
+    named = {each: {*requested(each)} for each in lists}
+    common = set().union(*(named[each] for each in ("main", *on_demand.values())))
+    for each, names in imported.items():
+        assert {name.lower() for name in names} <= named[each] | common, each
+    used = {name.lower() for name in imported["main"]}
+    assert named["main"] - used == {"contourpy"}  # held back
+
+
+def test_no_figure_of_the_paper_needs_a_package_that_is_installed_on_demand():
+    specs = config.load(SHIPPED).build_specs([MAIN]).values()
+    files = {file for spec in specs for file in spec.sources if file.endswith(".py")}
+    names = {name for file in files for name in packages_of(SOURCES[file])}
+    assert names and names.isdisjoint(PACKAGES.get(name, name) for name in packages._ON_DEMAND)
 
 
 def test_the_wheel_demands_the_packages_that_it_imports_and_no_others():

@@ -65,7 +65,9 @@ MAC = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("names", [("uv", "build", "lock"), ("test",), ("article",)])
+@pytest.mark.parametrize(
+    "names", [("uv", "build", "lock", "algebra", "report"), ("test",), ("article",)]
+)
 def test_the_locked_packages_have_wheels_for_macos_on_apple_processors(tmp_path, names):
     """Pip evaluates conditions for the machine that runs it, so that they are decided here."""
     archive = pytest.importorskip("extensions.publication.commands.archive")

@@ -8,13 +8,14 @@ from functools import cache
 from types import SimpleNamespace
 
 import pytest
+import yaml
 from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
 from pipeline.config import load
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.parts import STAGES
-from pipeline.declaration import parts
+from pipeline.declaration import Stage, parts
 from pipeline.records.provenance import spec_path
 
 RULES = ROOT / "workflow" / "rules"
@@ -59,11 +60,13 @@ def jobs():
     found = {}
     for job in re.split(r"^\[.*\]\n", printed, flags=re.M)[1:]:
         (rule,) = re.findall(r"^(?:local)?rule (\w+):$", job, re.M)
-        fields = dict(re.findall(r"^    (input|output|priority|threads): (.*)$", job, re.M))
+        fields = dict(re.findall(r"^    (\w+): (.*)$", job, re.M))
         if "output" in fields:
             result = re.split(" |,", fields["output"])[0]
             inputs = {*fields["input"].split(", ")} - {spec_path(result)}
-            found[result] = rule, inputs, int(fields.get("priority", 0)), fields.get("threads", "1")
+            needs = dict(re.findall(r"(mem_mb|runtime)=(\d+)", fields["resources"]))
+            priority, threads = int(fields.get("priority", 0)), fields.get("threads", "1")
+            found[result] = rule, inputs, priority, threads, needs
     return found
 
 
@@ -78,4 +81,16 @@ def test_long_jobs_begin_first_and_nothing_runs_beside_a_measurement_of_seconds(
         for result, seconds in part.seconds.items():
             assert jobs[result][2] >= seconds, result
     alone = {name for name, stage in STAGES.items() if stage.alone}
-    assert {rule for rule, *_, threads in jobs.values() if threads == "3"} == alone
+    assert {rule for rule, _, _, threads, _ in jobs.values() if threads == "3"} == alone
+
+
+def test_each_job_says_the_memory_and_the_time_that_its_stage_declares(jobs):
+    for rule, *_, needs in jobs.values():
+        stage = STAGES.get(rule.removesuffix("_block"), Stage(""))
+        assert needs == {"mem_mb": str(stage.mem_mb), "runtime": str(stage.runtime)}, rule
+    assert len({needs["runtime"] for *_, needs in jobs.values()}) > 1
+
+
+def test_the_profile_of_the_cluster_says_nothing_about_single_jobs():
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
+    assert profile["executor"] == "slurm" and "default-resources" not in profile

@@ -14,6 +14,8 @@ import pytest
 from project import ROOT, path_of_bare_python, run, wait_for
 from slowly import slowly
 
+from pipeline.cli import packages
+
 
 def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     tree.edit("fig5", energy=0.9)
@@ -80,8 +82,9 @@ def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
 
 
 @pytest.mark.parametrize(("pretend", "line"), [
-    (None, "no python3 found: please install Python 3.11 or newer"),
-    ("sys.version_info = (3, 9, 2)", "needs Python 3.11 or newer, but python3 is 3.9.2"),
+    (None, "no python3 found: please install Python 3.11 to 3.14"),
+    ("sys.version_info = (3, 9, 2)", "needs Python 3.11 to 3.14, but python3 is 3.9.2"),
+    ("sys.version_info = (3, 15, 0)", "needs Python 3.11 to 3.14, but python3 is 3.15.0"),
     (
         "sys.modules['ensurepip'] = None",
         "python3 lacks the venv module: "
@@ -114,7 +117,7 @@ def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
 
 LINE = "reproduce: installing the locked packages into .venv (once)\n"
 MADE, READY = (0, f"handed over\n{LINE}"), (0, "handed over\n")
-UV = ROOT / ".venv" / "bin" / "uv"
+UV = ROOT / ".venv" / "bin" / "uv"  # a package of the tests; a run keeps none
 # A uv of the right version whose installations succeed, slowly if the file SLOW is there.
 SLOW_UV = """#!/bin/sh
 [ "$1" != --version ] || { echo uv %s; exit; }
@@ -341,6 +344,42 @@ def test_added_packages_stay(set_up):
     assert set_up.shell(pip) == "" and set_up.run() == READY
     for package in ("needed", "extra", "mine"):
         assert set_up.shell(f".venv/bin/{package}-where") == f"{set_up.venv}\n"
+
+
+@pytest.mark.slow
+def test_no_installer_stays_but_pip(set_up):
+    """uv, which a run downloads, is larger than what it installs here."""
+    for file in ("uv", "algebra"):
+        shutil.copy(ROOT / "requirements" / f"{file}.txt", set_up.tree / "requirements")
+    (set_up.tree / "requirements" / "uv.txt").write_text(wheel(set_up.wheels, "uv"))
+    assert set_up.run() == MADE
+    assert "Successfully installed uv" in (set_up.venv / "install.log").read_text()
+    assert not list(set_up.venv.rglob("uv*"))
+
+
+def test_what_outdated_results_import_is_installed_first_and_nothing_else(tmp_path, monkeypatch):
+    installed = []
+    monkeypatch.setattr(packages, "ROOT", tmp_path)
+    monkeypatch.setattr(packages, "VENV", tmp_path / ".venv")
+    monkeypatch.setattr(packages, "_install", lambda name, again: installed.append((name, again)))
+    monkeypatch.setattr(packages.sys, "prefix", str(tmp_path / ".venv"))
+    for folder in (".venv", "requirements"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "requirements" / "algebra.txt").write_text("sympy==1.0\n")
+    (tmp_path / "plain.py").write_text("import numpy\n")
+    (tmp_path / "inner.py").write_text("import numpy\ndef f():\n    from flint import arb\n")
+    packages.add_imported(["plain.py"])
+    assert installed == []
+    packages.add_imported(["plain.py", "inner.py"])
+    packages.add_imported(["inner.py"])
+    assert installed == [("algebra", False)]
+    (tmp_path / "requirements" / "algebra.txt").write_text("sympy==1.1\n")
+    packages.add_imported(["inner.py"])
+    assert installed[1:] == [("algebra", True)]
+    monkeypatch.setattr(packages.sys, "prefix", "/elsewhere")
+    (tmp_path / ".venv" / "algebra-stamp").unlink()
+    packages.add_imported(["inner.py"])
+    assert len(installed) == 2
 
 
 @pytest.mark.slow

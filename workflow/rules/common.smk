@@ -8,19 +8,22 @@ import sys
 from pathlib import Path
 from shlex import quote
 
+HERE = Path(workflow.current_basedir).parents[1]
+sys.path.insert(0, str(HERE / "src"))
+
 from pipeline.config import ConfigError, load
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.parts import STAGES
-from pipeline.declaration import SourceError, parts
+from pipeline.declaration import SourceError, Stage, parts
 from pipeline.records.files import FileError
 from pipeline.records.provenance import Freshness, log_path, record_path, spec_path
 from pipeline.records.sources import ROOT
 
-if not ROOT.samefile(workflow.basedir):
-    here = f"this is {workflow.basedir}, but the code of {ROOT} runs"
-    sys.exit(f"reproduce: {here}: use ./reproduce here")
-if not ROOT.samefile("."):
-    sys.exit("reproduce: --directory is not used here: copy the folder to have results elsewhere")
+if not (HERE / "Snakefile").samefile(workflow.main_snakefile) or not HERE.samefile("."):
+    how = "in its own folder, not as a module and without --directory"
+    sys.exit(f"reproduce: the workflow runs {how}: copy {HERE} to have results elsewhere")
+if not ROOT.samefile(HERE):  # plugins of snakemake were found elsewhere
+    sys.exit(f"reproduce: this is {HERE}, but the code of {ROOT} runs: use ./reproduce here")
 if config:
     sys.exit("reproduce: --config and --configfile are not used here: edit config.yaml")
 try:
@@ -39,7 +42,8 @@ ALONE = {name for name, stage in STAGES.items() if stage.alone}  # nothing runs 
 # What is made from blocks of cells, which alone are jobs of a cluster.
 JOINED = {name for name, stage in STAGES.items() if stage.of_block}
 JOINED |= {f"draw_{kind}" for kind, picture in PICTURES.items() if JOINED & {*picture.stages}}
-shell.prefix(f"PATH={quote(str(Path(sys.executable).parent))}:$PATH; ")  # this Python, for jobs
+BIN, SRC = quote(str(Path(sys.executable).parent)), quote(sys.path[0])  # of this Python and code
+shell.prefix(f"export PATH={BIN}:$PATH PYTHONPATH={SRC}${{{{PYTHONPATH:+:$PYTHONPATH}}}}; ")
 
 
 def dataset(stage):
@@ -72,6 +76,12 @@ def priority(wildcards, rulename):
     """Return the priority of a job: the longest begin first."""
     result = workflow.get_rule(rulename).output.result.apply_wildcards(wildcards)
     return SECONDS.get(str(result), 0)
+
+
+def resources_of(name):
+    """Return the resources that the stage of a rule declares; those of a drawing are the defaults."""
+    stage = STAGES.get(name.removesuffix("_block"), Stage(""))
+    return {"mem_mb": stage.mem_mb, "runtime": stage.runtime}
 
 
 def any_of(names):

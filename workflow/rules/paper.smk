@@ -2,7 +2,7 @@
 #
 # The docstring of a rule names the function that its job calls; a scene with a `method` may have
 # another one. dataset("STAGE") is the dataset of a stage of the same scene, which variants share. A
-# result is made if its specification is newer (common.smk); `python` is that of .venv.
+# result is made if its specification is newer (common.smk).
 
 
 rule orbits:
@@ -14,8 +14,9 @@ rule orbits:
         record="results/{variant}/provenance/orbits_{scene}.nc.json",
     log:
         "results/{variant}/logs/orbits_{scene}.nc.log",
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=500,
+        runtime=10,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -29,8 +30,9 @@ rule periodic:
         record="results/{variant}/provenance/periodic_{scene}.nc.json",
     log:
         "results/{variant}/logs/periodic_{scene}.nc.log",
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=500,
+        runtime=10,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -45,8 +47,9 @@ rule motion:
         record="results/{variant}/provenance/motion_{scene}.nc.json",
     log:
         "results/{variant}/logs/motion_{scene}.nc.log",
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=500,
+        runtime=10,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -61,8 +64,9 @@ rule manifolds:
         record="results/{variant}/provenance/manifolds_{scene}.nc.json",
     log:
         "results/{variant}/logs/manifolds_{scene}.nc.log",
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=500,
+        runtime=10,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -76,8 +80,9 @@ rule lyapunov:
         record="results/{variant}/provenance/lyapunov_{scene}.nc.json",
     log:
         "results/{variant}/logs/lyapunov_{scene}.nc.log",
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=500,
+        runtime=10,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -94,8 +99,9 @@ rule draw_portrait:
         "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("portrait"),
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -112,8 +118,9 @@ rule draw_motion:
         "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("motion"),
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -132,8 +139,9 @@ rule draw_tangle:
         "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("tangle"),
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -150,8 +158,9 @@ rule draw_closeup:
         "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("closeup"),
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"
 
@@ -168,7 +177,8 @@ rule draw_exponents:
         "results/{variant}/logs/{scene}.{extension}.log",
     wildcard_constraints:
         **of_kind("exponents"),
-    conda:
-        "../envs/python.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     shell:
         "python -P -m pipeline.jobs.job {input.specification}"

@@ -25,6 +25,7 @@ PART = Part(
             "k energy starts impacts",
             more="extensions.atlas.kinds.specifications",
             of_block="extensions.atlas.cell.block_of_cells_of_a_sweep",
+            runtime=120,
         ),
         "verdicts": Stage("extensions.atlas.verdicts.verdicts", alone=True),
     },

@@ -25,11 +25,15 @@ def run(args: Arguments) -> int:
         raise CommandLineError("prove: --impacts and --pictures take no theorems")
     if args.makes_nothing and (args.search or args.impacts or args.again):
         raise CommandLineError("prove: --search, --impacts and --again do not take -n")
-    from . import THEOREMS
+    if args.makes_nothing:  # the packages of THEOREMS may not be installed
+        known = [scene for _, scene, stage in args.config.datasets if stage == "theorem"]
+    else:
+        from . import THEOREMS
 
+        known = [*THEOREMS]
     for name in args.theorem:
-        if name not in THEOREMS:
-            meant = hint(name, THEOREMS) or f": there are {', '.join(THEOREMS)}"
+        if name not in known:
+            meant = hint(name, known) or f": there are {', '.join(known)}"
             raise CommandLineError(f"no theorem {name}{meant}")
     with locked():
         if args.pictures:
@@ -42,7 +46,7 @@ def run(args: Arguments) -> int:
             heartbeat = Heartbeat(lambda: f"reproduce: {doing[0]}")
             with interruptible(), one_line(), closing(heartbeat):
                 return int(prove_figures(args.config, partial(doing.__setitem__, 0)))
-        return _check(args, args.theorem or [*THEOREMS])
+        return _check(args, args.theorem or known)
 
 
 def _check(args: Arguments, names: Sequence[str]) -> int:

@@ -38,6 +38,7 @@ PART = Part(
                 "--pictures": "draw the pictures, in more_figures/proofs/",
             },
             module="extensions.proofs.command",
+            packages="algebra",
             details="Checks what changed since it was checked here, and prints a line for each "
             "theorem. The exit status is 1 if one is not proved.",
         ),

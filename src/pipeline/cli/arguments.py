@@ -74,7 +74,8 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """End the process with the message, or with what an unknown argument may mean."""
         if unknown := message.partition("unrecognized arguments: ")[2]:
-            name, after = unknown.split()[0], f": usage: {self.usage}"
+            name, usage = unknown.split()[0], " ".join((self.usage or "").split())
+            after = f": usage: {usage}"
             if name.startswith("-"):
                 name = name.partition("=")[0]
                 owners = [word for word, c in all_commands().items() if name in c.arguments]

@@ -56,9 +56,12 @@ def _run(args: arguments.Arguments) -> int:
     os.chdir(ROOT)
     set_environment()
     command = all_commands().get(args.word, DEFAULT_COMMAND)
-    if command.packages and not (command.runs_snakemake and args.makes_nothing):
+    makes = not (command.runs_snakemake and args.makes_nothing)
+    lists = [command.packages] if command.packages and makes else []
+    lists += ["report"] * ("--report" in {option.partition("=")[0] for option in args.options})
+    if lists:
         from .packages import add_packages
 
-        add_packages(command.packages)
+        add_packages(*lists)
     module = command.module or f"pipeline.cli.commands.{args.word}"
     return int(imported(f"{module}.run")(args))

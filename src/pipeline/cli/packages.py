@@ -12,19 +12,21 @@ import signal
 import ssl
 import subprocess
 import sys
-from collections.abc import Sequence
-from contextlib import chdir, closing, suppress
+from collections.abc import Iterable, Sequence
+from contextlib import chdir, closing, nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
 from ..jobs.heartbeat import Heartbeat
 from ..records.files import FileError, read_yaml, write_whole
-from ..records.sources import ROOT
+from ..records.sources import ROOT, parsed
 from .arguments import read
 from .errors import UsageError, one_line, print_error
 from .lock import locked
 from .running import interruptible
 
+# Modules that no figure of the paper imports -> the list in requirements/ of their packages.
+_ON_DEMAND = {"flint": "algebra", "sympy": "algebra"}
 VENV = ROOT / ".venv"
 PYTHON = str(VENV / "bin" / "python")
 LOG = VENV / "install.log"  # written first: a .venv with it was made by ./reproduce
@@ -47,23 +49,31 @@ _UV = (
 )
 
 
-def add_packages(name: str) -> None:
-    """Install requirements/NAME.txt on top of the lock, once; UsageError if that fails.
+def add_packages(*names: str, held: bool = False) -> None:
+    """Install requirements/NAME.txt of each name on top of the lock, once, or raise UsageError.
 
-    An environment that is not .venv is left as it is.
+    An environment that is not .venv is left as it is. `held` says that this process has the lock.
     """
-    requirements = (ROOT / "requirements" / f"{name}.txt").read_bytes()
-    stamp = VENV / f"{name}-stamp"  # a new .venv has none
     if Path(sys.prefix).resolve() != VENV.resolve():
         return
-    if stamp.is_file() and stamp.read_bytes() == requirements:
-        return
-    with locked(), interruptible():
-        again = stamp.is_file()  # left by a killed run or for other packages
-        stamp.touch()
-        print_error(f"installing requirements/{name}.txt into .venv (once)")
-        _install(name, again=again)
-        stamp.write_bytes(requirements)
+    for name in names:
+        requirements = (ROOT / "requirements" / f"{name}.txt").read_bytes()
+        stamp = VENV / f"{name}-stamp"  # a new .venv has none
+        if stamp.is_file() and stamp.read_bytes() == requirements:
+            continue
+        with nullcontext() if held else locked(), interruptible():
+            again = stamp.is_file()  # left by a killed run or for other packages
+            stamp.touch()
+            print_error(f"installing requirements/{name}.txt into .venv (once)")
+            _install(name, again=again)
+            stamp.write_bytes(requirements)
+
+
+def add_imported(sources: Iterable[str]) -> None:
+    """Install what these files import and the lock lacks, in a process that has the lock."""
+    imports = (parsed(file, (ROOT / file).read_bytes()).imports for file in sources)
+    modules = {each[1].partition(".")[0] for of_file in imports for each in of_file}
+    add_packages(*{_ON_DEMAND[name] for name in modules & _ON_DEMAND.keys()}, held=True)
 
 
 def set_up(stamp: str, *arguments: str) -> None:
@@ -139,8 +149,9 @@ def _install(*names: str, again: bool = False) -> None:
             _check(_run([PYTHON, "-I", "-m", "ensurepip"]))
     environment = installers_environment(pip)
     options = ["--require-hashes", "--no-build-isolation"]
-    ours = ROOT / "packages"  # of a tar with packages, which has only the locked ones
-    folder = os.environ.get("PSEUDORIGID_WHEELS") or ("lock" in names and ours.is_dir() and ours)
+    ours = ROOT / "packages"  # of a tar with packages, which has only these lists
+    archived = ours.is_dir() and {*names} & {"lock", *_ON_DEMAND.values()}
+    folder = os.environ.get("PSEUDORIGID_WHEELS") or (archived and ours)
     if folder:
         options += ["--no-index", f"--find-links={folder}"]
     elif environment.get("PIP_NO_INDEX", "0").lower() in ("1", "true", "yes", "on"):
@@ -150,10 +161,10 @@ def _install(*names: str, again: bool = False) -> None:
         command = [*pip, "install", "--no-compile", "--progress-bar=off", *options, *more]
         return _run([*command, "-r", f"requirements/{name}.txt"], environment)
 
-    own_uv = str(VENV / "bin" / "uv")
-    uv = shutil.which(own_uv) or shutil.which("uv")
-    uv = uv or (own_uv if by_pip("uv", "--only-binary=:all:", "--retries=1") else None)
-    cache = VENV / "cache" / "uv"
+    cache = VENV / "cache" / "uv"  # it is removed at the end, and uv with it
+    shutil.rmtree(cache, ignore_errors=True)  # left by a killed run
+    own = "--only-binary=:all:", "--retries=1", f"--target={cache}"
+    uv = shutil.which("uv") or (cache / "bin" / "uv" if by_pip("uv", *own) else None)
     kept = "UV_CACHE_DIR" in environment  # its copy must not change with an edit of a package
     environment |= {"UV_LINK_MODE": "copy"} if kept else {"UV_CACHE_DIR": str(cache)}
     for name in names:

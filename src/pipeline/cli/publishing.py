@@ -83,6 +83,11 @@ def make(
     before = Freshness(ROOT, config.build_specs())
     drawings = [drawing for files in targets.values() for drawing in files.values()]
     results = [path for path in (*drawings, *data) if path in before.build_specs]
+    made = before.outdated(with_dependencies(before.build_specs, results))
+    if made and not args.makes_nothing:
+        from .packages import add_imported  # takes long to import
+
+        add_imported({file for path in made for file in before.build_specs[path].sources})
     status = running.make(before, results, args) if results else 0
     if args.makes_nothing or status == running.INTERRUPTED:
         for group, files in targets.items():

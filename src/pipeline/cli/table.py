@@ -13,7 +13,7 @@ from ..records.differences import columns
 FileRow = tuple[str, str, tuple[str, ...]]  # path, size or nothing, what is said about the file
 WHAT_TO_DO = (
     "What differs: to keep it, run ./reproduce accept; to undo it, git checkout what you edited, "
-    "and run again; to have both, make it a variant in config.yaml (README.md)."
+    "and run again; to have both, make it a variant in config.yaml (docs/commands.md)."
 )
 _VERDICTS = {32: r"\b(identical|proved)\b", 31: r"\b(differs|missing|stale|refused|not \w+)\b"}
 

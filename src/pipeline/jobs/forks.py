@@ -31,31 +31,40 @@ PROGRESS: dict[str, str] = {}  # result -> what its job said last of its progres
 
 def run(context: ForkServerContext | SpawnContext, spec: BuildSpec, *given: Any) -> bool:
     """Make a result in a process of its own by `job.make`, and return whether it is made."""
-    receiver, stderr = context.Pipe(duplex=False)
-    process = context.Process(target=_make, args=(stderr, spec, *given))
-    lines = os.fdopen(receiver.fileno(), errors="replace", closefd=False)
-    with receiver, lines, suppress(OSError, EOFError):
-        with _lock:
+    try:
+        receiver, stderr = context.Pipe(duplex=False)
+        process = context.Process(target=_make, args=(stderr, spec, *given))
+        with stderr, _lock:
             process.start()
-        stderr.close()
+    except (OSError, EOFError) as error:  # EOFError: the process that forks jobs has ended
+        reason = getattr(error, "strerror", None) or "memory or file handles may be short"
+        return _failed(spec, f"the job could not start: {reason} (limits: ulimit -a)")
+    lines = os.fdopen(receiver.fileno(), errors="replace", closefd=False)
+    with receiver, lines, suppress(OSError):
         for line in lines:
             if line.startswith(prefix := f"{spec.scene}: "):
                 PROGRESS[spec.result] = line.removeprefix(prefix).rstrip()
             else:
                 sys.stderr.write(line)
-    if process.pid:
-        wait([process.sentinel])
-        with _lock:
-            process.join()
-    status, log = process.exitcode, Path(log_path(spec.result))
-    if status != 0 and not log.exists():
-        reason = "it could not start" if status is None else f"exit status {status}"
-        reason = signal.Signals(-status).name if status and status < 0 else reason
-        killed = f"the job was killed ({reason}): memory may be short"
-        words = disk_is_full(log) or killed  # a job cannot write its log then
-        with suppress(ValueError):
-            write_whole(log, f"pseudorigid: {spec.scene}: {words}\n")
+    wait([process.sentinel])
+    with _lock:
+        process.join()
+    status = process.exitcode
+    if status and not Path(log_path(spec.result)).exists():
+        reason = signal.Signals(-status).name if status < 0 else f"exit status {status}"
+        return _failed(spec, f"the job was killed ({reason}): memory may be short")
     return status == 0
+
+
+def _failed(spec: BuildSpec, words: str) -> bool:
+    """Write the log of a job that wrote none, or to stderr if that fails, and return False."""
+    log = log_path(spec.result)
+    line = f"pseudorigid: {spec.scene}: {disk_is_full(log) or words}\n"
+    try:
+        write_whole(log, line)
+    except (ValueError, OSError):
+        sys.stderr.write(line)
+    return False
 
 
 def _make(stderr: "Connection[Any, Any]", *given: Any) -> None:

@@ -13,6 +13,7 @@ All paths are relative to the project's root, so that the folder can be moved.
 import json
 import os
 import platform
+import re
 import subprocess
 import time
 from collections.abc import Iterable, Iterator, Mapping
@@ -182,10 +183,13 @@ def require_loaded_unchanged() -> None:
 def versions(result: str = "") -> dict[str, str | None]:
     """Return the installed version of each package that decides bits, None for a missing one.
 
-    Those are PACKAGES and, for a GIF, what encodes it.
+    Those are PACKAGES and, for a GIF, what encodes it. What is installed when it is first needed
+    has the version that would be installed.
     """
     packages = (*PACKAGES, "pillow") if result.endswith(".gif") else PACKAGES
-    installed: dict[str, str | None] = dict.fromkeys(packages)
+    lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
+    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
+    installed = {package: pins.get(package) for package in packages}
     for package in packages:
         with suppress(metadata.PackageNotFoundError):
             installed[package] = metadata.version(package)

@@ -14,6 +14,8 @@ def run(args: Arguments) -> int:
     """Print how each file compares, and return 0 if all are the same."""
     if args.against is None:
         return verify.run(args)
+    if args.json:
+        raise CommandLineError("verify: --json is not used with --against")
     other = args.start / args.against
     # Path.exists raises an error for a name that is too long or in a folder without access.
     if not args.against or not os.path.exists(other):

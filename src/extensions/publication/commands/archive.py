@@ -23,7 +23,7 @@ from pipeline.records.sources import ROOT
 from .. import archive
 
 FOLDER = "results/archive"
-REQUIREMENTS = ("uv", "build", "lock")  # what an installation needs
+REQUIREMENTS = ("uv", "build", "lock", "algebra")  # what the figures and the proofs need
 _HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
 
 

@@ -103,8 +103,8 @@ def _made(result: tuple[str, dict[str, Any]]) -> list[str]:
 def _gallery(root: Path, config: Config) -> Iterator[str]:
     """Yield the gallery: a card for each committed picture, with the YAML that makes it."""
     yield "---\nhide-toc: true\n---\n\n# Gallery"
-    yield "\nA card leads to the picture's caption. [Examples](../docs/examples/README.md) has pictures"
-    yield "made by Python."
+    yield "\nA card leads to the picture's caption."
+    yield "[Examples](../docs/examples/README.md) has pictures made by Python."
     for each in published_sets.committed_sets(config):
         yield f"\n## {SETS[each.group].heading}\n\n`{each.command}`\n\n:::::{{container}} cards"
         key = SETS[each.group].key

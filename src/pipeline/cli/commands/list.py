@@ -1,9 +1,12 @@
 """./reproduce list [NAME ...]: show what can be made and the state of each file."""
 
-from collections.abc import Iterator
+import json
+from collections.abc import Collection, Iterator
+from itertools import groupby
 from pathlib import PurePath
 
 from ...checks.published_sets import PublishedSet, committed_sets, committed_state
+from ...config import Config
 from ...config.results import drawn, is_measured
 from ...config.schema.parts import SETS
 from ...records.differences import differing_layers
@@ -12,7 +15,12 @@ from ...records.provenance import CURRENT, MISSING, Freshness
 from ...records.sources import ROOT
 from ..arguments import Arguments, hint
 from ..errors import CommandLineError
-from ..table import FileRow, print_files, print_lines, wrapped
+from ..table import print_files, print_lines, wrapped
+
+# What --json says of a file. The kind is figure, measured (a chart of times of this machine), data,
+# or variant (a figure of a variant); `variant` may be a set of scenes.
+_KEYS = ("command", "kind", "variant", "scene", "path", "state")
+_File = tuple[str, str, str, str, str, str]
 
 
 def run(args: Arguments) -> int:
@@ -22,41 +30,52 @@ def run(args: Arguments) -> int:
     for name in wanted:
         if name not in (known := [*config.variants, *sorted(scenes)]):
             raise CommandLineError(f"no figure, set or variant {name}{hint(name, known)}")
-
-    def is_wanted(group: str, scene: str) -> bool:
-        return not wanted or group in wanted or scene in wanted
-
-    freshness = Freshness(ROOT, config.build_specs())
-    for each in committed_sets(config):
-        rows = _published(freshness, each)
-        rows = (row for row in rows if is_wanted(each.group, PurePath(row[0]).stem))
-        print_files(f"{each.command}: ", rows)
-    # What is not published: charts of times of this machine, and the data of scenes without one, or
-    # of named scenes.
-    for group, declared in SETS.items():
-        blocks = {s: b for s, b in config.variants[group].items() if is_wanted(group, s)}
-        charts = [scene for scene, block in blocks.items() if is_measured(block) and block.formats]
-        measured = [drawn(scene, "png", group) for scene in charts]
-        with_data = [s for s, block in blocks.items() if not block.formats or s in wanted]
-        data = [path for scene in with_data for path in config.data_of(group, scene).values()]
-        for kind, results in (("measured", measured), ("data", data)):
-            rows = ((path, "", (freshness.state(path),)) for path in results)
-            print_files(f"{declared.command}, {kind}: ", rows)
-    own = list[str]()  # lines about the variants of the paper
-    for name in config.own_variants:
-        scenes_by = dict[str, dict[str, None]]()  # state -> the variant's scenes that have it
-        states = {s: freshness.state(path) for s, path in config.figures(name).values()}
-        for scene, state in (states | config.left_out[name]).items():
-            if is_wanted(name, scene):
-                scenes_by.setdefault(state, {})[scene] = None
-        own += [f"{name}: {' '.join(names)}: {state}" for state, names in scenes_by.items()]
+    files = [each for each in _files(config, wanted) if not wanted or {*each[2:4]} & {*wanted}]
+    if args.json:
+        print(json.dumps([dict(zip(_KEYS, each, strict=True)) for each in files], indent=1))
+        return 0
+    own = dict[tuple[str, str], dict[str, None]]()  # variant of the paper, state -> its scenes
+    for (command, kind), group in groupby(files, lambda file: file[:2]):
+        if kind != "variant":
+            title = command if kind == "figure" else f"{command}, {kind}"
+            print_files(f"{title}: ", ((path, "", (state,)) for *_, path, state in group))
+            continue
+        for _, _, variant, scene, _, state in group:
+            own.setdefault((variant, state), {})[scene] = None
     if own:
         print("\n./reproduce variant NAME")
-        print_lines(line for text in own for line in wrapped(text))
+        lines = (f"{name}: {' '.join(names)}: {state}" for (name, state), names in own.items())
+        print_lines(line for text in lines for line in wrapped(text))
     return 0
 
 
-def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[FileRow]:
+def _files(config: Config, wanted: Collection[str]) -> Iterator[_File]:
+    """Yield every file that is published, and what is not.
+
+    That is charts of times, the data of scenes without a picture or of the `wanted` ones, and the
+    figures of variants.
+    """
+    freshness = Freshness(ROOT, config.build_specs())
+    for each in committed_sets(config):
+        for path, state in _published(freshness, each):
+            yield each.command, "figure", each.group, PurePath(path).stem, path, state
+    for group, declared in SETS.items():
+        blocks = config.variants[group]
+        charts = [scene for scene, block in blocks.items() if is_measured(block) and block.formats]
+        paths = [("measured", scene, drawn(scene, "png", group)) for scene in charts]
+        for scene, block in blocks.items():
+            if not block.formats or scene in wanted:
+                paths += [("data", scene, path) for path in config.data_of(group, scene).values()]
+        for kind, scene, path in paths:
+            yield declared.command, kind, group, scene, path, freshness.state(path)
+    for name in config.own_variants:
+        states = {path: (s, freshness.state(path)) for s, path in config.figures(name).values()}
+        states |= {drawn(s, "png", name): (s, why) for s, why in config.left_out[name].items()}
+        for path, (scene, state) in states.items():
+            yield f"./reproduce variant {name}", "variant", name, scene, path, state
+
+
+def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[tuple[str, str]]:
     """Yield path and state of each file of a published set.
 
     The state says how the file compares with the committed one or, if it is stale, why. That it is
@@ -76,4 +95,4 @@ def _published(freshness: Freshness, published_set: PublishedSet) -> Iterator[Fi
             words = differing_layers(record, freshness.build_specs[drawing]._asdict()).get("config")
             made = f"stale: {words}" if words else MISSING
         known = state == MISSING or made in (CURRENT, MISSING)
-        yield path, "", (state if known else made,)
+        yield path, state if known else made
