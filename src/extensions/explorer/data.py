@@ -45,7 +45,10 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
             if (name := address(checked, variant, scene, block.as_mapping()))
         },
         "presets": presets(checked),
-        "tour": json.loads(read_text(Path(__file__).with_name("web") / "tour.json")),
+        **{
+            name: json.loads(read_text(Path(__file__).with_name("web") / f"{name}.json"))
+            for name in ("tour", "lesson")
+        },
         "check": published_orbits(root),
         "atlas": stored_atlas(),
     }

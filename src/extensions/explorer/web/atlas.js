@@ -9,7 +9,7 @@ class AtlasView {
     this.page = page; // its state has the present place
     this.aim = null; // [log10 of E/g^2, k]: the keyboard's pointer
     const { atlas } = page.data;
-    element("atlas-panel").hidden = !atlas; // there is none without the sweeps
+    element("tab-atlas").hidden = !atlas; // there is none without the sweeps
     if (!atlas) return;
     this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
     this.canvas = element("atlas");
@@ -56,7 +56,7 @@ class AtlasView {
   }
 
   draw() {
-    if (!element("atlas-panel").open) return;
+    if (!this.atlas || element("panel-atlas").hidden) return;
     const { pen, width, height } = fitted(this.canvas);
     const colours = readColours();
     const { k, energy, bytes, steps } = this.atlas;

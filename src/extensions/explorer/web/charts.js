@@ -39,9 +39,13 @@ function drawRing(pen, [left, top], radius, ground, colour) {
 
 class Plot {
   constructor(pen, { width, height, frame, colours, across, up, logarithmic = false, decades = false }) {
-    Object.assign(this, { pen, frame, colours, across, up, logarithmic: [logarithmic, decades] }); // across, up
+    Object.assign(this, { pen, colours, across, up, logarithmic: [logarithmic, decades] }); // across, up
+    const { unit } = colours; // of large type, and a small chart has its title on the axis
+    frame = Object.fromEntries(Object.entries(frame).map(([side, space]) => [side, space * unit]));
+    this.frame = height < 140 * unit ? { ...frame, bottom: 20 * unit } : frame;
+    frame = this.frame;
     this.size = [width - frame.left - frame.right, height - frame.top - frame.bottom];
-    pen.font = `13px ${colours.font}`;
+    pen.font = colours.font;
   }
 
   at([a, b]) {
@@ -66,7 +70,10 @@ class Plot {
     const bottom = frame.top + size[1];
     [this.across, this.up].forEach(([low, high], index) => {
       const middle = 0.5 * (low + high);
-      const ticks = this.logarithmic[index] ? decadesAround(low, high) : ticksAround(middle, high - low, size[index] / (index ? 34 : 70));
+      const room = size[index] / this.colours.unit;
+      const ticks = this.logarithmic[index]
+        ? decadesAround(low, high, room / (index ? 20 : 45))
+        : ticksAround(middle, high - low, room / (index ? 34 : 70));
       const { offsets, labels } = ticks;
       offsets.forEach((offset, i) => {
         const [left, top] = this.at(index ? [this.across[0], middle + offset] : [middle + offset, this.up[0]]);
@@ -79,7 +86,9 @@ class Plot {
         else write(pen, labels[i], left, bottom + 5, colours.muted, "center");
       });
     });
-    write(pen, nameAcross, frame.left + size[0], bottom + frame.bottom, colours.ink, "right", "bottom");
+    const inside = frame.bottom < 30 * colours.unit;
+    const below = inside ? bottom - 2 : bottom + frame.bottom;
+    write(pen, nameAcross, frame.left + size[0], below, colours.ink, "right", "bottom");
     write(pen, nameUp, 4, 3, colours.ink);
   }
 
@@ -124,8 +133,10 @@ class Plot {
     const { pen, colours, frame, size } = this;
     let left = frame.left + size[0];
     for (const [name, colour] of [...entries].reverse()) {
+      const wide = pen.measureText(name).width;
+      if (left - wide < 110) return; // no room beside the name of the axis
       write(pen, name, left, 4, colours.ink, "right");
-      left -= pen.measureText(name).width + 8;
+      left -= wide + 8;
       pen.fillStyle = colour;
       pen.fillRect(left - 14, 10, 14, 3);
       left -= 24;
@@ -134,9 +145,9 @@ class Plot {
 }
 
 /** Ticks at powers of ten between two logarithms, and at 2 and 5 times them where there are few. */
-function decadesAround(low, high) {
+function decadesAround(low, high, most) {
   const ticks = [];
-  const every = Math.ceil((high - low) / 8);
+  const every = Math.ceil((high - low) / Math.max(2, most));
   for (let n = every * Math.floor(low / every); n <= high; n += every) {
     for (const factor of high - low < 2.5 ? [1, 2, 5] : [1]) ticks.push(factor * 10 ** n);
   }

@@ -34,7 +34,7 @@ class Grid {
   /** The colours of all cells, 0 where nothing is known. */
   inks(by, range, colours) {
     const ramp = Uint32Array.from({ length: 256 }, (_, i) => packed(mixed(colours.ramp, i / 255)));
-    const verdicts = Uint32Array.from(["surface", "regular", "chaotic", "sea", "sea"], (name) => packed(colours[name]));
+    const verdicts = Uint32Array.from(["surface", "regular", "chaotic", "undecided", "undecided"], (name) => packed(colours[name]));
     const sea = packed(colours.sea);
     const low = by === "exponent" ? Math.log(range[0]) : range[0];
     const scale = 255 / ((by === "exponent" ? Math.log(range[1]) : range[1]) - low);

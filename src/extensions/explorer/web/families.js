@@ -38,10 +38,10 @@ class Families {
     this.plot = new Plot(pen, { width, height, frame, colours, across, up: [-1, 1] });
     this.plot.axes("E", "place x in section radii");
     for (const { energy, trace, places } of samples) {
-      for (const [p] of places) this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.regular : colours.chaotic, 1.2);
+      for (const [p] of places) this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.elliptic : colours.hyperbolic, 1.2);
     }
     this.plot.vertical(state.energy, colours.focus);
-    this.plot.key([["elliptic", colours.regular], ["hyperbolic", colours.chaotic]]);
+    this.plot.key([["elliptic", colours.elliptic], ["hyperbolic", colours.hyperbolic]]);
   }
 
   /** Open the section at the orbit whose point in the diagram is nearest to a point of the screen. */
@@ -65,8 +65,8 @@ class Families {
     const { k, g, periods } = page.state;
     page.mark();
     Object.assign(page.state, { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
-    page.controls.editing = true; // one entry of the history
-    page.controls.takeBall({ k, g, E: energy });
+    page.controls.ball.editing = true; // one entry of the history
+    page.controls.ball.takeBall({ k, g, E: energy });
     page.controls.refresh();
     page.controls.hint(`The orbit of period ${period} at E = ${shortNumber(energy, 6)} is shown in time.`);
   }

@@ -91,6 +91,6 @@ class Filling {
     }
     this.done = true;
     if (["rotation", "exponent"].includes(page.state.colour)) section.look();
-    page.controls.filled();
+    page.controls.view.filled();
   }
 }

@@ -40,15 +40,17 @@ class Explorer {
     const marks = this.shownPeriodic().map(({ orbit, one }) => ({
       orbit,
       one,
-      colour: orbit.type === "elliptic" ? "regular" : "ink",
+      colour: orbit.type === "elliptic" ? "elliptic" : "hyperbolic",
       shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[orbit.type],
     }));
     const lines = [...this.branchLines, ...this.jumpLines];
+    const asks = this.state.lesson && !this.state.revealed; // which start is which
+    const starts = this.orbits.flatMap(({ start }, i) => (asks && start ? [[String(i + 1), start]] : []));
     const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) => (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
     const map = this.colouring.window ? this.colouring : null;
     const filling = this.filling.orbits;
     return {
-      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursors,
+      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks, starts }, cursors,
     };
   }
 
@@ -227,7 +229,7 @@ class Explorer {
     this.state.preset = "";
     this.state.orbits = this.orbits.map(({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea }));
     this.controls.words();
-    this.controls.listOrbits();
+    this.controls.orbits.list();
     this.saveSoon();
   }
 
@@ -342,12 +344,12 @@ class Explorer {
       for (const [orbit, piece] of plots) this.section.plot(orbit, piece, 0, piece.x.length);
       this.section.showPoints();
     }
-    this.controls.updateFacts();
-    if (!this.orbits.some((orbit) => !orbit.done)) this.controls.completed();
+    this.controls.orbits.updateFacts();
+    if (!this.orbits.some((orbit) => !orbit.done)) this.controls.orbits.completed();
     this.drawChartSoon();
     if (!this.playing) {
       this.time.draw();
-      this.controls.moment();
+      this.controls.time.moment();
     }
     this.section.drawCursors();
   }
@@ -374,7 +376,7 @@ class Explorer {
         if (this.state.motion?.period === period) this.chooseMotion();
         this.section.drawLines();
       }
-      this.controls.listPeriodic();
+      this.controls.periodic.list();
       this.families.update();
       if (this.state.jump && !this.jumpLines.length) {
         const curve = await this.searcher.ask("jump", { k, g, energy });
@@ -517,7 +519,7 @@ class Explorer {
       { line: lift(1), colour: "symmetry", width: 2 },
       { line: lift(-1), colour: "jump", width: 2.5 },
     ];
-    this.controls.noteJump();
+    this.controls.periodic.noteJump();
     this.section.drawLines();
   }
 
@@ -525,7 +527,7 @@ class Explorer {
     this.mark();
     this.state.jump = on;
     Object.assign(this, { jumpLines: [], jumpLength: null });
-    this.controls.noteJump();
+    this.controls.periodic.noteJump();
     this.section.drawLines();
     this.search();
     this.saveSoon();
@@ -560,12 +562,12 @@ class Explorer {
     const { k, g } = this.state;
     const [low, high] = geometry.energyBounds(k, g);
     const steps = Array.from({ length: SWEEP }, (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
-    if (this.state.energy >= steps.at(-1)) this.controls.takeBall({ k, g, E: steps[0] });
+    if (this.state.energy >= steps.at(-1)) this.controls.ball.takeBall({ k, g, E: steps[0] });
     this.sweeping = true;
-    this.controls.showSweep();
+    this.controls.ball.showSweep();
     for (const E of steps.filter((value) => value > this.state.energy)) {
       const begin = performance.now();
-      this.controls.takeBall({ k, g, E });
+      this.controls.ball.takeBall({ k, g, E });
       element("E").value = String(E);
       const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
       while (this.sweeping && !(shown() && performance.now() - begin > 100)) {
@@ -579,7 +581,7 @@ class Explorer {
 
   stopSweep() {
     this.sweeping = false;
-    this.controls.showSweep();
+    this.controls.ball.showSweep();
   }
 
   // ---------------------------------------------------------------- the ball in time
@@ -587,7 +589,7 @@ class Explorer {
   choose(index, play = false) {
     Object.assign(this.state, { chosen: index, motion: null, time: 0 });
     this.chooseMotion();
-    this.controls.markChosen();
+    this.controls.orbits.markChosen();
     if (play && !this.calm) this.play();
     this.saveSoon();
   }
@@ -603,16 +605,16 @@ class Explorer {
     this.time.draw();
     this.section.drawPoints();
     this.section.drawCursors();
-    this.controls.moment();
-    this.controls.updateFacts();
-    this.controls.markChosen();
+    this.controls.time.moment();
+    this.controls.orbits.updateFacts();
+    this.controls.orbits.markChosen();
     this.drawChartSoon();
   }
 
   /** Let a second ball start at a distance, or with 0 none. */
   setTwin(distance) {
     this.mark();
-    Object.assign(this.state, { twin: distance, chart: distance ? "distance" : "exponent" });
+    Object.assign(this.state, { twin: distance, chart: distance ? "distance" : "exponent", panel: "chart" });
     this.chooseMotion();
     this.controls.press();
     this.saveSoon();
@@ -629,7 +631,7 @@ class Explorer {
     this.state.time = Math.min(Math.max(time, first), last);
     this.time.draw();
     this.section.drawCursors();
-    this.controls.moment();
+    this.controls.time.moment();
     this.drawChartSoon();
     this.saveSoon();
   }
@@ -639,7 +641,7 @@ class Explorer {
     const [first, last] = this.motion.ends;
     if (this.state.time >= last && this.motion.count) this.state.time = first;
     this.playing = true;
-    this.controls.showPlaying();
+    this.controls.time.showPlaying();
     let before = null;
     const frame = (now) => {
       if (!this.playing) return;
@@ -657,7 +659,7 @@ class Explorer {
 
   pause() {
     this.playing = false;
-    this.controls.showPlaying();
+    this.controls.time.showPlaying();
   }
 
   stepImpact(step) {
@@ -675,6 +677,7 @@ class Explorer {
   drawChart() {
     setText("twin-note", this.twin.words);
     const { motion, state } = this;
+    if (state.panel !== "chart") return;
     const shown = !state.motion && motion?.count ? motion.indexAt(state.time) : -1;
     const charts = {
       distance: (canvas) => this.twin.draw(canvas),
@@ -753,6 +756,7 @@ function begin() {
       if (!Object.hasOwn(data.scenes, state.preset)) state.preset = "";
       explorer.show(state);
       explorer.controls.welcome();
+      if (!address && !explorer.calm) explorer.play();
       if (state.leftOut) explorer.controls.hint(`The last ${state.leftOut} orbits of the address are left out: the page shows at most ${MOST_ORBITS}.`);
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));

@@ -91,7 +91,7 @@ class Orbit {
       return Number.isFinite(value) ? mixed(colours.ramp, (value - low) / (high - low)) : colours.sea;
     }
     if (this.chosen && this.isSea()) return colours.ink;
-    if (by === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
+    if (by === "verdict") return colours[`${this.facts?.verdict}-orbit`] ?? colours.ink;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }

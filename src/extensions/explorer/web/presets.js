@@ -15,11 +15,6 @@ function presetState(name, scenes) {
   return { ...base, ...PRESETS[scene.picture](scene, scenes) };
 }
 
-/** The state of a step of the tour, counted from 1. */
-function tourState(step, steps) {
-  return { ...readAddress(steps[step - 1].address), tour: step };
-}
-
 function disk(x = 0, y = 0, half = HOME.disk[2]) {
   return { ...HOME_VIEW, kind: "disk", x, y, half };
 }

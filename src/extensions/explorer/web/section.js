@@ -205,7 +205,7 @@ class SectionView {
     const { ground, colours } = this;
     ground.clearRect(0, 0, this.width, this.height);
     ground.fillStyle = colours.surface;
-    ground.font = `13px ${colours.font}`;
+    ground.font = colours.font;
     if (this.kind === "disk") this.drawDisk();
     else this.drawHalfEllipsoid();
     if (!this.framed) {
@@ -228,7 +228,7 @@ class SectionView {
     const unit = this.width < 450 ? 1 : 2; // smaller on a phone
     const wide = scale.range ? 80 * unit + 16 : 60 + 18 * unit;
     const [left, top] = [this.width - this.frame.right - wide, this.frame.top + 8];
-    lines.font = `${9 + 2 * unit}px ${colours.font}`;
+    lines.font = colours.font;
     lines.fillStyle = colours.page;
     lines.fillRect(left - 8, top - 5, wide + 2, scale.range ? 52 : 50);
     if (!scale.range) {
@@ -246,6 +246,39 @@ class SectionView {
     write(lines, unit === 1 ? scale.name.split(",")[0] : scale.name, left + 80 * unit, top, colours.ink, "right");
     write(lines, shortNumber(scale.range[0], 3), left, top + 30, colours.muted);
     write(lines, shortNumber(scale.range[1], 3), left + 80 * unit, top + 30, colours.muted, "right");
+  }
+
+  /** Draw what branches, curves and marks mean, those that are there, at the left bottom. */
+  drawLegend() {
+    const { lines, colours, frame } = this;
+    const { overlays } = this.read();
+    const names = { stable: "stable branch", unstable: "unstable branch", symmetry: "the map jumps", jump: "its inverse jumps" };
+    const shapes = { dot: "elliptic", cross: "hyperbolic", square: "inverse hyperbolic" };
+    const drawn = (name) => overlays.lines.find(({ colour }) => colour === name);
+    const rows = [
+      ...Object.keys(names).filter(drawn).map((name) => [names[name], name, null]),
+      ...Object.keys(shapes).flatMap((shape) => {
+        const mark = this.marks.find((one) => one.shape === shape);
+        return mark ? [[shapes[shape], mark.colour, shape]] : [];
+      }),
+    ];
+    if (!rows.length) return;
+    const tall = 17 * colours.unit;
+    const left = frame.left + 8;
+    const top = this.height - frame.bottom - 6 - tall * rows.length;
+    lines.font = colours.font;
+    const wide = 32 + 7 * colours.unit * Math.max(...rows.map(([text]) => text.length));
+    lines.fillStyle = colours.page;
+    lines.fillRect(left - 4, top - 3, wide + 8, tall * rows.length + 6);
+    rows.forEach(([text, colour, shape], i) => {
+      const middle = top + tall * (i + 0.5);
+      if (shape) this.mark(lines, [left + 11, middle], colours[colour], shape);
+      else {
+        lines.fillStyle = colours[colour];
+        lines.fillRect(left, middle - 1, 22, 2.5);
+      }
+      write(lines, text, left + 30, middle, colours.ink, "left", "middle");
+    });
   }
 
   drawDisk() {
@@ -553,11 +586,13 @@ class SectionView {
       for (const at of free) this.mark(lines, at, colours[mark.colour], mark.shape);
       const label = free.find(([left, top]) => !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
       this.marks.push(...free.map((at) => ({ ...mark, at })));
-      lines.font = `13px ${colours.font}`;
+      lines.font = colours.font;
       if (label) write(lines, mark.orbit.period, label[0] + 7, label[1] - 16, colours.ink);
     }
+    for (const [text, state] of overlays.starts) this.label(lines, text, this.screen(...state));
     lines.restore();
     this.drawScale();
+    this.drawLegend();
   }
 
   clip(pen) {
@@ -633,6 +668,15 @@ class SectionView {
     pen.lineWidth = 1;
   }
 
+  /** Draw a number in a ring at a start. */
+  label(pen, text, at) {
+    if (!at) return;
+    pen.fillStyle = this.colours.page;
+    strokePath(pen, this.colours.ink, 1.5, () => pen.arc(...at, 10 * this.colours.unit, 0, 2 * Math.PI));
+    pen.fill();
+    write(pen, text, ...at, this.colours.ink, "center", "middle");
+  }
+
   drawCursors() {
     const { cursors, colours } = this;
     const { cursors: moments } = this.read();
@@ -705,12 +749,14 @@ function cut(near, away, far) {
 /** The colours of the style sheet in an element. */
 function readColours(node = document.documentElement) {
   const style = getComputedStyle(node);
-  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea";
-  const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
+  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea elliptic";
+  const verdicts = "hyperbolic regular chaotic undecided regular-orbit chaotic-orbit";
+  const colours = Object.fromEntries(`${names} ${verdicts}`.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
-  [colours.regular, colours.chaotic] = colours.hues;
   colours.ramp = style.getPropertyValue("--ramp").trim().split(" ");
-  colours.font = getComputedStyle(document.body).fontFamily;
+  colours.family = getComputedStyle(document.body).fontFamily;
+  colours.unit = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+  colours.font = `${Math.round(13 * colours.unit)}px ${colours.family}`;
   return colours;
 }
 

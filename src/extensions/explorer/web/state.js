@@ -11,6 +11,7 @@ const MOST_IMPACTS = 10000000; // of an orbit, unless it runs on
 const MOST_FOLLOWED = 2000000000;
 const COLOURS = ["orbit", "verdict", "rotation", "exponent"];
 const MAPS = ["none", "exponent", "rotation", "verdict"]; // what colours the pixels of the section
+const PANELS = ["time", "chart", "orbits", "periodic", "atlas", "export", "help"];
 const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
@@ -36,7 +37,10 @@ function freshState() {
     back: false, // direction and impacts of the next orbit
     impacts: 3000,
     preset: "",
+    panel: "time", // the one that is open
     tour: 0, // the step of the tour, 0 for none
+    lesson: 0, // the question, 0 for none
+    revealed: false, // whether its answer is shown
   };
 }
 
@@ -53,12 +57,12 @@ function parameterError(name, text, ball) {
   const refused = `${name} = ${String(text).trim() || "nothing"} is not allowed`;
   if (Number.isNaN(value)) return `${refused}: a number`;
   if (name === "k" && !(value > 0 && value <= 1)) return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
-  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: between 0 and k = ${shortNumber(ball.k, 4)}`;
-  const [low, high] = rangeOf(name, ball).map((end) => shortNumber(end, 4));
+  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: above 0, below k = ${shortNumber(ball.k, 4)}`;
+  const [low, high] = rangeOf(name, ball).map((end, i) => inside(end, i ? -1 : 1));
   if (ballAllowed({ ...ball, [name]: value })) return "";
-  if (name === "E") return `${refused}: between −g²/2k = ${low} and k/2 − g = ${high}, eq. (31)`;
+  if (name === "E") return `${refused}: above −g²/2k = ${low}, below k/2 − g = ${high}, eq. (31)`;
   const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
-  return `${refused}: between ${low} and ${high} at ${others.join(" and ")}, eq. (31)`;
+  return `${refused}: above ${low}, below ${high} at ${others.join(" and ")}, eq. (31)`;
 }
 
 function ballAllowed({ k, g, E }) {
@@ -84,6 +88,13 @@ function readCount(text) {
 function shortNumber(value, digits = 6) {
   if (!Number.isFinite(value)) return "–";
   return String(Number(value.toPrecision(digits))).replaceAll("-", "−");
+}
+
+/** The end of an open range in four digits, rounded inwards (sign: 1 for a lower end, -1 for an upper one). */
+function inside(end, sign) {
+  const step = 10 ** (Math.floor(Math.log10(Math.abs(end) || 1)) - 3);
+  const rounded = Math.round(end / step);
+  return shortNumber((rounded + (sign * (rounded - end / step) < -1e-9 ? sign : 0)) * step, 4);
 }
 
 const COUNT = new Intl.NumberFormat("en");
@@ -113,7 +124,10 @@ function writeAddress(state) {
     ["twin", state.twin || ""],
     ["next", `${state.impacts}${state.back ? "<" : ""}`],
     ["preset", state.preset],
+    ["panel", state.panel === "time" ? "" : state.panel],
     ["tour", state.tour || ""],
+    ["lesson", state.lesson || ""],
+    ["revealed", state.revealed ? 1 : ""],
   ]);
   const parts = [...fields].filter(([, value]) => value !== "");
   return "#" + parts.map((part) => part.join("=")).join("&");
@@ -222,8 +236,12 @@ function readAddress(text) {
       state.impacts = number("next", count, `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
     },
     preset: (value) => (state.preset = value),
+    panel: (value) => (state.panel = one("panel", value, PANELS)),
     tour: (value) => (state.tour = number("tour", value, "a step from 1 to 6", whole(1, 6))),
+    lesson: (value) => (state.lesson = number("lesson", value, "a question from 1 to 5", whole(1, 5))),
+    revealed: (value) => (state.revealed = value === "1"),
   };
+  state.panel = null;
   for (const part of decodeURIComponent(text).replace(/^#/, "").split("&")) {
     const at = part.indexOf("=");
     const name = part.slice(0, at);
@@ -231,6 +249,7 @@ function readAddress(text) {
     else if (at > 0) fail(name, part.slice(at + 1), "no such field");
     else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
   }
+  state.panel ??= state.chart === "exponent" ? "time" : "chart"; // older addresses have no panel
   const { k, g, energy: E } = state;
   const wrong = !(k > 0 && k <= 1) ? "k" : !(g > 0 && g < k) ? "g" : "E";
   const error = parameterError(wrong, String({ k, g, E }[wrong]), { k, g, E });

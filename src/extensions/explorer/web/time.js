@@ -149,6 +149,7 @@ class TimeView {
     };
     const lines = curvesOf(motion);
     const other = curvesOf(this.read().twin.motion);
+    if (!width) return; // another panel is open
     let [low, high] = this.extent;
     if (!(low < high)) [low, high] = [-0.5, 0.3];
     const room = 0.06 * (high - low);
@@ -181,12 +182,14 @@ class TimeView {
       pen.moveTo(4, floor);
       pen.lineTo(width - 4, floor);
     });
-    pen.font = `13px ${colours.font}`;
+    pen.font = colours.font;
     motions.forEach((one, i) => this.drawBall(pen, this.now(one), { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
   }
 
   drawBall(pen, now, { middle: across, floor, scale, colours, hue }) {
-    write(pen, now ? `u = ${now.u.toFixed(3).replace("-", "−")}` : "no orbit", across, floor + 6, colours.muted, "center");
+    const strain = now && now.u.toFixed(3).replace("-", "−");
+    const text = !now ? "no orbit" : across < 50 || this.read().twin.motion ? strain : `u = ${strain}`;
+    write(pen, text, across, floor + 6, colours.muted, "center");
     if (!now) return;
     const middle = floor - scale * (1 - now.x);
     const half = scale * Math.max(0.02, 1 + now.u);
