@@ -5,7 +5,7 @@ Object.assign(PRESETS, {
   motion: inTime,
   tangle: (scene) => ({ ...surface(scene), periods: [scene.period], branches: branchesOf(scene) }),
   closeup: closeUp,
-  exponents: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
+  exponents: (scene) => ({ orbits: orbitsOf(scene), panel: "chart", chosen: 0 }),
 });
 
 /** The window of a close-up in the plane (x, xdot), which is the half ellipsoid seen from above. */

@@ -37,7 +37,7 @@ def test_no_slider_reaches_a_refused_value(person, where):
 @pytest.mark.parametrize(("name", "text", "words"), [
     ("g", "0.174", "above 0, below 0.09 at k = 0.2 and E = 0.01"),
     ("g", "0.3", "above 0, below k = 0.2"),
-    ("k", "0.09", "above 0.1, below 1 at g = 0.04 and E = 0.01"),
+    ("k", "0.09", "above 0.1, at most 1 at g = 0.04 and E = 0.01"),
     ("k", "0", "k = 0 is not allowed"),
     ("k", "", "k = nothing is not allowed"),
     ("k", "1/0", "a number"),

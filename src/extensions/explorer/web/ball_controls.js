@@ -114,7 +114,7 @@ class BallControls {
     this.slides();
     page.controls.atlas.draw();
     page.restart(true);
-    page.changedOrbits();
+    page.ownOrbits();
   }
 
   showSweep() {

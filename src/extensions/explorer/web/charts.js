@@ -89,7 +89,7 @@ class Plot {
     const inside = frame.bottom < 30 * colours.unit;
     const below = inside ? bottom - 2 : bottom + frame.bottom;
     write(pen, nameAcross, frame.left + size[0], below, colours.ink, "right", "bottom");
-    write(pen, nameUp, 4, 3, colours.ink);
+    if (!inside) write(pen, nameUp, 4, 3, colours.ink); // else the list of charts is there
   }
 
   clipped(draw) {

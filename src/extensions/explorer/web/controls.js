@@ -109,6 +109,12 @@ class Controls {
     }
   }
 
+  /** Say what colours and fills the section, as far as it is shown. */
+  status() {
+    const { colouring, filling } = this.page;
+    setText("map-note", [colouring.words, filling.words].filter(Boolean).join(" "));
+  }
+
   /** Say something that holds until the next change. */
   hint(text) {
     element("hint").textContent = text;

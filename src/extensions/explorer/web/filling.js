@@ -14,7 +14,7 @@ const SETTLED = 250; // ms after which a view is filled
 /** An orbit of which only the points in the window are kept. */
 class WindowOrbit {
   constructor({ x, xdot, udot, facts }, index, page) {
-    Object.assign(this, { x, xdot, udot, facts, page, kept: x.length, hue: index % HUES });
+    Object.assign(this, { x, xdot, udot, facts: shownFacts(facts), page, kept: x.length, hue: index % HUES });
     Object.assign(this, { chosen: false, settled: true, few: true });
   }
 
@@ -29,6 +29,15 @@ class Filling {
     this.key = "";
     this.orbits = [];
     this.done = false;
+  }
+
+  /** What fills the window, in a line. */
+  get words() {
+    const { orbits, done, rare } = this;
+    if (!done || !orbits.length) return "";
+    const regular = COUNT.format(orbits.filter((orbit) => !orbit.isSea()).length);
+    const began = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular`;
+    return rare ? `${began}. They return to it too rarely to draw curves.` : `The window is full: ${began}.`;
   }
 
   /** Fill what is in sight now, unless that is done or under way. */
@@ -50,7 +59,7 @@ class Filling {
     this.orbits = [];
     section.drawPoints();
     const window = key && section.window();
-    setText("map-note", page.colouring.words);
+    page.controls.status();
     if (!window) return;
     const { k, g, energy } = page.state;
     const low = geometry.pointAt(k, g, energy, window.p[0], window.q[0]);
@@ -91,6 +100,6 @@ class Filling {
     }
     this.done = true;
     if (["rotation", "exponent"].includes(page.state.colour)) section.look();
-    page.controls.view.filled();
+    page.controls.status();
   }
 }

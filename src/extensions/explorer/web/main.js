@@ -6,6 +6,7 @@
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
 const HUES = 7; // of the style sheet
 const SWEEP = 240; // energies from the least to the largest
+const FRAME = 60; // ms that each of them is shown at least
 const GROWTH_STEP = 0.02; // of a branch in a frame
 const SLOW = 200; // impacts asked for at once, up to which one can watch
 
@@ -67,11 +68,12 @@ class Explorer {
     return [...near, ...symmetric].filter(({ orbit }) => orbit);
   }
 
-  /** What colours mean: {name, range}, without a range for verdicts; null if there is nothing to say. */
+  /** What colours mean: {name, range}, or {notes} for verdicts; null if there is nothing to say. */
   scale() {
-    const names = { rotation: "rotation number", exponent: "exponent", verdict: "verdict" };
+    const names = { rotation: "rotation number", exponent: "exponent" };
     const { window, by, range } = this.colouring;
-    if (window) return { name: by === "verdict" ? names[by] : `${names[by]}, 200 impacts`, range };
+    if (window && by === "verdict") return { notes: shortFormNotes(this.state) };
+    if (window) return { name: `${names[by]}, 200 impacts`, range };
     const { colour } = this.state;
     if (!["rotation", "exponent"].includes(colour)) return null;
     const found = this.range();
@@ -126,9 +128,8 @@ class Explorer {
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
   restart(fast) {
     this.generation += 1;
-    this.follower.restart();
     this.follower.ask("reset", {});
-    this.round += 1; // what is asked for will not come
+    this.round += 1; // what was asked for is not drawn
     this.searcher.restart();
     this.periodic.clear();
     this.found.clear();
@@ -143,7 +144,8 @@ class Explorer {
     this.colouring.update();
     if (!this.orbits.length) this.look();
     this.chooseMotion();
-    this.search();
+    clearTimeout(this.searchWaits); // a drag ends before periodic orbits are searched for
+    this.searchWaits = setTimeout(() => this.search(), fast ? 150 : 0);
     this.run();
     this.saveSoon();
   }
@@ -225,12 +227,18 @@ class Explorer {
     this.run();
   }
 
-  changedOrbits() {
+  /** Take over the orbits into the state, which shows no preset any more. */
+  ownOrbits() {
     this.state.preset = "";
-    this.state.orbits = this.orbits.map(({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea }));
+    const kept = ({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea });
+    this.state.orbits = this.orbits.map(kept);
     this.controls.words();
-    this.controls.orbits.list();
     this.saveSoon();
+  }
+
+  changedOrbits() {
+    this.ownOrbits();
+    this.controls.orbits.list();
   }
 
   remove(orbit) {
@@ -287,6 +295,7 @@ class Explorer {
     const { round } = this;
     this.running = round;
     await nextFrame();
+    await this.asking; // of the round before
     let pieces = round === this.round && (await this.ask());
     while (pieces && round === this.round) {
       const added = this.append(pieces);
@@ -308,7 +317,8 @@ class Explorer {
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
-    return this.follower.ask("advance", { orbits, time: BATCH_TIME });
+    this.asking = this.follower.ask("advance", { orbits, time: BATCH_TIME });
+    return this.asking;
   }
 
   /** Add impacts to the orbits; returns [orbit, its new impacts] and whether colours changed. */
@@ -570,7 +580,7 @@ class Explorer {
       this.controls.ball.takeBall({ k, g, E });
       element("E").value = String(E);
       const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
-      while (this.sweeping && !(shown() && performance.now() - begin > 100)) {
+      while (this.sweeping && !(shown() && performance.now() - begin > FRAME)) {
         if (performance.now() - begin > 2000) break;
         await nextFrame();
       }

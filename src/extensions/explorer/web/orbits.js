@@ -20,6 +20,9 @@ function assignHues(orbits, section, hues) {
   }
 }
 
+/** What is shown of an orbit's facts: a chaotic one has no rotation number. */
+function shownFacts(facts) { return facts?.verdict === "chaotic" ? { ...facts, rotation: NaN } : facts; }
+
 class Orbit {
   constructor({ p, q, xy, impacts, back, sea }, page) {
     Object.assign(this, { p, q, xy, impacts, back, sea, page });
@@ -61,7 +64,7 @@ class Orbit {
     }
     this.kept += size;
     this.count += piece.x.length;
-    this.facts = piece.facts;
+    this.facts = shownFacts(piece.facts);
     this.refused = piece.refused ?? "";
     const [before] = this.history.at(-1) ?? [0];
     if (piece.facts && (this.count > 1.01 * before || this.done)) this.history.push([this.count, piece.facts.exponent]);

@@ -79,7 +79,7 @@ class PeriodicControls {
       list.append(this.periodicRow(orbit, one));
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
-      setText("periodic-note", `${count} symmetric orbits. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
+      setText("periodic-note", `${count} symmetric ${count === 1 ? "orbit" : "orbits"}. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
     } else if (!this.state.periods.length) setText("periodic-note", "");
     const select = element("saddle");
     const chosen = select.value;

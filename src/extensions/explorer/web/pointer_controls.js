@@ -108,7 +108,10 @@ class PointerControls {
   name(orbit) {
     if (!orbit) return "";
     const number = this.page.orbits.indexOf(orbit) + 1;
-    return `${number ? `orbit ${number}` : "an orbit"}: ${orbit.facts?.verdict || "no verdict yet"}, rotation number ${shortNumber(orbit.facts?.rotation ?? NaN, 4)}`;
+    const verdict = orbit.facts?.verdict || "no verdict yet";
+    const turns = orbit.facts?.rotation ?? NaN;
+    const rotation = Number.isNaN(turns) ? "" : `, rotation number ${shortNumber(turns, 4)}`;
+    return `${number ? `orbit ${number}` : "an orbit"}: ${verdict}${rotation}`;
   }
 
   /** Say anew what is under the pointer, after the view has moved. */

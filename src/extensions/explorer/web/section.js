@@ -225,27 +225,36 @@ class SectionView {
     const { lines, colours } = this;
     const { scale } = this.read();
     if (!scale) return;
-    const unit = this.width < 450 ? 1 : 2; // smaller on a phone
-    const wide = scale.range ? 80 * unit + 16 : 60 + 18 * unit;
-    const [left, top] = [this.width - this.frame.right - wide, this.frame.top + 8];
+    const small = this.width < 450; // a phone
+    const { unit } = colours;
+    const step = unit * (small ? 1 : 2); // pixels of one of 80 colours
+    const line = 18 * unit;
     lines.font = colours.font;
     lines.fillStyle = colours.page;
-    lines.fillRect(left - 8, top - 5, wide + 2, scale.range ? 52 : 50);
     if (!scale.range) {
-      ["regular", "chaotic"].forEach((name, i) => {
+      const names = ["regular", "chaotic", "undecided"];
+      const wide = Math.max(...[...names, ...scale.notes].map((text) => text.length)) * 6.6 * unit + 24 * unit;
+      const [left, top] = [this.width - this.frame.right - wide - 6, this.frame.top + 6];
+      lines.fillRect(left - 6, top - 4, wide + 8, line * (names.length + scale.notes.length) + 6);
+      names.forEach((name, i) => {
         lines.fillStyle = colours[name];
-        lines.fillRect(left, top + 4 + 22 * i, 12, 12);
-        write(lines, name, left + 20, top + 2 + 22 * i, colours.ink);
+        lines.fillRect(left, top + line * i + 2, 13 * unit, 13 * unit);
+        strokePath(lines, colours.muted, 1, () => lines.rect(left, top + line * i + 2, 13 * unit, 13 * unit));
+        write(lines, name, left + 20 * unit, top + line * i + 1, colours.ink);
       });
+      scale.notes.forEach((note, i) => write(lines, note, left, top + line * (names.length + i) + 2, colours.muted));
       return;
     }
+    const [left, top] = [this.width - this.frame.right - 80 * step - 16, this.frame.top + 8];
+    lines.fillRect(left - 8, top - 5, 80 * step + 18, 3 * line);
     for (let i = 0; i < 80; i++) {
       lines.fillStyle = mixed(colours.ramp, i / 79);
-      lines.fillRect(left + unit * i, top + 18, unit + 0.5, 9);
+      lines.fillRect(left + step * i, top + line, step + 0.5, 9 * unit);
     }
-    write(lines, unit === 1 ? scale.name.split(",")[0] : scale.name, left + 80 * unit, top, colours.ink, "right");
-    write(lines, shortNumber(scale.range[0], 3), left, top + 30, colours.muted);
-    write(lines, shortNumber(scale.range[1], 3), left + 80 * unit, top + 30, colours.muted, "right");
+    const title = small ? scale.name.split(",")[0] : scale.name;
+    write(lines, title, left + 80 * step, top, colours.ink, "right");
+    write(lines, shortNumber(scale.range[0], 3), left, top + line + 12 * unit, colours.muted);
+    write(lines, shortNumber(scale.range[1], 3), left + 80 * step, top + line + 12 * unit, colours.muted, "right");
   }
 
   /** Draw what branches, curves and marks mean, those that are there, at the left bottom. */
@@ -533,8 +542,28 @@ class SectionView {
         table[2 * (row * wide + column) + 1] = (place[1] - q[0]) / (q[1] - q[0]);
       }
     }
-    Object.assign(this, { sharesOf: key, sharesTable: { table, wide, tall } });
+    Object.assign(this, { sharesOf: key, sharesTable: { table, wide, tall, cells: new Map() } });
     return this.sharesTable;
+  }
+
+  /** The cell of a grid under each pixel of the map; beyond the last one outside the section. */
+  cellsOf(window, { size, inwards }) {
+    const { table, wide, tall, cells } = this.shares(window);
+    const key = `${size}${inwards}`;
+    if (cells.has(key)) return cells.get(key);
+    const { p, q } = window;
+    const inside = (share, [low, high]) => share + Math.sign(low / (low - high) - share) / size;
+    const cell = (share, range) => {
+      const at = inwards ? inside(share, range) : share;
+      return Math.min(size - 1, Math.max(0, Math.floor(at * size)));
+    };
+    const found = Uint32Array.from({ length: wide * tall }, (_, i) => {
+      const [across, up] = [table[2 * i], table[2 * i + 1]];
+      if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return size * size;
+      return cell(up, q) * size + cell(across, p);
+    });
+    cells.set(key, found);
+    return found;
   }
 
   /** Draw the section in colour, if it is. */
@@ -542,12 +571,13 @@ class SectionView {
     const { map } = this.read();
     this.map.clearRect(0, 0, this.width, this.height);
     if (!map?.window) return;
-    const { table, wide, tall } = this.shares(map.window);
+    const { wide, tall } = this.shares(map.window);
     const image = new ImageData(wide, tall);
     const pixels = new Uint32Array(image.data.buffer);
-    const ink = map.inks(this.colours);
-    for (let i = 0; i < pixels.length; i++) {
-      if (!Number.isNaN(table[2 * i])) pixels[i] = ink(table[2 * i], table[2 * i + 1]);
+    for (const layer of map.layers(this.colours)) {
+      const cells = this.cellsOf(map.window, layer);
+      const { inks } = layer;
+      for (let i = 0; i < pixels.length; i++) if (pixels[i] === 0) pixels[i] = inks[cells[i]];
     }
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [wide, tall];

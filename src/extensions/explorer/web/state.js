@@ -62,7 +62,7 @@ function parameterError(name, text, ball) {
   if (ballAllowed({ ...ball, [name]: value })) return "";
   if (name === "E") return `${refused}: above −g²/2k = ${low}, below k/2 − g = ${high}, eq. (31)`;
   const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
-  return `${refused}: above ${low}, below ${high} at ${others.join(" and ")}, eq. (31)`;
+  return `${refused}: above ${low}, ${name === "k" && high === "1" ? "at most" : "below"} ${high} at ${others.join(" and ")}, eq. (31)`;
 }
 
 function ballAllowed({ k, g, E }) {

@@ -76,16 +76,6 @@ class ViewControls {
     this.moved();
   }
 
-  /** Say what fills the window. */
-  filled() {
-    const { orbits, rare } = this.page.filling;
-    if (!orbits.length) return;
-    const regular = COUNT.format(orbits.filter((orbit) => !orbit.isSea()).length);
-    const began = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular`;
-    setText("map-note", rare ? `${began}. They return to it too rarely to draw curves.` : `The window is full: ${began}.`);
-  }
-
-
   /** Let a box of the screen, given by two corners, fill the view. */
   zoomBox([a, b], [c, d]) {
     const { view } = this.state;
