@@ -1,4 +1,3 @@
-"use strict";
 /* How the explorer shows scenes of these kinds of picture: src/extensions/explorer/README.md. */
 Object.assign(PRESETS, {
   portrait: surface,

@@ -1,4 +1,3 @@
-"use strict";
 /* How the explorer shows scenes of these kinds of picture: src/extensions/explorer/README.md. */
 Object.assign(PRESETS, {
   spread: () => ({ view: disk(), orbits: fan(0.55, 0.68, 8, 20000), panel: "chart", chosen: 0 }),

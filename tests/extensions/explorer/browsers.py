@@ -87,9 +87,16 @@ class WebKit(Driven):
         self.driver.set_script_timeout(_TIMEOUT)
         self.resize(width, height)
 
+    def open(self, address):
+        super().open(address)
+        self.run(
+            "globalThis.failures ??= []; const keep = e => failures.push(String(e.message ?? e.reason));"
+            "for (const kind of ['error', 'unhandledrejection']) addEventListener(kind, keep)"
+        )
+
     def errors(self):
-        """Return exceptions in the page since the last call, which `listen` collects."""
-        return self.run("return (globalThis.failures ?? []).splice(0)")
+        """Return exceptions in the page since it was opened or since the last call."""
+        return self.run("return globalThis.failures.splice(0)")
 
     def close(self):
         super().close()

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The atlas as a map: the share of regular motion over k and E/g^2. Beside it is a small section of
  * the place under the pointer. A click, or arrow keys and Enter, go there.

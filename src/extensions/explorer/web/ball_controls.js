@@ -1,14 +1,9 @@
-"use strict";
 /* The fields and sliders of k, g and E. */
-class BallControls {
+class BallControls extends OfPage {
   constructor(page) {
-    this.page = page;
+    super(page);
     this.editing = false; // whether a drag goes on, which is undone at once
     this.listen();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   listen() {
@@ -90,9 +85,7 @@ class BallControls {
     if (this.validate(name)) this.ballWaits = setTimeout(() => this.takeField(name), delay);
   }
 
-  takeField(name) {
-    this.takeBall({ ...this.ball, [name]: readNumber(element(name).value) });
-  }
+  takeField(name) { this.takeBall({ ...this.ball, [name]: readNumber(element(name).value) }); }
 
   /** A field is left: take over its value, or return to the present one and say why. */
   leave(name) {
@@ -131,6 +124,6 @@ class BallControls {
     this.takeBall({ k, g, E: Number((ratio * g * g).toPrecision(6)) });
     this.page.controls.refresh();
     const note = g === present ? "" : ` g became ${g}, which changes the scale only.`;
-    this.page.controls.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
+    this.hint(`k = ${k}, E/g² = ${ratio}: the starts have kept their places.${note}`);
   }
 }

@@ -1,4 +1,3 @@
-"use strict";
 /* Plain charts: axes with ticks, lines, dots and a key. */
 
 /** A canvas fitted to its place on the page and cleared: {pen, width, height} in CSS pixels. */
@@ -46,6 +45,13 @@ class Plot {
     frame = this.frame;
     this.size = [width - frame.left - frame.right, height - frame.top - frame.bottom];
     pen.font = colours.font;
+  }
+
+  /** A plot on the whole of a canvas, which is cleared. */
+  static on(canvas, { right = 26, ...shown }) {
+    const { pen, width, height } = fitted(canvas);
+    const frame = { left: 58, top: 24, right, bottom: 36 };
+    return new Plot(pen, { width, height, frame, colours: readColours(), ...shown });
   }
 
   at([a, b]) {
@@ -158,30 +164,23 @@ function decadesAround(low, high, most) {
 
 /** Exponents so far against the logarithm of the number of impacts; Figure 7 has the number. */
 function drawExponents(canvas, orbits, cursor) {
-  const { pen, width, height } = fitted(canvas);
-  const colours = readColours();
   const shown = orbits.filter((orbit) => orbit.history.length > 1);
   const late = (orbit) => orbit.history.filter(([impacts]) => impacts >= 10);
   const values = shown.flatMap((orbit) => late(orbit).map(([, exponent]) => exponent)).filter(Number.isFinite);
   const most = Math.max(1000, ...shown.map((orbit) => orbit.count));
   const top = Math.min(1, Math.max(0.1, ...values));
-  const plot = new Plot(pen, {
-    width, height, colours, across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true,
-    frame: { left: 50, top: 24, right: 26, bottom: 36 },
-  });
+  const plot = Plot.on(canvas, { across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true });
   plot.axes("number of impacts", "largest exponent so far");
   const order = [...shown].sort((a, b) => b.isSea() - a.isSea());
   for (const orbit of order) {
     const line = late(orbit).map(([impacts, exponent]) => [Math.log10(impacts), exponent]);
-    plot.line(line, orbit.colour(colours), orbit.chosen ? 3 : 1.5);
+    plot.line(line, orbit.colour(plot.colours), orbit.chosen ? 3 : 1.5);
   }
-  if (cursor > 0 && shown.length) plot.vertical(Math.log10(cursor), colours.focus);
+  if (cursor > 0 && shown.length) plot.vertical(Math.log10(cursor), plot.colours.focus);
 }
 
 /** Rotation numbers against the starts along y = 0, as in the picture `rotation`. */
 function drawRotations(canvas, orbits) {
-  const { pen, width, height } = fitted(canvas);
-  const colours = readColours();
   const shown = orbits.filter((orbit) => orbit.facts && orbit.q === 0 && Number.isFinite(orbit.facts.rotation));
   const starts = shown.map((orbit) => orbit.p);
   const values = shown.map((orbit) => orbit.facts.rotation);
@@ -191,10 +190,7 @@ function drawRotations(canvas, orbits) {
     const room = Math.max(0.08 * (high - low), least);
     return list.length ? [low - room, high + room] : [0, 1];
   };
-  const plot = new Plot(pen, {
-    width, height, colours, across: range(starts, 0.01), up: range(values, 1e-4),
-    frame: { left: 58, top: 24, right: 26, bottom: 36 },
-  });
+  const plot = Plot.on(canvas, { across: range(starts, 0.01), up: range(values, 1e-4) });
   plot.axes("start along y = 0, section radii", "rotation number");
-  shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(colours), orbit.chosen ? 6 : 3.5));
+  shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(plot.colours), orbit.chosen ? 6 : 3.5));
 }

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The section in colour: grids of orbits over what is in sight, first a coarse one, which is a preview
  * and follows a drag. Each cell has the exponent and the rotation number after 200 impacts, and a
@@ -7,6 +6,7 @@
 const GRIDS = { exponent: [60, 300], rotation: [60, 300], verdict: [60, 100, 200] }; // cells along a side
 const CHUNK = 528; // orbits of a request, in full SIMD lanes; a change waits for at most one
 const EXPONENTS = [0.005, 0.5]; // the ends of the scale
+const RIM = 0.9995; // section radii from the middle, beyond which no cell has its orbit
 const QUIET_GROWTH = 1.8; // after 200 impacts: below, a preview calls an orbit regular
 const LOW_ENERGY = 2; // g^2
 const WRONG = { low: "?", high: "?" }; // per cent of starts, below and above, see README.md
@@ -42,14 +42,10 @@ class Grid {
   }
 
   /** Call cells regular or chaotic that are not decided. */
-  guess() {
-    this.growth.forEach((growth, cell) => (this.verdict[cell] ||= growth < QUIET_GROWTH ? 1 : 2));
-  }
+  guess() { this.growth.forEach((growth, cell) => (this.verdict[cell] ||= growth < QUIET_GROWTH ? 1 : 2)); }
 
   /** Whether a cell's rotation number is shown. */
-  turns(cell) {
-    return this.verdict[cell] < 2 && this.growth[cell] < QUIET_GROWTH;
-  }
+  turns(cell) { return this.verdict[cell] < 2 && this.growth[cell] < QUIET_GROWTH; }
 
   /** The colours of all cells, 0 where nothing is known or decided. */
   inks(by, range, colours) {
@@ -150,19 +146,21 @@ class Colouring {
     if (wanted()) this.draw();
   }
 
-  /** The cells of a grid whose middles lie on the section, in rows that jump about. */
+  /** The cells of a grid on the section, in rows that jump about, with their middles, or a point in them. */
   chunks(size, { p, q }, half = false) {
     const cells = [];
     const places = [];
     const step = [67, 61, 59].find((prime) => size % prime); // visits each row once
+    const [wide, tall] = [p, q].map(([low, high]) => (high - low) / size);
     for (let n = 0; n < size; n++) {
       const row = (n * step) % size;
       if (half && row < size / 2) continue;
       for (let column = 0; column < size; column++) {
-        const at = [p[0] + ((column + 0.5) / size) * (p[1] - p[0]), q[0] + ((row + 0.5) / size) * (q[1] - q[0])];
-        if (!(at[0] ** 2 + at[1] ** 2 < 1)) continue;
+        const middle = [p[0] + (column + 0.5) * wide, q[0] + (row + 0.5) * tall];
+        const away = Math.hypot(...middle);
+        if (away >= 1 + 0.5 * Math.hypot(wide, tall)) continue;
         cells.push(row * size + column);
-        places.push(...at);
+        places.push(...middle.map((value) => value * Math.min(1, RIM / away)));
       }
     }
     return Array.from({ length: Math.ceil(cells.length / CHUNK) }, (_, i) => ({
@@ -182,9 +180,7 @@ class Colouring {
     this.page.controls.status();
   }
 
-  get done() {
-    return this.window !== null && this.level === this.grids.length - 1 && this.left === 0;
-  }
+  get done() { return this.window !== null && this.level === this.grids.length - 1 && this.left === 0; }
 
   /** The ends of the scale of colours; null for verdicts. */
   get range() {
@@ -200,9 +196,8 @@ class Colouring {
   /** The colours of the cells of each grid, 0 where there is none, the finest first. */
   layers(colours) {
     const shown = this.grids.slice(0, this.level + 1).reverse();
-    const layers = shown.map(({ size }, n) => ({ size, inks: shown[n].inks(this.by, this.range ?? [0, 1], colours) }));
-    // At the rim the middle of a cell may lie outside the section.
-    return [...layers, ...layers.map((layer) => ({ ...layer, inwards: true }))];
+    const range = this.range ?? [0, 1];
+    return shown.map((grid) => ({ size: grid.size, inks: grid.inks(this.by, range, colours) }));
   }
 
   /** What is shown so far, in a line. */
@@ -215,7 +210,7 @@ class Colouring {
     const cells = `${grid.size} × ${grid.size} cells`;
     const finer = this.done ? "" : "; finer ones follow";
     if (this.by !== "verdict") return `${cells}, 200 impacts each${finer}.`;
-    if (!level) return `A preview of ${cells}, by 200 impacts each.`;
+    if (!level) return `A preview of ${cells}, by 200 impacts each; finer ones follow.`;
     const counts = [0, 0, 0, 0, 0];
     grid.known.forEach((one, cell) => (counts[grid.verdict[cell]] += one));
     const decided = counts[1] + counts[2] + counts[3] + counts[4];

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The workers: one follows the orbits on the screen, another does what may take seconds, and a pool
  * of one for each processor computes many orbits, so that none waits for another.

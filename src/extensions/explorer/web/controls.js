@@ -1,11 +1,10 @@
-"use strict";
 /*
  * The page around the section: what it says, its menu and its panels. Other files have the controls
  * of one subject each: ball_controls.js, orbit_controls.js, and so on.
  */
-class Controls {
+class Controls extends OfPage {
   constructor(page) {
-    this.page = page;
+    super(page);
     this.fill();
     this.ball = new BallControls(page);
     this.orbits = new OrbitControls(page);
@@ -20,15 +19,8 @@ class Controls {
     this.theme(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   }
 
-  get state() {
-    return this.page.state;
-  }
-
-  // ---------------------------------------------------------------- what the page says
-
   fill() {
     element("preset").append(option("", "My own"), ...this.menu());
-    for (const field of document.querySelectorAll("input")) field.autocomplete = "off";
     const { version, citation } = this.page.data;
     element("version").textContent = version;
     element("cite").textContent = `To cite this page: ${citation.software} To cite the paper: ${citation.paper}`;
@@ -116,9 +108,7 @@ class Controls {
   }
 
   /** Say something that holds until the next change. */
-  hint(text) {
-    element("hint").textContent = text;
-  }
+  hint(text) { element("hint").textContent = text; }
 
   welcome() {
     const touch = window.matchMedia("(pointer: coarse)").matches;
@@ -127,8 +117,6 @@ class Controls {
     else if (state.motion) this.hint("What happens between two impacts? Press Play, or step from one to the next.");
     else this.hint(`Where must the ball start so that its impacts scatter? ${touch ? "Tap" : "Click"} the section to try.`);
   }
-
-  // ---------------------------------------------------------------- listeners
 
   listen() {
     const { page } = this;
@@ -302,9 +290,7 @@ function keep(name, value) {
   setText(`${name}-error`, `${element(`${name}-error`).textContent}. It stays ${value}.`);
 }
 
-function on(id, type, act) {
-  element(id).addEventListener(type, act);
-}
+function on(id, type, act) { element(id).addEventListener(type, act); }
 
 function setText(id, text) {
   const node = element(id);
@@ -318,9 +304,7 @@ function node(tag, properties = {}, ...children) {
   return made;
 }
 
-function option(value, text) {
-  return node("option", { value, textContent: text });
-}
+function option(value, text) { return node("option", { value, textContent: text }); }
 
 function button(text, label, act) {
   const properties = { type: "button", className: "tight", textContent: text, title: label, ariaLabel: label };

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Many orbits in the worker: those of the pixels of a section in colour, and those that fill a window.
  * The first follow the kernel in SIMD lanes, with the rule of dynamics/regularity.py for verdicts.

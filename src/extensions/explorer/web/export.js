@@ -1,4 +1,3 @@
-"use strict";
 /* From play to record: a block for config.yaml, orbits as CSV, the view as PNG and SVG, the link. */
 
 /** A number as YAML reads it back to the last bit: an exponent needs a point before it. */

@@ -1,4 +1,3 @@
-"use strict";
 /* Families: the periodic orbits on the section at all energies at which Newton's method follows them. */
 class Families {
   constructor(page) {
@@ -28,14 +27,12 @@ class Families {
   }
 
   draw(canvas) {
-    const { pen, width, height } = fitted(canvas);
     const colours = readColours();
     const { state } = this.page;
     const samples = this.shown.flatMap((family) => family.samples);
     const energies = samples.map(({ energy }) => energy);
     const across = energies.length ? [Math.min(...energies, state.energy), Math.max(...energies, state.energy)] : geometry.energyBounds(state.k, state.g);
-    const frame = { left: 50, top: 24, right: 26, bottom: 36 };
-    this.plot = new Plot(pen, { width, height, frame, colours, across, up: [-1, 1] });
+    this.plot = Plot.on(canvas, { across, up: [-1, 1] });
     this.plot.axes("E", "place x in section radii");
     for (const { energy, trace, places } of samples) {
       for (const [p] of places) this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.elliptic : colours.hyperbolic, 1.2);

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Orbits that fill a window after a zoom. They begin at places spread evenly over what is in sight, in
  * cells of a grid that no orbit has met yet. The same window and size of the page give the same orbits.
@@ -19,7 +18,6 @@ class WindowOrbit {
   }
 
   isSea() { return this.facts.verdict !== "regular"; }
-
   colour(colours) { return Orbit.prototype.colour.call(this, colours); }
 }
 

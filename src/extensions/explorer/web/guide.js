@@ -1,8 +1,7 @@
-"use strict";
 /* The tour and the questions: steps that show a state of the page, and say or ask something there. */
-class Guide {
+class Guide extends OfPage {
   constructor(page) {
-    this.page = page;
+    super(page);
     on("tour-start", "click", () => this.turn("tour", 1));
     on("lesson-start", "click", () => this.turn("lesson", 1));
     on("guide-back", "click", () => this.turn(this.kind, this.number - 1));
@@ -18,25 +17,10 @@ class Guide {
     });
   }
 
-  get state() {
-    return this.page.state;
-  }
-
-  get kind() {
-    return this.state.lesson ? "lesson" : "tour";
-  }
-
-  get number() {
-    return this.state[this.kind];
-  }
-
-  get steps() {
-    return this.page.data[this.kind];
-  }
-
-  get step() {
-    return this.steps[this.number - 1];
-  }
+  get kind() { return this.state.lesson ? "lesson" : "tour"; }
+  get number() { return this.state[this.kind]; }
+  get steps() { return this.page.data[this.kind]; }
+  get step() { return this.steps[this.number - 1]; }
 
   /** Go to a step of the tour or to a question; after the last one it ends. */
   turn(kind, number) {
@@ -93,6 +77,6 @@ class Guide {
     const { href } = window.location;
     field.value = `${href.split("#")[0]}#${this.step.address}&lesson=${this.number}`;
     const copied = await copyText(field.value, field);
-    this.page.controls.hint(copied ? "The link to this question is copied." : "The link is in the panel Export.");
+    this.hint(copied ? "The link to this question is copied." : "The link is in the panel Export.");
   }
 }

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The page as a whole: it holds the state, has the workers compute what the state asks for, and
  * draws it. controls.js turns what a person does into calls of these methods.
@@ -87,8 +86,6 @@ class Explorer {
     return low < high ? [low, high] : [low, low + 1e-9];
   }
 
-  // ---------------------------------------------------------------- states
-
   /** Show a state: from the address, or a preset. Orbits that were on the page before stay. */
   show(state) {
     const same = ["k", "g", "energy"].every((name) => state[name] === this.state[name]);
@@ -112,7 +109,7 @@ class Explorer {
     this.searcher.restart();
     this.tracing = (this.tracing ?? 0) + 1;
     this.forgetLines();
-    assignHues(this.orbits, this.section.section, HUES);
+    assignHues(this.orbits, HUES);
     this.chooseMotion();
     this.look();
     this.search();
@@ -205,8 +202,6 @@ class Explorer {
       done += impacts;
     }
   }
-
-  // ---------------------------------------------------------------- orbits
 
   /** Start orbits at places [p, q], or at one point `xy`; the last one is shown in time. */
   startOrbits(places, xy = null) {
@@ -343,7 +338,7 @@ class Explorer {
         this.saveSoon();
       }
     }
-    if (recoloured) assignHues(this.orbits, this.section.section, HUES);
+    if (recoloured) assignHues(this.orbits, HUES);
     return { plots, recoloured };
   }
 
@@ -363,8 +358,6 @@ class Explorer {
     }
     this.section.drawCursors();
   }
-
-  // ---------------------------------------------------------------- what takes longer
 
   /** Have periodic orbits, branches and the jump curve computed that the state asks for. */
   async search() {
@@ -565,8 +558,6 @@ class Explorer {
     this.saveSoon();
   }
 
-  // ---------------------------------------------------------------- the energy as a film
-
   /** Raise E from the least energy, or from where it is, to the bound of eq. (31). */
   async sweepEnergy() {
     const { k, g } = this.state;
@@ -593,8 +584,6 @@ class Explorer {
     this.sweeping = false;
     this.controls.ball.showSweep();
   }
-
-  // ---------------------------------------------------------------- the ball in time
 
   choose(index, play = false) {
     Object.assign(this.state, { chosen: index, motion: null, time: 0 });
@@ -682,8 +671,6 @@ class Explorer {
     else if (index > 0 || this.motion.count === Infinity) this.setTime(this.motion.flight(index - 1).begin);
   }
 
-  // ---------------------------------------------------------------- charts and the address
-
   drawChart() {
     setText("twin-note", this.twin.words);
     const { motion, state } = this;
@@ -740,13 +727,9 @@ class Explorer {
   }
 }
 
-function element(id) {
-  return document.getElementById(id);
-}
+function element(id) { return document.getElementById(id); }
 
-function nextFrame() {
-  return new Promise((resolve) => requestAnimationFrame(resolve));
-}
+function nextFrame() { return new Promise((resolve) => requestAnimationFrame(resolve)); }
 
 /** Begin with the address, or with Figure 2. */
 function begin() {

@@ -1,15 +1,10 @@
-"use strict";
 /* The list of orbits, and where the next ones start. */
 const FAN = 12; // orbits of a fan that is shot by dragging
 
-class OrbitControls {
+class OrbitControls extends OfPage {
   constructor(page) {
-    this.page = page;
+    super(page);
     this.listen();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   listen() {
@@ -111,7 +106,7 @@ class OrbitControls {
     if (!["regular", "chaotic"].includes(mine?.facts?.verdict)) return;
     this.watched = null;
     const seen = { regular: "regular: it stays on closed curves, an island", chaotic: "chaotic: it wanders over the sea" };
-    this.page.controls.hint(`This orbit is ${seen[mine.facts.verdict]}.`);
+    this.hint(`This orbit is ${seen[mine.facts.verdict]}.`);
   }
 
   startTyped() {
@@ -146,11 +141,11 @@ class OrbitControls {
     this.page.startOrbits(places, xy);
     if (places.length > 1) return;
     this.watched = this.page.orbits.at(-1);
-    this.page.controls.hint("An orbit has started there, and its ball bounces.");
+    this.hint("An orbit has started there, and its ball bounces.");
   }
 
   shoot(from, to, count = FAN) {
     this.begin(fan(from, to, count, 0).map(({ p }) => [p, 0]));
-    this.page.controls.hint(`A row of ${count} orbits starts. The chart of rotation numbers shows them side by side.`);
+    this.hint(`A row of ${count} orbits starts. The chart of rotation numbers shows them side by side.`);
   }
 }

@@ -1,23 +1,10 @@
-"use strict";
 /* The orbits on the screen: their first impacts, and what is known about each. */
-const NEAR = 300; // impacts by which an orbit's curve is known
 const KEPT = 50000; // impacts of an orbit that are kept; later ones are computed again to draw them
 
-/**
- * Give each regular orbit the hue whose nearest bearer is furthest, so that curves next to each other
- * differ. It depends on the orbits before it in the list only.
- */
-function assignHues(orbits, section, hues) {
-  const before = [];
-  for (const orbit of orbits) {
-    if (orbit.isSea() || !orbit.settled || orbit.facts?.verdict === "undecided") continue;
-    const nearest = Array(hues).fill(Infinity);
-    for (const other of before) {
-      nearest[other.hue] = Math.min(nearest[other.hue], orbit.distance(other, section));
-    }
-    orbit.hue = nearest.indexOf(Math.max(...nearest));
-    before.push(orbit);
-  }
+/** Give the regular orbits the hues in turn, so that those that start beside each other differ. */
+function assignHues(orbits, hues) {
+  const regular = orbits.filter((one) => !one.isSea() && one.settled && one.facts?.verdict !== "undecided");
+  regular.forEach((orbit, i) => (orbit.hue = i % hues));
 }
 
 /** What is shown of an orbit's facts: a chaotic one has no rotation number. */
@@ -44,9 +31,7 @@ class Orbit {
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
 
-  get done() {
-    return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts);
-  }
+  get done() { return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts); }
 
   /** Add impacts that the worker has computed, and keep the first ones. */
   append(piece, k) {
@@ -80,7 +65,6 @@ class Orbit {
 
   /** The state before impact i; 0 is the start. */
   stateAt(i) { return i === 0 ? this.start : [this.x[i - 1], this.xdot[i - 1], this.udot[i - 1]]; }
-
   isSea() { return Boolean(this.sea || this.facts?.verdict === "chaotic"); }
 
   /** Whether it is the one that the time view shows, which is highlighted. */
@@ -101,20 +85,6 @@ class Orbit {
 
   /** Whether it is known well enough to get a colour. */
   get settled() { return Boolean(this.facts?.verdict || (this.count && this.done)); }
-
-  /** The least distance between the start of each of two orbits and the other's curve, squared. */
-  distance(other, { radius, height }) {
-    let least = Infinity;
-    for (const [a, b] of [[this, other], [other, this]]) {
-      const y = a.q * height;
-      for (let i = 0; i < Math.min(b.kept, NEAR); i++) {
-        const p = (b.x[i] - a.start[0]) / radius;
-        const q = (b.xdot[i] - b.k * b.udot[i] - y) / height;
-        least = Math.min(least, p * p + q * q);
-      }
-    }
-    return least;
-  }
 
   /** The rotation number with the digits that mean something. */
   get rotationText() {

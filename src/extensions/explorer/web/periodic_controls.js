@@ -1,18 +1,8 @@
-"use strict";
 /* Periodic orbits, their branches, and the curves where the map jumps. */
-class PeriodicControls {
+class PeriodicControls extends OfPage {
   constructor(page) {
-    this.page = page;
-    for (let period = 1; period <= 12; period++) element("period").append(option(period, period));
-    element("period").append(option("all", "1 to 12"));
-    element("period").value = "6";
-    element("near-period").append(option(0, `any to ${MOST_PERIOD}`));
-    for (let period = 1; period <= MOST_PERIOD; period++) element("near-period").append(option(period, period));
+    super(page);
     this.listen();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   listen() {

@@ -1,20 +1,15 @@
-"use strict";
 /* Pointers and keys on the section. */
 const NEAR_LINE = { mouse: 8, pen: 12, touch: 18 }; // pixels from y = 0 where a drag shoots a fan
 const CLICK = 6; // pixels that a pointer may move in a click
 const DOUBLE = 400; // ms within which a second click at the same place is not another start
 
-class PointerControls {
+class PointerControls extends OfPage {
   constructor(page, view) {
-    this.page = page;
+    super(page);
     this.view = view;
     this.box = element("section");
     this.pointers();
     this.keys();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   pointers() {
@@ -115,9 +110,7 @@ class PointerControls {
   }
 
   /** Say anew what is under the pointer, after the view has moved. */
-  describeAgain() {
-    if (this.hovered) element("where").textContent = this.describe(this.hovered);
-  }
+  describeAgain() { if (this.hovered) element("where").textContent = this.describe(this.hovered); }
 
   describe(point) {
     const place = this.page.section.place(...point);
@@ -186,7 +179,7 @@ class PointerControls {
     if (place && this.box.classList.contains("pick")) this.pick(place);
     else if (mark) this.page.explain(mark.one, mark.orbit);
     else if (place) this.page.controls.orbits.begin([place]);
-    else this.page.controls.hint("That point lies outside the section: start inside its edge, where impacts graze.");
+    else this.hint("That point lies outside the section: start inside its edge, where impacts graze.");
   }
 
   /** Look for the periodic orbit nearest to a place. */
@@ -250,7 +243,7 @@ class PointerControls {
     const { section } = this.page;
     const at = section.cross ?? section.middle;
     if (this.corner) this.view.zoomBox(this.corner, at);
-    else this.page.controls.hint("One corner of the box is set: move the pointer and press B again.");
+    else this.hint("One corner of the box is set: move the pointer and press B again.");
     this.corner = this.corner ? null : at;
     section.corners = null;
     section.drawCursors();
@@ -263,7 +256,7 @@ class PointerControls {
     if (!place) return;
     if (this.fanFrom === null || this.fanFrom === undefined) {
       [this.fanFrom] = place;
-      this.page.controls.hint("One end of the row is set: move the pointer and press F again.");
+      this.hint("One end of the row is set: move the pointer and press F again.");
       return;
     }
     this.page.controls.orbits.shoot(this.fanFrom, place[0]);

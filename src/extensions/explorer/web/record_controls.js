@@ -1,4 +1,3 @@
-"use strict";
 /* Buttons that copy and save what the page shows, and the check of its bits. */
 function listenToRecord(page) {
   on("copy-scene", "click", async () => {

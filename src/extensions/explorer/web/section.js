@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on canvases: the ground with its
  * axes, the section in colour, the impacts of orbits, lines over them, and cursors. Impacts are counted
@@ -64,8 +63,6 @@ class SectionView {
     this.drawLines();
     this.drawCursors();
   }
-
-  // ---------------------------------------------------------------- from states to the screen
 
   /** Prepare the numbers of `place` and `screen` from the state. */
   project() {
@@ -199,8 +196,6 @@ class SectionView {
     );
   }
 
-  // ---------------------------------------------------------------- the ground
-
   drawGround() {
     const { ground, colours } = this;
     ground.clearRect(0, 0, this.width, this.height);
@@ -230,21 +225,19 @@ class SectionView {
     const step = unit * (small ? 1 : 2); // pixels of one of 80 colours
     const line = 18 * unit;
     lines.font = colours.font;
-    lines.fillStyle = colours.page;
     if (!scale.range) {
-      const names = ["regular", "chaotic", "undecided"];
-      const wide = Math.max(...[...names, ...scale.notes].map((text) => text.length)) * 6.6 * unit + 24 * unit;
-      const [left, top] = [this.width - this.frame.right - wide - 6, this.frame.top + 6];
-      lines.fillRect(left - 6, top - 4, wide + 8, line * (names.length + scale.notes.length) + 6);
-      names.forEach((name, i) => {
+      const side = 13 * unit;
+      const swatch = (name) => (left, middle) => {
         lines.fillStyle = colours[name];
-        lines.fillRect(left, top + line * i + 2, 13 * unit, 13 * unit);
-        strokePath(lines, colours.muted, 1, () => lines.rect(left, top + line * i + 2, 13 * unit, 13 * unit));
-        write(lines, name, left + 20 * unit, top + line * i + 1, colours.ink);
-      });
-      scale.notes.forEach((note, i) => write(lines, note, left, top + line * (names.length + i) + 2, colours.muted));
+        lines.fillRect(left, middle - side / 2, side, side);
+        lines.strokeStyle = colours.muted;
+        lines.strokeRect(left, middle - side / 2, side, side);
+      };
+      const rows = ["regular", "chaotic", "undecided"].map((name) => [name, swatch(name)]);
+      this.drawRows([...rows, ...scale.notes.map((note) => [note, null])], true);
       return;
     }
+    lines.fillStyle = colours.page;
     const [left, top] = [this.width - this.frame.right - 80 * step - 16, this.frame.top + 8];
     lines.fillRect(left - 8, top - 5, 80 * step + 18, 3 * line);
     for (let i = 0; i < 80; i++) {
@@ -264,29 +257,34 @@ class SectionView {
     const names = { stable: "stable branch", unstable: "unstable branch", symmetry: "the map jumps", jump: "its inverse jumps" };
     const shapes = { dot: "elliptic", cross: "hyperbolic", square: "inverse hyperbolic" };
     const drawn = (name) => overlays.lines.find(({ colour }) => colour === name);
-    const rows = [
-      ...Object.keys(names).filter(drawn).map((name) => [names[name], name, null]),
-      ...Object.keys(shapes).flatMap((shape) => {
-        const mark = this.marks.find((one) => one.shape === shape);
-        return mark ? [[shapes[shape], mark.colour, shape]] : [];
-      }),
-    ];
-    if (!rows.length) return;
-    const tall = 17 * colours.unit;
-    const left = frame.left + 8;
-    const top = this.height - frame.bottom - 6 - tall * rows.length;
+    const stroke = (name) => (left, middle) => {
+      lines.fillStyle = colours[name];
+      lines.fillRect(left, middle - 1, 18 * colours.unit, 2.5);
+    };
+    const rows = Object.keys(names).filter(drawn).map((name) => [names[name], stroke(name)]);
+    for (const [shape, name] of Object.entries(shapes)) {
+      const one = this.marks.find((mark) => mark.shape === shape);
+      const sign = (left, middle) => this.mark(lines, [left + 9, middle], colours[one.colour], shape);
+      if (one) rows.push([name, sign]);
+    }
+    if (rows.length) this.drawRows(rows, false);
+  }
+
+  /** Draw rows of a legend, [text, a function that draws its sign at a point, or null], in a corner. */
+  drawRows(rows, right) {
+    const { lines, colours, frame } = this;
+    const tall = 18 * colours.unit;
+    const room = 26 * colours.unit;
+    const wide = room + 7 * colours.unit * Math.max(...rows.map(([text, sign]) => text.length - (sign ? 0 : 3)));
+    const left = right ? this.width - frame.right - wide - 8 : frame.left + 8;
+    const top = right ? frame.top + 6 : this.height - frame.bottom - 6 - tall * rows.length;
     lines.font = colours.font;
-    const wide = 32 + 7 * colours.unit * Math.max(...rows.map(([text]) => text.length));
     lines.fillStyle = colours.page;
     lines.fillRect(left - 4, top - 3, wide + 8, tall * rows.length + 6);
-    rows.forEach(([text, colour, shape], i) => {
+    rows.forEach(([text, sign], i) => {
       const middle = top + tall * (i + 0.5);
-      if (shape) this.mark(lines, [left + 11, middle], colours[colour], shape);
-      else {
-        lines.fillStyle = colours[colour];
-        lines.fillRect(left, middle - 1, 22, 2.5);
-      }
-      write(lines, text, left + 30, middle, colours.ink, "left", "middle");
+      sign?.(left, middle);
+      write(lines, text, sign ? left + room : left, middle, sign ? colours.ink : colours.muted, "left", "middle");
     });
   }
 
@@ -331,9 +329,9 @@ class SectionView {
     this.clip(ground);
     ground.beginPath();
     if (this.scale > 1e4) {
-      if (this.place(...this.middle)) ground.rect(0, 0, this.width, this.height);
+      if (this.place(...this.middle)) ground.fillRect(0, 0, this.width, this.height);
     } else {
-      // What one sees of it is convex: the hull of its rim and of its outline against the eye.
+      // One sees what is inside its rim, and inside its outline against the eye.
       const [e0, e1, e2] = this.eye;
       const turns = Array.from({ length: 720 }, (_, i) => (i * Math.PI) / 360);
       const rim = turns.map((a) => {
@@ -350,11 +348,13 @@ class SectionView {
         .map((a) => side.map((value, i) => radius * (Math.cos(a) * value + Math.sin(a) * top[i])))
         .map(([dx, v, w]) => [dx, v * Math.sqrt(k), w])
         .filter(([, v, w]) => v + w >= 0);
-      const corners = hull([...rim, ...outline.map((point) => this.flat(...point))]);
-      corners.forEach(([left, up], n) => (n ? ground.lineTo(left, up) : ground.moveTo(left, up)));
+      for (const corners of [rim, outline.map((point) => this.flat(...point))]) {
+        ground.fillStyle = colours.surface;
+        ground.beginPath();
+        corners.forEach((corner) => ground.lineTo(...corner));
+        ground.fill();
+      }
     }
-    ground.fillStyle = colours.surface;
-    ground.fill();
     ground.restore();
   }
 
@@ -402,8 +402,6 @@ class SectionView {
     });
     ground.lineWidth = 1;
   }
-
-  // ---------------------------------------------------------------- impacts
 
   drawPoints() {
     this.inks?.fill(0);
@@ -494,8 +492,6 @@ class SectionView {
     }
   }
 
-  // ---------------------------------------------------------------- the section in colour
-
   /** The part of the section in sight, as ranges of p and q; null if there is none. */
   window() {
     const { left, top } = this.frame;
@@ -547,22 +543,15 @@ class SectionView {
   }
 
   /** The cell of a grid under each pixel of the map; beyond the last one outside the section. */
-  cellsOf(window, { size, inwards }) {
+  cellsOf(window, size) {
     const { table, wide, tall, cells } = this.shares(window);
-    const key = `${size}${inwards}`;
-    if (cells.has(key)) return cells.get(key);
-    const { p, q } = window;
-    const inside = (share, [low, high]) => share + Math.sign(low / (low - high) - share) / size;
-    const cell = (share, range) => {
-      const at = inwards ? inside(share, range) : share;
-      return Math.min(size - 1, Math.max(0, Math.floor(at * size)));
-    };
+    if (cells.has(size)) return cells.get(size);
     const found = Uint32Array.from({ length: wide * tall }, (_, i) => {
       const [across, up] = [table[2 * i], table[2 * i + 1]];
       if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return size * size;
-      return cell(up, q) * size + cell(across, p);
+      return Math.floor(up * size) * size + Math.floor(across * size);
     });
-    cells.set(key, found);
+    cells.set(size, found);
     return found;
   }
 
@@ -574,9 +563,8 @@ class SectionView {
     const { wide, tall } = this.shares(map.window);
     const image = new ImageData(wide, tall);
     const pixels = new Uint32Array(image.data.buffer);
-    for (const layer of map.layers(this.colours)) {
-      const cells = this.cellsOf(map.window, layer);
-      const { inks } = layer;
+    for (const { size, inks } of map.layers(this.colours)) {
+      const cells = this.cellsOf(map.window, size);
       for (let i = 0; i < pixels.length; i++) if (pixels[i] === 0) pixels[i] = inks[cells[i]];
     }
     const canvas = document.createElement("canvas");
@@ -584,8 +572,6 @@ class SectionView {
     canvas.getContext("2d").putImageData(image, 0, 0);
     this.map.drawImage(canvas, 0, 0, this.width, this.height);
   }
-
-  // ---------------------------------------------------------------- lines and cursors
 
   drawLines() {
     const { lines, colours, centre, radius, k } = this;
@@ -632,9 +618,7 @@ class SectionView {
   }
 
   /** The mark of a periodic orbit at a point of the screen. */
-  markAt([left, top]) {
-    return this.marks?.find(({ at }) => Math.hypot(at[0] - left, at[1] - top) < 9);
-  }
+  markAt([left, top]) { return this.marks?.find(({ at }) => Math.hypot(at[0] - left, at[1] - top) < 9); }
 
   /** The orbit with an impact near a point of the screen, a regular one rather than the sea. */
   orbitAt([left, top]) {
@@ -746,23 +730,6 @@ class SectionView {
     }
     cursors.restore();
   }
-}
-
-/** The corners of the convex hull of points, in order around it. */
-function hull(points) {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  const half = (list) => {
-    const chain = [];
-    for (const [x, y] of list) {
-      for (; chain.length > 1; chain.pop()) {
-        const [[ax, ay], [bx, by]] = chain.slice(-2);
-        if ((bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0) break;
-      }
-      chain.push([x, y]);
-    }
-    return chain.slice(0, -1);
-  };
-  return [...half(sorted), ...half(sorted.reverse())];
 }
 
 /** The point of a segment from `near` towards `away` at the edge of a square of half size `far`. */

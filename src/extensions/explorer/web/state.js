@@ -99,8 +99,6 @@ function inside(end, sign) {
 
 const COUNT = new Intl.NumberFormat("en");
 
-// ------------------------------------------------------------------ the address
-
 function writeAddress(state) {
   const { view } = state;
   const fields = new Map([
@@ -138,16 +136,12 @@ function writeOrbit({ p, q, xy, impacts, back, sea }) {
   return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
 }
 
-function writeNear({ p, q, period }) {
-  return `${p}:${q}*${period}`;
-}
+function writeNear({ p, q, period }) { return `${p}:${q}*${period}`; }
 
 const KIND_LETTERS = { near: "n", elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
 const LETTER_KINDS = Object.fromEntries(Object.entries(KIND_LETTERS).map(([a, b]) => [b, a]));
 
-function writeMotion({ period, type, nth }) {
-  return `${period}${KIND_LETTERS[type]}${nth}`;
-}
+function writeMotion({ period, type, nth }) { return `${period}${KIND_LETTERS[type]}${nth}`; }
 
 function writeBranch(branch) {
   const { saddle, kind, side, length } = branch;
@@ -261,4 +255,12 @@ function readAddress(text) {
   });
   if (state.chosen >= state.orbits.length) state.chosen = state.orbits.length - 1;
   return state;
+}
+
+/** What controls a part of the page's state. */
+class OfPage {
+  constructor(page) { this.page = page; }
+  get state() { return this.page.state; }
+
+  hint(text) { this.page.controls.hint(text); }
 }

@@ -1,4 +1,3 @@
-"use strict";
 /* A pen with what the section's drawing uses of a canvas's, which writes SVG. */
 class SvgPen {
   constructor() {
@@ -12,14 +11,8 @@ class SvgPen {
   setTransform() {}
   clearRect() {}
   beginPath() { this.path = ""; }
-
-  moveTo(left, top) {
-    this.path += `M${this.number(left)} ${this.number(top)}`;
-  }
-
-  lineTo(left, top) {
-    this.path += `${this.path ? "L" : "M"}${this.number(left)} ${this.number(top)}`;
-  }
+  moveTo(left, top) { this.path += `M${this.number(left)} ${this.number(top)}`; }
+  lineTo(left, top) { this.path += `${this.path ? "L" : "M"}${this.number(left)} ${this.number(top)}`; }
 
   rect(left, top, width, height) {
     const [x, y, w, h] = [left, top, width, height].map(this.number);
@@ -32,9 +25,7 @@ class SvgPen {
     this.path += `M${x} ${y}a${r} ${r} 0 1 1 ${2 * r} 0a${r} ${r} 0 1 1 ${-2 * r} 0z`;
   }
 
-  fill() {
-    if (this.path) this.parts.push(`<path d="${this.path}" fill="${this.fillStyle}"/>`);
-  }
+  fill() { if (this.path) this.parts.push(`<path d="${this.path}" fill="${this.fillStyle}"/>`); }
 
   stroke() {
     if (!this.path) return;
@@ -97,6 +88,4 @@ class SvgPen {
   }
 }
 
-function escaped(text) {
-  return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;");
-}
+function escaped(text) { return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;"); }

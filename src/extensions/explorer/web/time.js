@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The motion in time: a sequence of flights, eq. (26), the ball that flies, touches and flattens, and
  * the curves of Figures 3 and 4. x points downwards from where the undeformed ball touches the floor.
@@ -59,7 +58,6 @@ class PeriodicMotion {
   }
 
   get ends() { return [-Infinity, Infinity]; }
-
   get count() { return Infinity; }
 
   flight(j) {

@@ -1,15 +1,9 @@
-"use strict";
 /* The ball in time: play, steps, the second ball. */
-class TimeControls {
+class TimeControls extends OfPage {
   constructor(page) {
-    this.page = page;
-    element("span").append(...[8, 16, 30, 60, 120].map((span) => option(span, `${span} / ω`)));
+    super(page);
     this.listen();
     this.listenToCurves();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   listen() {
@@ -79,9 +73,7 @@ class TimeControls {
     else if (!allowed) element("twin").checked = this.state.twin > 0;
   }
 
-  showPlaying() {
-    element("play").textContent = this.page.playing ? "Pause" : "Play";
-  }
+  showPlaying() { element("play").textContent = this.page.playing ? "Pause" : "Play"; }
 
   /** Say where the motion is. */
   moment() {

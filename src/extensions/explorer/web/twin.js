@@ -1,4 +1,3 @@
-"use strict";
 /* A second ball, which starts close to the one that is shown in time, and the distance between them. */
 const TWIN_IMPACTS = { regular: 1000, chaotic: 200 }; // that are shown
 const GROWN = 0.02; // section radii apart, up to which the distance's growth is measured
@@ -55,22 +54,20 @@ class Twin {
   }
 
   draw(canvas) {
-    const { pen, width, height } = fitted(canvas);
-    const colours = readColours();
+    const { hues } = readColours();
     const { shown } = this;
-    const frame = { left: 62, top: 24, right: 26, bottom: 36 };
     const logs = shown.filter(([, apart]) => apart > 0).map(([n, apart]) => [n, Math.log10(apart)]);
     const values = logs.map(([, value]) => value);
     const up = logs.length ? [Math.min(...values) - 0.3, Math.max(...values) + 0.5] : [-6, 0];
-    const plot = new Plot(pen, { width, height, frame, colours, across: [0, Math.max(1, shown.length - 1)], up, decades: true });
+    const plot = Plot.on(canvas, { across: [0, Math.max(1, shown.length - 1)], up, decades: true });
     plot.axes("number of impacts", "distance in R");
-    plot.line(logs, colours.hues[0], 2);
+    plot.line(logs, hues[0], 2);
     const { verdict, exponent } = this.facts;
-    const key = [["measured", colours.hues[0]]];
+    const key = [["measured", hues[0]]];
     const law = (name, at) => {
       const line = shown.slice(1).map(([n]) => [n, Math.log10(at(n))]);
-      plot.line(line.filter(([, value]) => value < up[1]), colours.hues[1], 1.5);
-      key.push([name, colours.hues[1]]);
+      plot.line(line.filter(([, value]) => value < up[1]), hues[1], 1.5);
+      key.push([name, hues[1]]);
     };
     if (logs.length && verdict === "chaotic") law(`exponent ${shortNumber(exponent, 3)}`, (n) => this.page.state.twin * Math.exp(exponent * n));
     else if (logs.length && verdict === "regular") law("in proportion", (n) => (shown.at(-1)[1] * n) / (shown.length - 1));

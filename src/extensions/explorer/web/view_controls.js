@@ -1,14 +1,9 @@
-"use strict";
 /* How the section is seen: its shape, turn, place and size. */
-class ViewControls {
+class ViewControls extends OfPage {
   constructor(page) {
-    this.page = page;
+    super(page);
     this.box = element("section");
     this.listen();
-  }
-
-  get state() {
-    return this.page.state;
   }
 
   listen() {
@@ -130,7 +125,7 @@ class ViewControls {
     this.box.classList.toggle(name, on);
     element(name).setAttribute("aria-pressed", on);
     if (!on) this.page.controls.welcome();
-    else if (name === "pick") this.page.controls.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
-    else this.page.controls.hint("Drag a box on the section: it fills the view then.");
+    else if (name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
+    else this.hint("Drag a box on the section: it fills the view then.");
   }
 }

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The worker's side of the conversation with compute.js. Each message {id, job, ...} is answered by
  * {id, result} or {id, error}.
