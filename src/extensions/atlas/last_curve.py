@@ -16,8 +16,7 @@ import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
-from pseudorigid.dynamics.regularity import regular
-from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
+from pseudorigid.dynamics.rotation import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from pseudorigid.kernel import formulas
 from pseudorigid.kernel import impact as kernel

@@ -1,104 +1,105 @@
 """Errors and costs of methods that classify orbits as regular or chaotic.
 
-Cells are drawn over the whole plane of the atlas. The true verdict on an orbit follows from the
-growth of a tangent vector over LONG impacts; an orbit whose growth exceeds SURELY_CHAOTIC after
-EARLY impacts is chaotic and is followed no further. The methods are:
+Orbits are drawn on cells over the whole plane of the atlas, and in SETTINGS, where chaos is slow.
+The true verdict on an orbit follows from the growth of a tangent vector over LONG impacts; an orbit
+whose growth exceeds SURELY_CHAOTIC after EARLY impacts is chaotic and is followed no further. The
+methods are:
 
-    growth below 3            after a fixed number of impacts: an earlier rule of the sweeps
-    growth, best threshold    after a fixed number of impacts
+    growth, one threshold     GROWTH_THRESHOLD, after a fixed number of impacts
     SALI                      the smaller alignment index of two tangent vectors (Skokos, J. Phys. A
                               34, 2001); in two dimensions GALI_2 equals it up to a factor
+    MEGNO                     the mean exponential growth factor of nearby orbits, averaged (Cincotta
+                              and Simo, Astron. Astrophys. Suppl. 147, 2000)
     weighted Birkhoff average of the turns around the fixed point: the difference between the
                               winding numbers of the two halves (Das et al., Nonlinearity 30, 2017)
-    as soon as safe           `pseudorigid.dynamics.verdict`, with at most that many impacts
+    short form                `pseudorigid.dynamics.verdict`, with at most that many impacts
+    rule                      `pseudorigid.dynamics.regularity`, with at most that many impacts
 
-A best threshold gives the fewest wrong verdicts on the first set of cells; the second is unseen.
+The thresholds of SALI, MEGNO and the average give the fewest wrong verdicts on other cells of the
+plane.
 """
 
 import math
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from itertools import repeat
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from pseudorigid.dynamics import fixed_point
+from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import threads
-from pseudorigid.dynamics.variables import described, of_rows
-from pseudorigid.dynamics.verdict import classify_orbits, means, windows
-from pseudorigid.kernel.tangents import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent
+from pseudorigid.dynamics.regularity import LENGTHS, judged
+from pseudorigid.dynamics.variables import described
+from pseudorigid.dynamics.verdict import classify_orbits, windows
+from pseudorigid.kernel.arithmetic import log
+from pseudorigid.kernel.tangents import CENTRE, SIZE, VECTOR, begin, propagate_with_tangent, weight
 from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
-from .cell import AXES
 from .starts import sunflower_points
 
-LONG, EARLY = 400_000, 20_000  # impacts
+LONG, EARLY = 1_000_000, 64_000  # impacts
 SURELY_CHAOTIC = 10 * GROWTH_THRESHOLD  # a regular orbit's growth is about 0.85 at any length
-LENGTHS = (250, 500, 1000, 2000, 4000, 8000)  # impacts after which the methods decide
-# Name -> quantity of an orbit, and the threshold below which it is regular; None for the best one.
-METHODS = {
-    "growth below 3": ("growth", 3.0),
-    "growth, best threshold": ("growth", None),
-    "SALI (two vectors)": ("alignment", None),
-    "weighted Birkhoff average": ("unsettled", None),
-    "as soon as safe": ("safe", math.nan),
+_STRIDE = 25  # impacts between values of the logarithm of a tangent vector's length
+_PIECE = 256  # orbits that one thread follows at once
+# Name -> quantity of an orbit; the threshold below which it is regular, None for the best one; and
+# the time of an impact, in impacts of orbits without tangent vectors (`bench.py`).
+METHODS: dict[str, tuple[str, float | None, float]] = {
+    "growth, one threshold": ("growth", GROWTH_THRESHOLD, 1.7),
+    "SALI (two vectors)": ("alignment", None, 2.2),
+    "MEGNO": ("megno", None, 1.7),
+    "weighted Birkhoff average": ("unsettled", None, 1.3),
+    "short form": ("short form", math.nan, 2.0),
+    "rule": ("rule", math.nan, 2.0),
 }
-SETS = ("cells on which thresholds were chosen", "unseen cells")
+SETTINGS = {  # name -> k, E/g^2
+    "$E$ = 0.01 (Figure 2)": (0.2, 6.25),
+    "$E$ = 0.001 (Figure 8)": (0.2, 0.625),
+    "$k$ = 1/3, $E/g^2$ = 1.2": (1.0 / 3.0, 1.2),
+}
+SETS = ("the plane of the atlas", *SETTINGS)
 K, ENERGY = (0.012, 0.332), (0.1, 40.0)  # ranges of k and E/g^2
 
 Arrays = dict[str, np.ndarray]  # quantity -> its values on orbits, the last dim
 _EACH = ("set", "method", "length")
-_CELL = {
-    "k": (("set", "cell"), *AXES["k"]),
-    "energy": (("set", "cell"), *AXES["energy"]),
-    "regular": (("set", "cell"), "true share of regular orbits"),
-    "exponent": (("set", "cell"), "exponent of the sea from the impacts that all orbits share"),
-    "exponent_error": (("set", "cell"), "its standard error"),
-    "exponent_long": (("set", "cell"), "exponent of the sea from all impacts that were followed"),
-}
 
 
-def verdicts(cells: int = 36, orbits: int = 128) -> xr.Dataset:
-    """Compute errors and costs of the methods on `cells` random cells in each set.
+def verdicts(cells: int = 24, orbits: int = 128, each: int = 1024) -> xr.Dataset:
+    """Compute errors and costs of the methods, on (set, method, length).
 
-    The orbits of a cell start evenly over its section, as in a sweep. The dataset is on (set,
-    method, length) and (set, cell).
+    There are `orbits` of each of the `cells` of the plane, and `each` of each setting. They start
+    evenly over the section, as in a sweep.
     """
-    drawn = [cell for number in range(len(SETS)) for cell in random_cells(cells, number)]
+    pieces = list(_pieces(cells, orbits, each))
     with ThreadPoolExecutor(threads()) as pool:
-        results = pool.map(_cell, *zip(*drawn, strict=True), repeat(orbits))
-        quantities, rows = zip(*results, strict=True)
-    of_sets: Arrays = {}  # ([length,] set, orbit)
-    for name in quantities[0]:
-        values = np.concatenate([cell[name] for cell in quantities], axis=-1)
-        of_sets[name] = values.reshape(*values.shape[:-1], len(SETS), cells * orbits)
-    truth, thresholds, errors = of_sets["truth"], [], []
-    for quantity, fixed in METHODS.values():
-        values, threshold = of_sets[quantity], np.full(len(LENGTHS), fixed, float)
+        found = list(pool.map(lambda piece: _quantities(*piece[1:]), pieces))
+    of_orbit = np.repeat([piece[0] for piece in pieces], [len(piece[2][0]) for piece in pieces])
+    quantities = {name: np.concatenate([f[name] for f in found], axis=-1) for name in found[0]}
+    sets = [{n: v[..., of_orbit == i] for n, v in quantities.items()} for i in range(len(SETS) + 1)]
+    shares, thresholds = [], []
+    for quantity, fixed, time in METHODS.values():
+        threshold = np.full(len(LENGTHS), fixed, float)
         if fixed is None:
-            threshold[:] = [_best_threshold(first, truth[0]) for first, *_ in values]
-        regular = values < threshold[:, None, None]
-        cost = np.repeat(np.array(LENGTHS, float)[:, None], len(SETS), axis=1)
-        if quantity == "safe":
-            regular, cost = values, of_sets["followed"].mean(axis=-1)
-        shares = [(regular & ~truth).mean(axis=-1), (~regular & truth).mean(axis=-1)]
-        errors.append([*shares, cost])
+            threshold[:] = [_best_threshold(v, sets[0]["truth"]) for v in sets[0][quantity]]
         thresholds.append(threshold)
-    missed, alarms, cost = np.transpose(errors, (1, 3, 0, 2))
+        shares.append([_shares(one, quantity, threshold, time) for one in sets[1:]])
+    # (method, set, share, length)
+    missed, alarms, undecided, cost, times = np.transpose(shares, (2, 1, 0, 3))
     variables = {
-        "wrong": (_EACH, missed + alarms, "share of wrong verdicts"),
         "missed": (_EACH, missed, "chaotic orbits called regular, share of all"),
         "alarms": (_EACH, alarms, "regular orbits called chaotic, share of all"),
+        "undecided": (_EACH, undecided, "undecided orbits, share of all"),
         "cost": (_EACH, cost, "mean number of impacts of an orbit"),
+        "time": (_EACH, times, "mean time of an orbit, in impacts without tangent vectors"),
         "threshold": (_EACH[1:], thresholds, "regular is what lies below"),
+        "orbits": ("set", [one["truth"].size for one in sets[1:]], "number of orbits"),
+        "regular": ("set", [one["truth"].mean() for one in sets[1:]], "share of regular orbits"),
         "name": ("method", list(METHODS), "how an orbit is judged"),
-        "cells": ("set", SETS, "set of cells"),
-        "length": ("length", LENGTHS, "largest number of impacts"),
+        "place": ("set", SETS, "where the orbits lie"),
+        "length": ("length", np.array(LENGTHS), "largest number of impacts"),
     }
-    numbers = np.reshape(rows, (len(SETS), cells, len(_CELL)))
-    data = described(variables) | of_rows(_CELL, np.moveaxis(numbers, -1, 1))
-    return xr.Dataset(data, attrs={"orbits": orbits, "impacts_of_the_truth": LONG})
+    return xr.Dataset(described(variables), attrs={"impacts_of_the_truth": LONG})
 
 
 def random_cells(count: int, number: int) -> list[tuple[float, float]]:
@@ -116,54 +117,90 @@ def random_cells(count: int, number: int) -> list[tuple[float, float]]:
     return cells
 
 
-def _cell(k: float, e: float, count: int) -> tuple[Arrays, list[Any]]:
-    """Return quantities of a cell's orbits, and the values of _CELL.
+def _pieces(cells: int, orbits: int, each: int) -> Iterator[tuple[int, float, np.ndarray, float]]:
+    """Yield (set, k, states, E/g^2) of all orbits; set 0 has those on which thresholds are chosen."""
+    settings = [(2 + i, *setting, each) for i, setting in enumerate(SETTINGS.values())]
+    plane = [(i, *cell, orbits) for i in (0, 1) for cell in random_cells(cells, i)]
+    for number, k, e, count in (*settings, *plane):
+        states = np.stack(sunflower_points(k, e, count))
+        for first in range(0, count, _PIECE):
+            yield number, k, states[:, first : first + _PIECE], e
 
-    The quantities are those by which the methods decide, and the truth.
-    """
+
+def _shares(one: Arrays, quantity: str, threshold: np.ndarray, time: float) -> list[np.ndarray]:
+    """Return shares of wrong and undecided verdicts of a method at each length, and its cost."""
+    truth = one["truth"]
+    if quantity in ("short form", "rule"):
+        regular, chaotic = one[f"{quantity}, regular"], one[f"{quantity}, chaotic"]
+        cost = one[f"{quantity}, followed"].mean(axis=-1)
+    else:
+        regular = one[quantity] < threshold[:, None]
+        chaotic, cost = ~regular, np.array(LENGTHS, float)
+    wrong = (regular & ~truth).mean(axis=-1), (chaotic & truth).mean(axis=-1)
+    return [*wrong, (~regular & ~chaotic).mean(axis=-1), cost, time * cost]
+
+
+def _quantities(k: float, states: np.ndarray, e: float) -> Arrays:
+    """Return the quantities by which the methods decide on orbits, and the truth."""
     x, _, rotation = fixed_point.numbers(k, e)
-    states = np.stack(sunflower_points(k, e, count))
-    orbits = k, states, np.full(count, x), np.full(count, rotation)
-    safe = [classify_orbits(*orbits, length) for length in LENGTHS]
-    quantities, exponent_long = _growth_and_truth(*orbits)
-    quantities |= {
+    n, lengths = states.shape[1], np.array(LENGTHS)[:, None]
+    orbits = k, states, np.full(n, x), np.full(n, rotation)
+    short = [classify_orbits(*orbits, length) for length in LENGTHS]
+    types, _, followed = judged(Ball(k, 1.0), states)
+    regular = np.array([verdicts.regular for verdicts in short])
+    return _growth_and_truth(*orbits) | {
         "alignment": _alignment(*orbits),
-        "safe": np.array([verdicts.regular for verdicts in safe]),
-        "followed": np.array([verdicts.followed for verdicts in safe]),
+        "short form, regular": regular,
+        "short form, chaotic": ~regular,
+        "short form, followed": np.array([verdicts.followed for verdicts in short]),
+        "rule, regular": (types == "regular") & (followed <= lengths),
+        "rule, chaotic": (types == "chaotic") & (followed <= lengths),
+        "rule, followed": np.minimum(followed, lengths),
     }
-    truth, exponent = quantities["truth"], safe[-1].exponent
-    sea = ~truth & ~np.isnan(exponent)
-    row = [k, e, np.mean(truth), math.nan, math.nan, math.nan]
-    if np.count_nonzero(sea) > 1:
-        error = np.std(exponent[sea], ddof=1) / math.sqrt(np.count_nonzero(sea))
-        row[3:] = np.mean(exponent[sea]), error, np.mean(exponent_long[sea])
-    return quantities, row
 
 
 def _growth_and_truth(
     k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray
-) -> tuple[Arrays, np.ndarray]:
-    """Return growth and difference of winding numbers after each of LENGTHS, with the truth.
-
-    The exponents of the orbits come second.
-    """
-    turning, growing = windows((*LENGTHS, EARLY, LONG))
-    turning = turning[: 3 * len(LENGTHS)]
+) -> Arrays:
+    """Return growth, MEGNO and difference of winding numbers after each of LENGTHS, and the truth."""
+    turning, _ = windows(LENGTHS)
+    quarter = LONG // 4
+    growing = np.array([(quarter, quarter), (LONG - quarter, quarter)])
     orbits = begin(k, states, centre, expected)
-    turned = np.zeros((len(turning), centre.size))
-    sums = np.zeros((len(growing), centre.size))
-    propagate_with_tangent(orbits, k, 0, EARLY, turning, growing, turned, sums)
-    winding, growth = means(turning, growing, turned, sums)
-    exponent = orbits[SIZE] / EARLY
-    rest = ~(growth[-2] > SURELY_CHAOTIC)  # includes NaN, of orbits with a grazing impact
+    turned, sums = np.zeros((len(turning), centre.size)), np.zeros((2, centre.size))
+    sizes = np.empty((EARLY // _STRIDE, centre.size))
+    for i in range(len(sizes)):
+        ends = _STRIDE * i, _STRIDE * (i + 1)
+        propagate_with_tangent(orbits, k, *ends, turning, growing, turned, sums)
+        sizes[i] = orbits[SIZE]
+    weights = np.array([[weight(length)] for _, length in turning])
+    _, first, second = np.swapaxes((turned / weights).reshape(-1, 3, centre.size), 0, 1)
+    growth = np.array([_growth(sizes[: length // _STRIDE]) for length in LENGTHS])
+    megno = np.array([_megno(sizes[: length // _STRIDE]) for length in LENGTHS])
+    rest = ~(growth[-1] > SURELY_CHAOTIC)  # includes NaN, of orbits with a grazing impact
     truth = np.zeros(centre.size, bool)
     if rest.any():
         orbits, turned, sums = (np.compress(rest, a, 1) for a in (orbits, turned, sums))
         propagate_with_tangent(orbits, k, EARLY, LONG, turning, growing, turned, sums)
-        exponent[rest] = orbits[SIZE] / LONG
-        truth[rest] = means(turning, growing, turned, sums)[1][-1] < GROWTH_THRESHOLD
-    unsettled = np.array([np.abs(a - b) for _, a, b in winding])
-    return {"growth": growth[: len(LENGTHS)], "unsettled": unsettled, "truth": truth}, exponent
+        truth[rest] = (sums[1] - sums[0]) / quarter < GROWTH_THRESHOLD
+    return {"growth": growth, "megno": megno, "unsettled": abs(first - second), "truth": truth}
+
+
+def _growth(sizes: np.ndarray) -> Any:
+    """Return the growth from logarithms of a tangent vector's length (m, n)."""
+    quarter = len(sizes) // 4
+    return sizes[-quarter:].mean(axis=0) - sizes[quarter : 2 * quarter].mean(axis=0)
+
+
+def _megno(sizes: np.ndarray) -> Any:
+    """Return the averaged MEGNO, 2 on regular orbits, from G (m, n).
+
+    MEGNO is 2/t times the integral of s dG(s) over s from 0 to t, which is 2 G(t) less twice the
+    mean of G. Its mean over t up to T is 2/T times the integral of G(s) (1 - ln(T/s)).
+    """
+    m = len(sizes)
+    weights = np.array([1.0 - log(m / (i + 0.5)) for i in range(m)])
+    return 2.0 * (weights[:, None] * sizes).mean(axis=0)
 
 
 def _alignment(

@@ -14,7 +14,7 @@ from .ensemble import in_threads
 from .inputs import StateLike, not_allowed, state_of, whole_number
 from .orbits import start_state, start_variables
 from .regularity import orbit_types
-from .variables import TIME, described, final_exponents, orbit_dims
+from .variables import TIME, described, orbit_dims
 
 
 def lyapunov_spectrum(ball: Ball, state: StateLike, impacts: int, records: int = 400) -> xr.Dataset:
@@ -117,7 +117,6 @@ def scene_exponents(
         result = xr.concat(spectra, "orbit", join="outer").transpose("impact", "orbit", "index")
     else:
         result = lyapunov_spectrum(ball, tuple(states.T), counts[0], records)
-    largest = final_exponents(result).max(axis=1)
-    types = np.array(orbit_types(ball, states.T, counts, largest.tolist()))
+    types = np.array(orbit_types(ball, states.T))
     table = described({"type": ("orbit", types, "regular or chaotic")})
     return result.assign(start_variables(starts, states) | table)

@@ -100,7 +100,7 @@ def ragged_orbits(
     data = variables("point", np.concatenate(pieces, axis=1)) | start_variables(starts, states)
     data |= described({"row_size": ("orbit", np.array(impacts, np.int64), "number of impacts")})
     data["row_size"][2]["sample_dimension"] = "point"
-    types = np.array(orbit_types(ball, np.transpose(states), impacts), dtype=object)
+    types = np.array(orbit_types(ball, np.transpose(states)), dtype=object)
     for orbit, piece in enumerate(pieces):
         types[orbit] = types[orbit] if np.all(piece[1] + piece[2] > 0.0) else "undefined"
     data |= described({"type": ("orbit", types, "regular or chaotic")})

@@ -1,87 +1,104 @@
-"""The rule by which orbits are called regular, chaotic or undecided, and its criteria.
+"""The rule by which an orbit is called regular, chaotic or undecided, and two ways to its numbers.
 
 The length exp(G) of a tangent vector grows in proportion to the number of impacts n on a regular
-orbit, and like exp(lambda n), with a Lyapunov exponent lambda > 0, on a chaotic one.
+orbit, and like exp(lambda n), with a Lyapunov exponent lambda > 0, on a chaotic one. The *growth*
+of an orbit of n impacts is the mean of G over its last quarter less the mean of G over its second
+quarter: ln(7/3) = 0.85 on average on a regular orbit of any length, lambda n/2 on a chaotic one.
+The *winding number* is the weighted Birkhoff average of the turns around the symmetric fixed point
+(Das et al., Nonlinearity 30, 2017). On a regular orbit those of the two halves agree.
 
-The *growth* of an orbit of n impacts is the mean of G over its last quarter less the mean of G over
-its second quarter. It is ln(7/3) = 0.85 on average on a regular orbit of any length, and lambda n/2
-on a chaotic one. An orbit is chaotic if its growth is at least GROWTH_THRESHOLD.
-
-From exponents of whole orbits the growth cannot be computed. A second criterion serves for these:
-an orbit is chaotic if its largest exponent exceeds `regular_bound`.
-tests/dynamics/test_regularity.py checks that both criteria agree.
-
-No criterion decides early. A short orbit is followed for LEAST_IMPACTS. A slow one, such as one
-along the rim, has not met yet what makes it chaotic: no orbit is called regular before it has made
-one whole turn around the symmetric fixed point, and has been followed for as long again. An orbit
-that makes none within half of _MOST_IMPACTS and is not chaotic is undecided.
+An orbit is judged at each of LENGTHS, by what it did there and at the length before (`judge`).
+Chaotic orbits often stick to an island for thousands of impacts, where either number alone is that
+of a regular orbit. So the verdict "regular" needs both, at two lengths, of which none is below
+LEAST_REGULAR. An orbit that is still not decided at the last length is undecided. The verdict
+depends on the state alone. The page of the atlas shows how often it is wrong.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Generator
 from typing import Any
 
 import numpy as np
 
 from ..kernel.arithmetic import log
-from ..kernel.verdict import GROWTH_THRESHOLD
+from ..kernel.tangents import VECTOR, begin, bump, propagate_with_tangent, weight
 from . import fixed_point
 from .ball import Ball
+from .ensemble import in_threads
+from .verdict import windows
 
-LEAST_IMPACTS = 2000  # behind a verdict
-_MOST_IMPACTS = 64_000  # to which an orbit that makes no whole turn is followed
-_STRIDE = 10  # impacts
-_BLOCK = 2000  # strides whose states are in memory at once
-_IN_MEMORY = 1 << 18  # states, while turns are counted
+LENGTHS = tuple(500 << i for i in range(8))  # impacts, up to 64,000
+LEAST_REGULAR = 16_000  # impacts
+REGULAR_GROWTH, GROWTH_MARGIN = 0.85, 1.0
+GROWTH_CHANGE = 0.5  # from one length to the next, on a regular orbit
+HALVES_TOLERANCE = 1e-5  # turns an impact
+CHAOTIC_GROWTH = 6.0  # regular orbits reach 2.8 at most in the runs behind the atlas's page
+_LEAST_TURNS = 2.0  # of a regular orbit; one that makes less has not seen its surroundings
+# At first. On y = 0 a vector of the energy surface with dx = 0 runs along the curve of a regular
+# orbit, where it does not grow.
+_VECTOR = 1.0, 0.0, 0.0
+_STRIDE = 20  # impacts between values of G of an orbit that is followed alone
+_FEW = 100  # orbits that are faster one by one, as long as no loop in lanes is compiled
 _AT_CENTRE = 1e-12  # relative distance from the fixed point at which roundings decide the turns
+# Yields growth and winding numbers of the whole and of its halves (4, n) at each length, and takes
+# which of the orbits to follow further.
+_Numbers = Generator[np.ndarray, np.ndarray, None]
 
 
-def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
-    """Return which orbits are regular by their growth.
+def judge(length: int, before: np.ndarray, now: np.ndarray) -> np.ndarray:
+    """Return the words for orbits after `length` impacts: "undecided" until the rule is met.
 
-    `exponent` is that of `rotation.winding`: the growth divided by half the number of impacts.
+    `now` (4, n) has their growths, and the winding numbers of the whole orbits and of their first
+    and second halves; `before` has those after half as many impacts. A growth of NaN means that the
+    orbit grazes exactly, where the map has no derivative.
     """
-    return exponent * (0.5 * impacts) < GROWTH_THRESHOLD
+    growth, winding, first, second = np.swapaxes([before, now], 0, 1)
+    calm = (abs(growth - REGULAR_GROWTH) < GROWTH_MARGIN) & (abs(first - second) < HALVES_TOLERANCE)
+    regular = calm.all(axis=0) & (abs(growth[1] - growth[0]) < GROWTH_CHANGE)
+    regular &= abs(winding[1]) * length >= _LEAST_TURNS
+    cases = {
+        "undefined": np.isnan(growth[1]),
+        "chaotic": (growth > CHAOTIC_GROWTH).all(axis=0),
+        "regular": regular & (length >= 2 * LEAST_REGULAR),
+    }
+    return np.select([*cases.values()], [*cases], "undecided").astype(object)
 
 
-def regular_bound(length: int) -> float:
-    """Upper bound of a regular orbit's exponents over a whole orbit, 3 ln n/n.
-
-    ln n/n is the exponent of a tangent vector that grows exactly like n; the factor of 3 leaves
-    room for any other constant of proportionality.
-    """
-    return 3.0 * log(float(length)) / length
-
-
-def orbit_types(
-    ball: Ball, states: Any, impacts: Sequence[int], exponents: Sequence[float] = ()
-) -> list[str]:
-    """Return the type of each orbit of n states (3, n), of which `impacts` were computed.
+def orbit_types(ball: Ball, states: Any) -> list[str]:
+    """Return the type of each orbit of states (3, n) just before an impact.
 
     It is "regular", "chaotic", "undecided", or "undefined" for an orbit that grazes exactly.
-    `exponents` are the largest ones over these impacts, if they are known.
     """
-    ball, states = Ball(ball.k, ball.g), np.asarray(states, dtype=float)
-    orbits, centre, expected = around_fixed_point(ball, states)
-    types = []
-    for i, (state, run) in enumerate(zip(states.T, impacts, strict=True)):
-        known = bool(exponents) and run >= LEAST_IMPACTS  # by the bound
-        if known and exponents[i] > regular_bound(run):
-            types.append("chaotic")
-            continue
-        judged = min(run, _MOST_IMPACTS) if known else run
-        one = slice(i, i + 1)  # few orbits at once need no loop of their own compiled
-        found = first_turn(ball.k, orbits[:, one], centre[one], expected[one], _MOST_IMPACTS // 2)
-        needed = 2 * int(found[0])
-        length = max(judged, LEAST_IMPACTS, min(needed, _MOST_IMPACTS))
-        growth = _growth(ball, state, length) if state[1] + state[2] > 0.0 else math.nan
-        unturned = "regular" if needed <= length else "undecided"
-        word = unturned if growth < GROWTH_THRESHOLD else "chaotic"
-        types.append(word if math.isfinite(growth) else "undefined")
-    return types
+    return list(judged(ball, states, in_lanes=np.shape(states)[1] > _FEW)[0])
 
 
-@np.errstate(all="ignore")
+def judged(
+    ball: Ball, states: Any, impacts: int = LENGTHS[-1], in_lanes: bool = True
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return types, rotation numbers and numbers of impacts followed (n,) of orbits.
+
+    `states` (3, n) are just before an impact, and no orbit is followed for more than `impacts`.
+    Orbits advance in SIMD lanes on all cores, or one by one with the two functions of the ball by
+    which stages compute orbits and their periods, so that a drawing need not compile other loops.
+    """
+    x, centre, expected = around_fixed_point(ball, states)
+    n, lengths = len(centre), [length for length in LENGTHS if length <= impacts]
+    types, rotation = np.full(n, "undecided", object), np.full(n, math.nan)
+    columns = *x, centre, expected, types, rotation, np.zeros(n, np.int64)
+
+    def decide(*piece: np.ndarray) -> int:
+        numbers = _numbers_in_lanes if in_lanes else _numbers_alone
+        _decide(lengths, ball.k, numbers(lengths, ball.k, *piece[:5]), *piece)
+        return 0
+
+    if in_lanes:
+        in_threads(decide, lengths[-1], *columns)
+    else:
+        for i in range(n):
+            decide(*(column[i : i + 1] for column in columns))
+    return columns[-3:]
+
+
 def around_fixed_point(ball: Ball, states: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return orbits as `kernel.tangents.begin` takes them.
 
@@ -94,65 +111,93 @@ def around_fixed_point(ball: Ball, states: Any) -> tuple[np.ndarray, np.ndarray,
     return np.asarray(states) / ball.g, centre, expected
 
 
-def first_turn(
-    k: float, states: np.ndarray, centre: np.ndarray, expected: np.ndarray, most: int
-) -> np.ndarray:
-    """Return after how many impacts each orbit has made one whole turn (n,), most + 1 if later.
+@np.errstate(all="ignore")
+def _decide(
+    lengths: list[int], k: float, numbers: _Numbers, x: np.ndarray, v: np.ndarray, w: np.ndarray,
+    centre: np.ndarray, expected: np.ndarray, types: np.ndarray, rotation: np.ndarray,
+    followed: np.ndarray,
+) -> None:  # fmt: skip
+    """Follow orbits (n,) until they are decided, and write the last three arrays."""
+    # At the elliptic fixed point roundings decide the turns, and all of them are the expected one.
+    still = abs(x - centre) + abs(v - k * w) <= _AT_CENTRE * (abs(x) + abs(w))
+    turn = np.where(still, expected, math.nan)
+    at, before = np.arange(x.size), np.full((4, x.size), math.nan)
+    now = next(numbers)
+    for length in lengths:
+        now[0] = np.where(v[at] + w[at] > 0.0, now[0], math.nan)  # from the rim
+        now[1:] = np.where(np.isnan(turn[at]), now[1:], turn[at])
+        types[at] = judge(length, before, now)
+        regular = types[at] == "regular"
+        rotation[at[regular]], followed[at] = now[1, regular], length
+        going_on = types[at] == "undecided"
+        at, before = at[going_on], now[:, going_on]
+        if not at.size or length == lengths[-1]:
+            return
+        now = numbers.send(going_on)
 
-    Arguments are those of `kernel.tangents.begin`. A turn is counted within half a turn of the
-    expected one, to 0.01 turns. At the fixed point itself each impact makes the expected one.
-    """
+
+def _numbers_in_lanes(
+    lengths: list[int], k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray, centre: np.ndarray,
+    expected: np.ndarray,
+) -> _Numbers:  # fmt: skip
+    """Follow orbits in lanes; winding numbers below LEAST_REGULAR, which decide nothing, are NaN."""
+    turning, growing = windows(lengths)
+    short = sum(length < LEAST_REGULAR for length in lengths)
+    turning = turning[3 * short :]
+    orbits, start = begin(k, (x, v, w), centre, expected), 0
+    orbits[VECTOR : VECTOR + 3] = np.array(_VECTOR)[:, None]
+    turned, sums = np.zeros((len(turning), x.size)), np.zeros((len(growing), x.size))
+    for level, length in enumerate(lengths):
+        propagate_with_tangent(orbits, k, start, length, turning, growing, turned, sums)
+        numbers = np.full((4, orbits.shape[1]), math.nan)
+        numbers[0] = (sums[2 * level + 1] - sums[2 * level]) / (length // 4)
+        for i in range(3 if level >= short else 0):
+            row = 3 * (level - short) + i
+            numbers[1 + i] = turned[row] / weight(turning[row][1])
+        going_on, start = (yield numbers), length
+        # Indexing by a mask changes the order in memory, for which all kernels compile again.
+        orbits, turned, sums = (np.compress(going_on, a, 1) for a in (orbits, turned, sums))
+
+
+def _numbers_alone(
+    lengths: list[int], k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray, centre: np.ndarray,
+    expected: np.ndarray,
+) -> _Numbers:  # fmt: skip
+    """Follow one orbit. G is taken after each _STRIDE impacts."""
+    ball, state = Ball(k, 1.0), np.array([x[0], v[0], w[0]])
     expected = np.where(np.isnan(expected), 0.5, expected)
-    turned, found = np.zeros(len(centre)), np.full(len(centre), most + 1)
-    at, done, ball = np.arange(len(centre)), 0, Ball(k, 1.0)
-    while done < most and at.size:
-        count = min(max(64, done), 1 + _IN_MEMORY // at.size, most - done)
-        orbits = np.moveaxis(ball.history(states, count)[..., :3], -1, 0)
-        orbits = np.concatenate([states[:, :, None], orbits], axis=2)
-        turns = _turns(k, orbits, centre[at, None], expected[at, None])
-        so_far = turned[at, None] + np.cumsum(turns, axis=1)
-        whole = np.abs(so_far) >= 1.0
-        here = whole.any(axis=1)
-        found[at[here]] = done + 1 + np.argmax(whole[here], axis=1)
-        turned[at] = so_far[:, -1]
-        at, states, done = at[~here], orbits[:, ~here, -1], done + count
-    return found
-
-
-def _turns(k: float, orbits: np.ndarray, centre: np.ndarray, expected: np.ndarray) -> np.ndarray:
-    """Return the turns between successive states of orbits (3, n, m), clockwise."""
-    x, v, w = orbits
-    p, q = x - centre, (v - k * w) / np.sqrt(k * (1.0 + k))
-    size = np.abs(p) + np.abs(q)
-    away = size > _AT_CENTRE * (np.abs(x) + np.abs(w))
-    # In place of an angle, the way around the square |p| + |q| = 1: it needs no arcus tangent.
-    place = 0.25 * np.copysign(1.0 - p / np.where(away, size, np.inf), q)
-    turns = place[:, :-1] - place[:, 1:]
-    turns -= np.floor(turns - (expected - 0.5))
-    return np.where(away[:, :-1] & away[:, 1:], turns, expected)
-
-
-def _growth(ball: Ball, state: np.ndarray, impacts: int) -> float:
-    """Return the growth of the tangent vector (1, 0, 0) along the orbit of a state.
-
-    G is taken after each _STRIDE impacts. The two functions of the ball are those with which stages
-    compute orbits and their periods, so that a drawing need not compile another loop.
-    """
-    x, v, w, total = 1.0, 0.0, 0.0, 0.0
-    logarithms = np.empty(impacts // _STRIDE)
-    for first in range(0, logarithms.size, _BLOCK):
-        count = min(_BLOCK, logarithms.size - first)
-        orbit = ball.history(state, count * _STRIDE)[0, :, :3].T
-        before, state = orbit[:, ::_STRIDE], orbit[:, -1]
+    vector, total, start = _VECTOR, 0.0, 0
+    sizes, turns = np.empty(lengths[-1] // _STRIDE), np.empty(lengths[-1])
+    for length in lengths:
+        orbit = np.column_stack([state, ball.history(state, length - start)[0, :, :3].T])
+        turns[start:length] = _turns(k, orbit, centre, expected)
+        before, state = orbit[:, :-1:_STRIDE], orbit[:, -1]
         jacobians = ball.jacobian(before[0], before[1], before[2], _STRIDE).tolist()
-        for i, (of_x, of_v, of_w) in enumerate(jacobians, first):
-            x, v, w = _product(of_x, x, v, w), _product(of_v, x, v, w), _product(of_w, x, v, w)
-            length = abs(x) + abs(v) + abs(w)
-            x, v, w = x / length, v / length, w / length
-            total += log(length)
-            logarithms[i] = total
-    quarter = logarithms.size // 4
-    return float(np.mean(logarithms[-quarter:]) - np.mean(logarithms[quarter : 2 * quarter]))
+        for i, (of_x, of_v, of_w) in enumerate(jacobians, start // _STRIDE):
+            a, b, c = _product(of_x, *vector), _product(of_v, *vector), _product(of_w, *vector)
+            size = abs(a) + abs(b) + abs(c)
+            vector = a / size, b / size, c / size
+            total += log(size)
+            sizes[i] = total
+        end, start = length // _STRIDE, length
+        quarter, half = end // 4, length // 2
+        growth = np.mean(sizes[end - quarter : end]) - np.mean(sizes[quarter : 2 * quarter])
+        parts = turns[:length], turns[:half], turns[half:length]
+        sums = [np.sum(bump(np.arange(a.size), a.size) * a) / weight(a.size) for a in parts]
+        yield np.array([growth, *sums])[:, None]
+
+
+def _turns(k: float, orbit: np.ndarray, centre: np.ndarray, expected: np.ndarray) -> np.ndarray:
+    """Return the turns between successive states of an orbit (3, m), clockwise.
+
+    In place of an angle they are counted along the square |p| + |q| = 1: this needs no arcus
+    tangent, and changes no average over whole turns.
+    """
+    x, v, w = orbit
+    p, q = x - centre, (v - k * w) / math.sqrt(k * (1.0 + k))
+    place = 0.25 * np.copysign(1.0 - p / (abs(p) + abs(q)), q)
+    turns = place[:-1] - place[1:]
+    return np.asarray(turns - np.floor(turns - (expected - 0.5)))
 
 
 def _product(row: list[float], x: float, v: float, w: float) -> float:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..kernel.tangents import turns_and_growth
+from ..kernel.verdict import GROWTH_THRESHOLD
 from . import fixed_point
 from .ball import Ball
 
@@ -15,6 +16,15 @@ def symmetric_fixed_point(ball: Ball, energy: float) -> tuple[float, float]:
     centre, radius = Ball(ball.k, 1.0).section(e)
     x, _, rotation = fixed_point.numbers(ball.k, e)
     return (x - centre) / radius, rotation
+
+
+def regular(exponent: np.ndarray, impacts: int) -> np.ndarray:
+    """Return which orbits have the growth of regular ones, by one threshold.
+
+    `exponent` is that of `winding`, the growth divided by half the number of impacts. Along a line
+    of starts this finds the edges of islands. A chaotic orbit that sticks to an island may pass.
+    """
+    return exponent * (0.5 * impacts) < GROWTH_THRESHOLD
 
 
 def winding(

@@ -12,7 +12,6 @@ from extensions.claims.analyses.stretches import spread_of_runs, stretches
 from extensions.claims.ledger import chaos, lookup, model, periodic
 from extensions.claims.ledger.outcomes import CORRECTED, FALSE, HOLDS, PROVED, UNDECIDED
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics.regularity import regular_bound
 from pseudorigid.dynamics.variables import described
 
 ALL, NONE = defaultdict(lambda: True), defaultdict(bool)  # theorems that are proved
@@ -112,7 +111,7 @@ def test_each_orbit_enters_nearly_all_cells_at_the_end(least, verdict):
 )
 def test_each_exponent_of_a_regular_orbit_is_within_the_bound(sign, share, kind, verdict):
     exponents = np.zeros((2, 2, 3))
-    exponents[0], exponents[-1, 1, 2] = 9.0, sign * share * regular_bound(1 << 20)
+    exponents[0], exponents[-1, 1, 2] = 9.0, sign * share * chaos.regular_bound(1 << 20)
     spread = data("length island index", length=[1 << 19, 1 << 20], regular_exponent=exponents)
     spread["regular_type"] = "island", ["regular", kind]
     assert word(chaos.regular_exponents(spread)) == verdict
@@ -136,7 +135,7 @@ def test_orbits_differ_if_one_mean_is_off_by_more_than_its_own_chance():
 
 
 def test_each_chaotic_orbit_exceeds_a_hundred_times_the_bound():
-    bound = 100.0 * regular_bound(10_000_000)
+    bound = 100.0 * chaos.regular_bound(10_000_000)
     for share, verdict in ((1.1, HOLDS), (0.9, FALSE)):
         blocks = np.full((10_000, 3, 3), 2.0 * bound)
         blocks[:, 1] = share * bound

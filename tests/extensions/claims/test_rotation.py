@@ -8,7 +8,7 @@ from sections import BALL
 from extensions.claims.analyses import rotation
 from extensions.claims.ledger.chaos import discontinuous
 from pseudorigid import symmetric_orbits
-from pseudorigid.dynamics.regularity import regular
+from pseudorigid.dynamics.rotation import regular
 
 ENERGY = 0.01
 

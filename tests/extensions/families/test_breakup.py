@@ -11,8 +11,7 @@ from extensions.atlas.last_curve import OrbitSearch
 from extensions.claims.analyses.jumps import jumps
 from extensions.families.breakup import breakup, neighbour, noble_residue
 from pseudorigid import Ball, orbit
-from pseudorigid.dynamics.regularity import regular
-from pseudorigid.dynamics.rotation import symmetric_fixed_point, winding
+from pseudorigid.dynamics.rotation import regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import states_of
 
 BALL = Ball(0.2, 0.04)

@@ -6,8 +6,7 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.regularity import regular
-from pseudorigid.dynamics.rotation import LOCKED, symmetric_fixed_point, winding
+from pseudorigid.dynamics.rotation import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import ENERGY, RADIUS, Variables, described, variables
 
 _MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports

@@ -1,6 +1,6 @@
 """Lyapunov exponents of many orbits: how they spread, and how the spread falls with the length.
 
-Orbits start uniformly over the whole section, and their exponents decide which of them are chaotic.
+Orbits start uniformly over the whole section; `regularity` decides which of them are chaotic.
 The dataset holds means over blocks, from which means over longer stretches follow. So one run gives
 the long-run value, its error, and the distribution of the short runs that it consists of. If blocks
 were independent, the spread of runs would fall like the reciprocal square root of their length.
@@ -15,7 +15,7 @@ import xarray as xr
 from pseudorigid.dynamics import paper
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
-from pseudorigid.dynamics.regularity import orbit_types
+from pseudorigid.dynamics.regularity import judged
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
 
 from .sea import as_array, half_axes, section_points
@@ -49,8 +49,8 @@ def spread(
     count = np.arange(1, blocks + 1)[:, None, None]
     sums = so_far * count
     block = np.concatenate([sums[:1], sums[1:] - sums[:-1]])
-    types = orbit_types(ball, states, [length] * orbits, so_far[-1].max(axis=-1).tolist())
-    chaotic = np.array(types) == "chaotic"
+    types = judged(ball, states)[0]
+    chaotic = types == "chaotic"
     if not chaotic.any():
         raise ValueError(
             f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
@@ -59,8 +59,6 @@ def spread(
     lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
     islands = ball.start(starts, energy)
     calm = [lyapunov_spectrum(ball, islands, n, 1)["exponent"].values[0] for n in lengths]
-    counts, largest = [lengths[-1]] * starts.size, calm[-1].max(axis=-1).tolist()
-    types_of_regular = orbit_types(ball, islands, counts, largest)
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
         "type": ("orbit", types, "regular or chaotic"),
@@ -69,7 +67,7 @@ def spread(
         "length": ("length", lengths, "number of impacts"),
         "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), calm, "exponent of a regular orbit"),
-        "regular_type": ("island", types_of_regular, "regular or chaotic"),
+        "regular_type": ("island", judged(ball, islands)[0], "regular or chaotic"),
     }
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
     data |= spread_of_runs(block[:, chaotic], length // blocks)

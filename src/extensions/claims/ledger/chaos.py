@@ -7,8 +7,9 @@ import numpy as np
 import xarray as xr
 
 from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
-from pseudorigid.dynamics.regularity import regular, regular_bound
+from pseudorigid.dynamics.rotation import regular
 from pseudorigid.dynamics.variables import final_exponents
+from pseudorigid.kernel.arithmetic import log
 
 from ..analyses.stretches import in_sea, long_run, stretches
 from .lookup import enclosed, energy_of, entropy_bound, formula, regular_share
@@ -107,6 +108,15 @@ def independent_of_start(spread: xr.Dataset) -> Outcome:
     alike = furthest < MAX_STANDARD_ERRORS and means.min() > 0.0
     ends = {"least": means.min(), "most": means.max()}
     return outcome_of(alike, furthest=furthest, **ends, **_orbits(spread))
+
+
+def regular_bound(length: int) -> float:
+    """Return an upper bound of a regular orbit's exponents over a whole orbit, 3 ln n/n.
+
+    ln n/n is the exponent of a tangent vector that grows exactly like n; the factor of 3 leaves
+    room for any other constant of proportionality.
+    """
+    return 3.0 * log(float(length)) / length
 
 
 def chaotic_nature(spread: xr.Dataset, proved: Mapping[str, bool]) -> Outcome:

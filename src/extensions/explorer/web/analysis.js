@@ -7,9 +7,9 @@
  * The impacts come from the kernel, bit for bit; sums here may differ in the last digits.
  */
 const analysis = (() => {
-  const GROWTH_THRESHOLD = 2.2;
-  const FIRST_VERDICT = 500; // impacts below which an orbit gets no verdict
-  const LEAST_IMPACTS = 2000; // behind the verdict "regular"; a shorter orbit is followed further
+  // The rule of dynamics/regularity.py.
+  const LENGTHS = [500, 1000, 2000, 4000, 8000, 16000, 32000, 64000]; // impacts
+  const RULE = { regular: 0.85, margin: 1, change: 0.5, chaotic: 6, halves: 1e-5, turns: 2, least: 32000 };
   const BLOCKS = 65536; // of sums of an orbit; longer orbits have longer blocks
   const RESOLUTION = 20000; // cells of a symmetry line
   const SAME = 1e-9; // all lengths from here on in section radii
@@ -41,24 +41,13 @@ const analysis = (() => {
     constructor(k, g, energy, state) {
       this.k = k;
       this.start = [k, g, energy, state];
-      this.turned = 0; // turns around the fixed point
-      this.needed = Infinity; // impacts until one whole turn, and as many again
       this.orbit = pseudorigid.follow(k, g, ...state);
       this.impacts = 0;
-      this.turns = new Float64Array(1024); // sums over blocks, and those of `sizes`
-      this.sizes = new Float64Array(1024);
+      this.turns = new Float64Array(1024); // sums over blocks
       this.width = 1; // impacts of a block
       this.blocks = 0;
-      this.open = { impacts: 0, turn: 0, size: 0 }; // the block that is not complete
-      const fixed = geometry.fixedPoint(k, g, energy);
-      this.centre = fixed.x;
-      this.expected = Number.isNaN(fixed.rotation) ? 0.5 : fixed.rotation;
-      this.round = 1 / Math.sqrt(k * (1 + k)); // the section is a disk in (x, round * y)
-      this.last = this.relative(...state);
-    }
-
-    relative(x, v, w) {
-      return [x - this.centre, this.round * (v - this.k * w)];
+      this.open = { impacts: 0, turn: 0 }; // the block that is not complete
+      this.turnTo = turnCounter(k, g, energy, state);
     }
 
     /**
@@ -73,71 +62,86 @@ const analysis = (() => {
         impacts = end;
         this.refused = pseudorigid.TOO_LONG;
       }
-      const total = this.impacts + impacts;
-      let [p, q] = this.last;
-      for (let i = 0; i < impacts; i++) {
-        const [r, s] = this.relative(piece.x[i], piece.xdot[i], piece.udot[i]);
-        let turn = Math.atan2(q * r - p * s, p * r + q * s) / (2 * Math.PI);
-        if (turn < this.expected - 0.5) turn += 1;
-        else if (turn > this.expected + 0.5) turn -= 1;
-        this.add(turn, piece.size[i]);
-        // At the fixed point itself roundings decide the angle.
-        const near = Math.abs(r) + Math.abs(s) <= 1e-12 * (Math.abs(piece.x[i]) + Math.abs(piece.udot[i]));
-        this.turned += near ? this.expected : turn;
-        if (Math.abs(this.turned) >= 1) this.needed = Math.min(this.needed, 2 * (this.impacts + i + 1));
-        p = r;
-        q = s;
-      }
-      this.last = [p, q];
-      this.impacts = total;
+      for (let i = 0; i < impacts; i++) this.add(this.turnTo(piece.x[i], piece.xdot[i], piece.udot[i]));
+      this.impacts += impacts;
       return piece;
     }
 
     /** Add an impact to the sums over blocks, which become twice as long where there are too many. */
-    add(turn, size) {
+    add(turn) {
       const { open } = this;
       open.impacts += 1;
       open.turn += turn;
-      open.size += size;
       if (open.impacts < this.width) return;
-      if (this.blocks === this.turns.length) [this.turns, this.sizes] = [grown(this.turns), grown(this.sizes)];
+      if (this.blocks === this.turns.length) this.turns = grown(this.turns);
       this.turns[this.blocks] = open.turn;
-      this.sizes[this.blocks] = open.size;
       this.blocks += 1;
-      open.impacts = open.turn = open.size = 0;
+      open.impacts = open.turn = 0;
       if (this.blocks < BLOCKS) return;
       this.blocks /= 2;
       this.width *= 2;
-      for (const sums of [this.turns, this.sizes]) {
-        for (let i = 0; i < this.blocks; i++) sums[i] = sums[2 * i] + sums[2 * i + 1];
-      }
+      for (let i = 0; i < this.blocks; i++) this.turns[i] = this.turns[2 * i] + this.turns[2 * i + 1];
     }
 
-    /** The type of the orbit as in Python, or "" for one that is too short or stops. */
-    verdict(growth) {
-      if (this.impacts < FIRST_VERDICT || this.refused) return "";
-      if (Number.isNaN(growth)) return "undefined"; // it grazes exactly
-      if (growth >= GROWTH_THRESHOLD) return "chaotic";
-      if (this.impacts >= LEAST_IMPACTS) return this.impacts >= this.needed ? "regular" : "undecided";
-      if (!this.further) {
-        this.further = new Follower(...this.start);
-        this.further.advance(LEAST_IMPACTS);
-      }
-      return this.further.facts().verdict;
-    }
-
-    /** Exponent, rotation number and verdict after all impacts so far. */
+    /** Exponent and rotation number after all impacts so far, and the verdict; "" if it stops. */
     facts() {
-      const growth = growthOf(this.sizes, this.blocks) / this.width;
-      const verdict = this.verdict(growth);
+      this.verdict ??= typeOf(...this.start);
       return {
         impacts: this.impacts,
         exponent: this.orbit.exponent(),
-        rotation: weightedMean(this.turns, this.blocks) / this.width,
-        growth,
-        verdict,
+        rotation: weightedMean(this.turns, 0, this.blocks) / this.width,
+        verdict: this.refused ? "" : this.verdict,
       };
     }
+  }
+
+  /** A function that returns the turn around the fixed point from the state before to the next one. */
+  function turnCounter(k, g, energy, state) {
+    const fixed = geometry.fixedPoint(k, g, energy);
+    const expected = Number.isNaN(fixed.rotation) ? 0.5 : fixed.rotation;
+    const round = 1 / Math.sqrt(k * (1 + k)); // the section is a disk in (x, round * y)
+    const relative = (x, v, w) => [x - fixed.x, round * (v - k * w)];
+    let [p, q] = relative(...state);
+    return (x, v, w) => {
+      const [r, s] = relative(x, v, w);
+      let turn = Math.atan2(q * r - p * s, p * r + q * s) / (2 * Math.PI);
+      if (turn < expected - 0.5) turn += 1;
+      else if (turn > expected + 0.5) turn -= 1;
+      [p, q] = [r, s];
+      return turn;
+    };
+  }
+
+  /** The verdict on the orbit of a state, which depends on the state alone: `judged` of Python. */
+  function typeOf(k, g, energy, state) {
+    const [x, v, w] = state;
+    const fixed = geometry.fixedPoint(k, g, energy);
+    const near = Math.abs(x - fixed.x) + Math.abs(v - k * w) <= 1e-12 * (Math.abs(x) + Math.abs(w));
+    const still = near && !Number.isNaN(fixed.rotation); // roundings decide the turns
+    const turnTo = turnCounter(k, g, energy, state);
+    const turns = new Float64Array(LENGTHS.at(-1));
+    const sizes = new Float64Array(LENGTHS.at(-1));
+    const follower = pseudorigid.follow(k, g, ...state);
+    follower.orbit.set([1, 0, 0], 3); // the tangent vector, which is not along a curve on y = 0
+    let before = { growth: NaN };
+    for (const length of LENGTHS) {
+      const start = follower.impacts;
+      const piece = follower.advance(length - start);
+      sizes.set(piece.size, start);
+      for (let i = start; i < length; i++) {
+        turns[i] = turnTo(piece.x[i - start], piece.xdot[i - start], piece.udot[i - start]);
+      }
+      const means = [[0, length], [0, length / 2], [length / 2, length]].map((ends) => weightedMean(turns, ...ends));
+      const [winding, first, second] = still ? [fixed.rotation, 0, 0] : means;
+      const now = { growth: growthOf(sizes, length), winding, apart: Math.abs(first - second) };
+      if (Number.isNaN(now.growth)) return "undefined"; // it grazes exactly
+      if (Math.min(before.growth, now.growth) > RULE.chaotic) return "chaotic";
+      const calm = ({ growth, apart }) => Math.abs(growth - RULE.regular) < RULE.margin && apart < RULE.halves;
+      const lasting = Math.abs(now.growth - before.growth) < RULE.change && Math.abs(winding) * length >= RULE.turns;
+      if (length >= RULE.least && calm(before) && calm(now) && lasting) return "regular";
+      before = now;
+    }
+    return "undecided";
   }
 
   function grown(array) {
@@ -146,21 +150,20 @@ const analysis = (() => {
     return larger;
   }
 
-  /** The growth of a tangent vector, by which dynamics/regularity.py classifies orbits. */
+  /** The growth of a tangent vector over n impacts, by which dynamics/regularity.py classifies orbits. */
   function growthOf(sizes, n) {
     const quarter = Math.floor(n / 4);
-    if (!quarter) return NaN;
     let difference = 0;
     for (let i = 0; i < quarter; i++) difference += sizes[n - quarter + i] - sizes[quarter + i];
-    return ((difference / quarter) * 0.5 * n) / (n - 2 * quarter);
+    return difference / quarter;
   }
 
-  /** A weighted Birkhoff average with the weights (t (1 - t))^3. */
-  function weightedMean(values, n) {
+  /** A weighted Birkhoff average with the weights (t (1 - t))^3 of values from `start` to `stop`. */
+  function weightedMean(values, start, stop) {
     let sum = 0;
     let weights = 0;
-    for (let i = 0; i < n; i++) {
-      const t = (i + 0.5) / n;
+    for (let i = start; i < stop; i++) {
+      const t = (i - start + 0.5) / (stop - start);
       const bump = (t * (1 - t)) ** 3;
       sum += bump * values[i];
       weights += bump;

@@ -1,6 +1,7 @@
 /*
  * Many orbits in the worker: those of the pixels of a section in colour, and those that fill a window.
- * The first follow the kernel in SIMD lanes, with the rule of dynamics/regularity.py for verdicts.
+ * The first follow the kernel in SIMD lanes. Their verdicts are a short form of the rule of
+ * dynamics/regularity.py: most end after 2,000 impacts, where chaotic orbits may still look regular.
  */
 const VERDICTS = ["", "regular", "chaotic", "undecided", "undefined"];
 const crowd = (() => {
@@ -120,7 +121,7 @@ const crowd = (() => {
         follower.impacts < (points.x.length > PROMISING ? LONGEST : TRIED);
       while (goesOn()) {
         collect(follower.advance(PIECE));
-        facts = follower.facts(); // it may turn out to be chaotic
+        facts = follower.facts();
       }
       const { verdict, rotation, exponent } = facts;
       return {
