@@ -29,7 +29,8 @@ function surface(scene) {
 function inTime(scene, scenes) {
   const { period, type, duration, ball, energy } = scene;
   const portrait = Object.values(scenes).find(
-    (other) => other.picture === "portrait" && other.ball.k === ball.k && other.ball.g === ball.g && other.energy === energy,
+    (other) => other.picture === "portrait" && other.ball.k === ball.k
+      && other.ball.g === ball.g && other.energy === energy,
   );
   const orbits = portrait ? orbitsOf(portrait).filter((orbit) => !orbit.sea) : [];
   return { orbits, motion: { period, type, nth: 0 }, periods: [period], span: duration };

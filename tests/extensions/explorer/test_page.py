@@ -92,7 +92,7 @@ def test_the_wheel_zooms_without_limit_at_the_pointer(person):
 
 def test_one_finger_turns_the_surface_and_the_page_stays(phone):
     def touch(kind, *points):
-        at = [{"x": 195 + x, "y": 200 + y} for x, y in points]
+        at = [{"x": 195 + x, "y": 250 + y} for x, y in points]
         command = {"type": kind, "touchPoints": at}
         phone.driver.execute_cdp_cmd("Input.dispatchTouchEvent", command)
 
@@ -100,7 +100,7 @@ def test_one_finger_turns_the_surface_and_the_page_stays(phone):
         """Return how far the page scrolled, and the view."""
         touch("touchStart", (60, 100))
         for step in range(1, 9):
-            touch("touchMove", (60 - 5 * step, 100 - 15 * step))
+            touch("touchMove", (-60 + 5 * step, 100 - 15 * step))
         touch("touchEnd")
         return phone.run("return window.scrollY"), phone.view()
 
@@ -128,6 +128,7 @@ def test_the_keyboard_does_everything(person):
     assert len(person.settled()) == 13
     box.send_keys(Keys.SPACE)
     wait_for(lambda: person.text("play") == "Play")
+    person.press("tab-time")
     curves = person.find("curves")
     now = float(person.state()["t"])
     curves.send_keys(Keys.ARROW_RIGHT)

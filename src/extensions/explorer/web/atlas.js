@@ -61,7 +61,8 @@ class AtlasView {
     const { k, energy, bytes, steps } = this.atlas;
     const logs = energy.map(Math.log10);
     const frame = { left: 48, top: 24, right: 12, bottom: 38 };
-    const plot = new Plot(pen, { width, height, frame, colours, across: [logs[0], logs.at(-1)], up: [k[0], k.at(-1)] });
+    const plot =
+      new Plot(pen, { width, height, frame, colours, across: [logs[0], logs.at(-1)], up: [k[0], k.at(-1)] });
     const image = new OffscreenCanvas(energy.length, k.length);
     const paper = image.getContext("2d");
     const cells = paper.createImageData(energy.length, k.length);
@@ -79,7 +80,8 @@ class AtlasView {
       write(pen, value, left - 6, plot.at([logs[0], value])[1], colours.muted, "right", "middle");
     }
     for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
-      write(pen, value, plot.at([Math.log10(value), k[0]])[0], top + plot.size[1] + 5, colours.muted, "center");
+      write(pen, value, plot.at([Math.log10(value), k[0]])[0],
+        top + plot.size[1] + 5, colours.muted, "center");
     }
     write(pen, "k", 4, 3, colours.ink);
     write(pen, "E/g²", width - frame.right, height - 2, colours.ink, "right", "bottom");
@@ -111,7 +113,8 @@ class AtlasView {
     };
     const byte = bytes[nearest(k, point[1]) * energy.length + nearest(energy.map(Math.log10), point[0])];
     const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
-    setText("atlas-note", `k = ${shortNumber(point[1], 3)}, E/g² = ${shortNumber(10 ** point[0], 3)}: regular share ${share}`);
+    setText("atlas-note",
+      `k = ${shortNumber(point[1], 3)}, E/g² = ${shortNumber(10 ** point[0], 3)}: regular share ${share}`);
   }
 
   /** Draw a few short orbits of a ball as points of the disk; g changes the scale only. */

@@ -82,7 +82,8 @@ class Plot {
         : ticksAround(middle, high - low, room / (index ? 34 : 70));
       const { offsets, labels } = ticks;
       offsets.forEach((offset, i) => {
-        const [left, top] = this.at(index ? [this.across[0], middle + offset] : [middle + offset, this.up[0]]);
+        const [left, top] =
+          this.at(index ? [this.across[0], middle + offset] : [middle + offset, this.up[0]]);
         strokePath(pen, colours.line, 1, () => {
           pen.moveTo(left, top);
           if (index) pen.lineTo(left + size[0], top);
@@ -159,17 +160,20 @@ function decadesAround(low, high, most) {
   }
   const shown = ticks.filter((value) => Math.log10(value) >= low && Math.log10(value) <= high);
   const offsets = shown.map((value) => Math.log10(value) - 0.5 * (low + high));
-  return { offsets, labels: shown.map((value) => (value < 0.001 ? value.toExponential(0).replaceAll("-", "−") : COUNT.format(value))) };
+  return { offsets, labels: shown.map((value) =>
+    (value < 0.001 ? value.toExponential(0).replaceAll("-", "−") : COUNT.format(value))) };
 }
 
 /** Exponents so far against the logarithm of the number of impacts; Figure 7 has the number. */
 function drawExponents(canvas, orbits, cursor) {
   const shown = orbits.filter((orbit) => orbit.history.length > 1);
   const late = (orbit) => orbit.history.filter(([impacts]) => impacts >= 10);
-  const values = shown.flatMap((orbit) => late(orbit).map(([, exponent]) => exponent)).filter(Number.isFinite);
+  const values =
+    shown.flatMap((orbit) => late(orbit).map(([, exponent]) => exponent)).filter(Number.isFinite);
   const most = Math.max(1000, ...shown.map((orbit) => orbit.count));
   const top = Math.min(1, Math.max(0.1, ...values));
-  const plot = Plot.on(canvas, { across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true });
+  const plot =
+    Plot.on(canvas, { across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true });
   plot.axes("number of impacts", "largest exponent so far");
   const order = [...shown].sort((a, b) => b.isSea() - a.isSea());
   for (const orbit of order) {
@@ -181,7 +185,8 @@ function drawExponents(canvas, orbits, cursor) {
 
 /** Rotation numbers against the starts along y = 0, as in the picture `rotation`. */
 function drawRotations(canvas, orbits) {
-  const shown = orbits.filter((orbit) => orbit.facts && orbit.q === 0 && Number.isFinite(orbit.facts.rotation));
+  const shown =
+    orbits.filter((orbit) => orbit.facts && orbit.q === 0 && Number.isFinite(orbit.facts.rotation));
   const starts = shown.map((orbit) => orbit.p);
   const values = shown.map((orbit) => orbit.facts.rotation);
   const range = (list, least) => {
@@ -192,5 +197,6 @@ function drawRotations(canvas, orbits) {
   };
   const plot = Plot.on(canvas, { across: range(starts, 0.01), up: range(values, 1e-4) });
   plot.axes("start along y = 0, section radii", "rotation number");
-  shown.forEach((orbit, i) => plot.dot([starts[i], values[i]], orbit.colour(plot.colours), orbit.chosen ? 6 : 3.5));
+  shown.forEach((orbit, i) =>
+    plot.dot([starts[i], values[i]], orbit.colour(plot.colours), orbit.chosen ? 6 : 3.5));
 }

@@ -9,7 +9,7 @@ const EXPONENTS = [0.005, 0.5]; // the ends of the scale
 const RIM = 0.9995; // section radii from the middle, beyond which no cell has its orbit
 const QUIET_GROWTH = 1.8; // after 200 impacts: below, a preview calls an orbit regular
 const LOW_ENERGY = 2; // g^2
-const WRONG = { low: "?", high: "?" }; // per cent of starts, below and above, see README.md
+const WRONG = { low: 1.3, high: 0.3 }; // per cent of starts, below and above, see README.md
 const PAUSE = 200; // ms of a drag or film without a change, after which finer grids are computed
 
 /** What the legend says of the verdicts of cells: the rule, and how often it is wrong. */
@@ -50,7 +50,8 @@ class Grid {
   /** The colours of all cells, 0 where nothing is known or decided. */
   inks(by, range, colours) {
     const ramp = Uint32Array.from({ length: 256 }, (_, i) => packed(mixed(colours.ramp, i / 255)));
-    const verdicts = Uint32Array.from(["surface", "regular", "chaotic", "undecided", "undecided"], (name) => packed(colours[name]));
+    const verdicts = Uint32Array.from(["surface", "regular", "chaotic", "undecided", "undecided"],
+      (name) => packed(colours[name]));
     const sea = packed(colours.sea);
     const low = by === "exponent" ? Math.log(range[0]) : range[0];
     const scale = 255 / ((by === "exponent" ? Math.log(range[1]) : range[1]) - low);
@@ -109,7 +110,8 @@ class Colouring {
     const grids = GRIDS[map].map((size) => new Grid(size));
     const mirrored = window.q[0] === -window.q[1];
     const chunks = this.chunks(grids[0].size, window, mirrored);
-    const first = await Promise.all(chunks.map((chunk) => this.page.pool.ask("pixels", { ...ball, ...chunk })));
+    const first =
+      await Promise.all(chunks.map((chunk) => this.page.pool.ask("pixels", { ...ball, ...chunk })));
     this.computing = false;
     if (this.page.state.map === map) {
       for (const result of first) grids[0].take(result, mirrored);
@@ -187,7 +189,8 @@ class Colouring {
     if (!this.window || this.by === "verdict") return null;
     if (this.by === "exponent") return EXPONENTS;
     const grid = this.grids[0];
-    const values = [...grid.rotation].filter((_, cell) => grid.known[cell] && grid.turns(cell)).sort((a, b) => a - b);
+    const values =
+      [...grid.rotation].filter((_, cell) => grid.known[cell] && grid.turns(cell)).sort((a, b) => a - b);
     if (!values.length) return [0, 1];
     const [low, high] = [0.02, 0.98].map((share) => values[Math.floor(share * (values.length - 1))]);
     return [low, Math.max(high, low + 1e-6)];

@@ -23,7 +23,8 @@ class Controls extends OfPage {
     element("preset").append(option("", "My own"), ...this.menu());
     const { version, citation } = this.page.data;
     element("version").textContent = version;
-    element("cite").textContent = `To cite this page: ${citation.software} To cite the paper: ${citation.paper}`;
+    element("cite").textContent =
+      `To cite this page: ${citation.software} To cite the paper: ${citation.paper}`;
     for (const [id, link] of Object.entries(citation.links)) {
       Object.assign(element(id), { href: link, hidden: false });
     }
@@ -114,8 +115,9 @@ class Controls extends OfPage {
     const touch = window.matchMedia("(pointer: coarse)").matches;
     const { state } = this;
     if (state.tour || state.lesson) this.hint(""); // the guide says what to do
-    else if (state.motion) this.hint("What happens between two impacts? Press Play, or step from one to the next.");
-    else this.hint(`Where must the ball start so that its impacts scatter? ${touch ? "Tap" : "Click"} the section to try.`);
+    else if (state.motion)
+      this.hint("What happens between two impacts? Press Play, or step from one to the next.");
+    else this.hint(`${touch ? "Tap" : "Click"} the section: which starts draw a curve, and which scatter?`);
   }
 
   listen() {
@@ -124,7 +126,8 @@ class Controls extends OfPage {
       const turn = () => element(id).value && this.turnTo(presetState(element(id).value, page.data.scenes));
       on(id, "change", turn);
     }
-    on("theme", "click", () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+    on("theme", "click",
+      () => this.theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
     on("large", "click", () => this.type(document.documentElement.dataset.type !== "large"));
     const refused = () => this.hint("This browser does not allow the full screen.");
     on("whole-screen", "click", () => document.documentElement.requestFullscreen().catch(refused));
@@ -307,7 +310,8 @@ function node(tag, properties = {}, ...children) {
 function option(value, text) { return node("option", { value, textContent: text }); }
 
 function button(text, label, act) {
-  const properties = { type: "button", className: "tight", textContent: text, title: label, ariaLabel: label };
+  const properties =
+    { type: "button", className: "tight", textContent: text, title: label, ariaLabel: label };
   const made = node("button", properties);
   made.addEventListener("click", act);
   return made;

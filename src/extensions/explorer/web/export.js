@@ -38,7 +38,8 @@ function sceneBlock(kind, { state, orbits, periodic, section }) {
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
     const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
     if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
-    if (shown.length < orbits.length) notes.push("A scene has no backward orbits and none that stop early: they are left out.");
+    if (shown.length < orbits.length)
+      notes.push("A scene has no backward orbits and none that stop early: they are left out.");
   }
   if (kind === "portrait" || kind === "tangle") {
     const { elevation, azimuth } = view;
@@ -118,7 +119,8 @@ function windowLines({ k, g, energy }, periodic, section, period, type) {
   const distances = orbit.points.map((point) => Math.hypot(point[0] - x, point[1] - v));
   const point = distances.indexOf(Math.min(...distances));
   const [across, up] = [0, 1].map((i) => states.map((state) => (state[i] - orbit.points[point][i]) / radius));
-  const range = (values) => `[${yamlNumber(Number(Math.min(...values).toPrecision(6)))}, ${yamlNumber(Number(Math.max(...values).toPrecision(6)))}]`;
+  const end = (value) => yamlNumber(Number(value.toPrecision(6)));
+  const range = (values) => `[${end(Math.min(...values))}, ${end(Math.max(...values))}]`;
   return [`point: ${point}`, `window: {x: ${range(across)}, xdot: ${range(up)}}`];
 }
 

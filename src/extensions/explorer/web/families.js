@@ -7,7 +7,8 @@ class Families {
 
   get shown() {
     const { k, g } = this.page.state;
-    return [...this.found.values()].filter((family) => family.k === k && family.g === g && family.samples.length);
+    return [...this.found.values()].filter((family) => family.k === k
+      && family.g === g && family.samples.length);
   }
 
   /** Follow the orbits on the section that are not followed yet, if the diagram is shown. */
@@ -31,11 +32,13 @@ class Families {
     const { state } = this.page;
     const samples = this.shown.flatMap((family) => family.samples);
     const energies = samples.map(({ energy }) => energy);
-    const across = energies.length ? [Math.min(...energies, state.energy), Math.max(...energies, state.energy)] : geometry.energyBounds(state.k, state.g);
+    const across = energies.length ? [Math.min(...energies, state.energy),
+      Math.max(...energies, state.energy)] : geometry.energyBounds(state.k, state.g);
     this.plot = Plot.on(canvas, { across, up: [-1, 1] });
     this.plot.axes("E", "place x in section radii");
     for (const { energy, trace, places } of samples) {
-      for (const [p] of places) this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.elliptic : colours.hyperbolic, 1.2);
+      for (const [p] of places)
+        this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.elliptic : colours.hyperbolic, 1.2);
     }
     this.plot.vertical(state.energy, colours.focus);
     this.plot.key([["elliptic", colours.elliptic], ["hyperbolic", colours.hyperbolic]]);
@@ -61,7 +64,8 @@ class Families {
     const { page } = this;
     const { k, g, periods } = page.state;
     page.mark();
-    Object.assign(page.state, { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
+    Object.assign(page.state,
+      { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
     page.controls.ball.editing = true; // one entry of the history
     page.controls.ball.takeBall({ k, g, E: energy });
     page.controls.refresh();

@@ -64,7 +64,8 @@ class Filling {
     const high = geometry.pointAt(k, g, energy, window.p[1], window.q[1]);
     const range = { x: [low.x, high.x], y: [low.y, high.y] };
     const met = new Uint8Array(CELLS * CELLS);
-    const share = (value, [from, to]) => Math.min(CELLS - 1, Math.floor((CELLS * (value - from)) / (to - from)));
+    const share =
+      (value, [from, to]) => Math.min(CELLS - 1, Math.floor((CELLS * (value - from)) / (to - from)));
     let points = 0;
     let next = 0;
     while (points < MOST_POINTS) {
@@ -72,7 +73,8 @@ class Filling {
       for (; next < STARTS && places.length < SEEDS; next++) {
         const [across, up] = SPREAD.map((step) => (0.5 + next * step) % 1);
         const cell = Math.floor(up * CELLS) * CELLS + Math.floor(across * CELLS);
-        const [p, q] = [[across, window.p], [up, window.q]].map(([part, [from, to]]) => from + part * (to - from));
+        const [p, q] =
+          [[across, window.p], [up, window.q]].map(([part, [from, to]]) => from + part * (to - from));
         if (!met[cell] && geometry.stateAt(k, g, energy, { p, q })) places.push([p, q]);
       }
       const count = this.orbits.length;

@@ -46,17 +46,20 @@ class Explorer {
     const lines = [...this.branchLines, ...this.jumpLines];
     const asks = this.state.lesson && !this.state.revealed; // which start is which
     const starts = this.orbits.flatMap(({ start }, i) => (asks && start ? [[String(i + 1), start]] : []));
-    const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) => (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
+    const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) =>
+      (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
     const map = this.colouring.window ? this.colouring : null;
     const filling = this.filling.orbits;
     return {
-      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks, starts }, cursors,
+      state: this.state, orbits: this.orbits, filling, map,
+        scale: this.scale(), overlays: { lines, marks, starts }, cursors,
     };
   }
 
   /** The periodic orbits on the section, each with what names it in the state. */
   shownPeriodic() {
-    const near = this.state.near.map((spec, nth) => ({ orbit: this.found.get(writeNear(spec)), one: { period: 0, type: "near", nth } }));
+    const near = this.state.near.map((spec, nth) =>
+      ({ orbit: this.found.get(writeNear(spec)), one: { period: 0, type: "near", nth } }));
     const symmetric = this.state.periods.flatMap((period) => {
       const seen = {};
       return (this.periodic.get(period) ?? []).map((orbit) => {
@@ -76,7 +79,8 @@ class Explorer {
     const { colour } = this.state;
     if (!["rotation", "exponent"].includes(colour)) return null;
     const found = this.range();
-    return Number.isFinite(found[0]) ? { name: colour === "exponent" ? "exponent so far" : names[colour], range: found } : null;
+    return Number.isFinite(found[0])
+      ? { name: colour === "exponent" ? "exponent so far" : names[colour], range: found } : null;
   }
 
   /** The range of what colours the orbits, the rotation number or the exponent. */
@@ -185,11 +189,12 @@ class Explorer {
     }
   }
 
-  /** Call `act` with pieces of an orbit's impacts, from one on; those that are not kept are computed again. */
+  /** Call `act` with pieces of an orbit's impacts, from one on; later ones are computed again. */
   async eachPiece(orbit, from, act, wanted = () => true) {
     const { k, g } = this.state;
     const end = orbit.count;
-    const kept = Object.fromEntries(["x", "xdot", "udot", "tau"].map((name) => [name, orbit[name].subarray(from, orbit.kept)]));
+    const kept = Object.fromEntries(["x", "xdot", "udot",
+      "tau"].map((name) => [name, orbit[name].subarray(from, orbit.kept)]));
     if (from < orbit.kept) act(kept, from);
     let state = orbit.last;
     for (let done = orbit.kept; done < end; ) {
@@ -300,15 +305,16 @@ class Explorer {
       pieces = round === this.round && (await asked);
     }
     if (this.running === round) this.running = null;
-    if (round === this.round && this.orbits.some((orbit) => !orbit.done)) this.run(); // begun since
+    if (round === this.round && this.orbits.some((orbit) => orbit.waits)) this.run(); // begun since
   }
 
   /** Ask for further impacts; null if no orbit needs them. */
   ask() {
-    const waiting = this.orbits.filter((orbit) => !orbit.done);
+    const waiting = this.orbits.filter((orbit) => orbit.waits);
     if (!waiting.length) return null;
     const orbits = waiting.map((orbit) => {
-      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_FOLLOWED : orbit.impacts) - orbit.count);
+      const end = orbit.endless ? MOST_FOLLOWED : orbit.impacts;
+      const most = Math.max(0, Math.min(Math.round(orbit.pace), end - orbit.count));
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
@@ -322,14 +328,16 @@ class Explorer {
     let recoloured = false;
     const ranges = ["rotation", "exponent"].includes(this.state.colour); // which change with each orbit
     const look = (orbit) =>
-      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict, ranges && Math.floor(Math.log2(orbit.count + 1))]);
+      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict,
+        ranges && Math.floor(Math.log2(orbit.count + 1))]);
     for (const piece of pieces) {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
       const before = look(orbit);
       orbit.append(piece, this.state.k);
       plots.push([orbit, piece]);
-      if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
+      if (orbit.refused)
+        this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
       recoloured ||= before !== look(orbit);
       if (orbit.count > orbit.impacts) {
         orbit.impacts = orbit.count;
@@ -350,7 +358,7 @@ class Explorer {
       this.section.showPoints();
     }
     this.controls.orbits.updateFacts();
-    if (!this.orbits.some((orbit) => !orbit.done)) this.controls.orbits.completed();
+    if (!this.orbits.some((orbit) => orbit.waits)) this.controls.orbits.completed();
     this.drawChartSoon();
     if (!this.playing) {
       this.time.draw();
@@ -482,11 +490,13 @@ class Explorer {
           for (const stable of kinds) {
             const details = { saddle, side, stable, length: spec.length, window: this.window };
             setText("branch-note", `Tracing branches: ${lines.length} done …`);
-            const line = await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
+            const line =
+              await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
             if (generation !== this.generation || round !== this.tracing) return;
             if (line.ended !== null) ended.push(line.ended);
             const again = lines.length < this.branchLines.length; // finer, in the place of one that is there
-            lines.push({ line, colour: stable ? "stable" : "unstable", width: 1.3, share: again || this.calm ? 1 : 0 });
+            lines.push({ line, colour: stable ? "stable" : "unstable",
+              width: 1.3, share: again || this.calm ? 1 : 0 });
             if (!again) this.branchLines = [...lines];
             if (!this.growing) this.grow(this.growing = true);
           }
@@ -562,7 +572,8 @@ class Explorer {
   async sweepEnergy() {
     const { k, g } = this.state;
     const [low, high] = geometry.energyBounds(k, g);
-    const steps = Array.from({ length: SWEEP }, (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
+    const steps = Array.from({ length: SWEEP },
+      (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
     if (this.state.energy >= steps.at(-1)) this.controls.ball.takeBall({ k, g, E: steps[0] });
     this.sweeping = true;
     this.controls.ball.showSweep();
@@ -570,7 +581,8 @@ class Explorer {
       const begin = performance.now();
       this.controls.ball.takeBall({ k, g, E });
       element("E").value = String(E);
-      const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
+      const shown = () =>
+        (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
       while (this.sweeping && !(shown() && performance.now() - begin > FRAME)) {
         if (performance.now() - begin > 2000) break;
         await nextFrame();
@@ -750,7 +762,8 @@ function begin() {
       explorer.show(state);
       explorer.controls.welcome();
       if (!address && !explorer.calm) explorer.play();
-      if (state.leftOut) explorer.controls.hint(`The last ${state.leftOut} orbits of the address are left out: the page shows at most ${MOST_ORBITS}.`);
+      const left = `The last ${state.leftOut} orbits of the address are left out`;
+      if (state.leftOut) explorer.controls.hint(`${left}: the page shows at most ${MOST_ORBITS}.`);
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));
       explorer.controls.hint(error instanceof URIError ? "The address cannot be read." : `${error.message}.`);

@@ -19,7 +19,8 @@ class OrbitControls extends OfPage {
         const value = readCount(element("impacts").value);
         const allowed = Number.isInteger(value) && value >= 1 && value <= MOST_IMPACTS;
         const most = COUNT.format(MOST_IMPACTS);
-        const error = `impacts = ${element("impacts").value.trim() || "nothing"} is not allowed: a whole number from 1 to ${most}`;
+        const typed = element("impacts").value.trim() || "nothing";
+        const error = `impacts = ${typed} is not allowed: a whole number from 1 to ${most}`;
         complain("impacts", allowed ? "" : error, "impacts");
         if (type === "input") return;
         if (allowed) this.state.impacts = value;
@@ -52,7 +53,8 @@ class OrbitControls extends OfPage {
       const swatch = node("span", { className: "swatch" });
       const name = node("span");
       const facts = node("div", { className: "facts" });
-      const label = node("label", { htmlFor: radio.id }, node("div", {}, node("div", {}, swatch, name), facts));
+      const label =
+        node("label", { htmlFor: radio.id }, node("div", {}, node("div", {}, swatch, name), facts));
       const buttons = node(
         "div",
         { className: "bar" },
@@ -73,12 +75,13 @@ class OrbitControls extends OfPage {
     const { colours } = this.page.section;
     for (const { orbit, index, swatch, name, facts } of this.rows ?? []) {
       swatch.style.backgroundColor = orbit.colour(colours);
-      let verdict = orbit.facts?.verdict || (orbit.done ? "too short for a verdict" : "…");
+      let verdict = orbit.facts?.verdict || "…";
       if (orbit.refused) verdict = `stops: ${orbit.refused}`;
       name.textContent = `${index + 1}. ${verdict}${orbit.back ? ", backwards" : ""}`;
       const count = `${COUNT.format(orbit.count)} impacts`;
       const exponent = orbit.facts ? shortNumber(orbit.facts.exponent, 4) : "–";
-      facts.textContent = `${count} · exponent ${exponent} · rotation ${orbit.rotationText} · start ${orbit.startText}`;
+      facts.textContent =
+        `${count} · exponent ${exponent} · rotation ${orbit.rotationText} · start ${orbit.startText}`;
     }
   }
 
@@ -105,7 +108,8 @@ class OrbitControls extends OfPage {
     const mine = this.watched;
     if (!["regular", "chaotic"].includes(mine?.facts?.verdict)) return;
     this.watched = null;
-    const seen = { regular: "regular: it stays on closed curves, an island", chaotic: "chaotic: it wanders over the sea" };
+    const seen = { regular: "regular: it stays on closed curves, an island",
+      chaotic: "chaotic: it wanders over the sea" };
     this.hint(`This orbit is ${seen[mine.facts.verdict]}.`);
   }
 
@@ -118,7 +122,8 @@ class OrbitControls extends OfPage {
     if (Number.isNaN(x) || Number.isNaN(y)) error = "x and y of a start are numbers";
     else if (!(p * p + q * q < 1)) {
       const [low, high] = [centre - radius, centre + radius].map((value) => shortNumber(value, 4));
-      error = `x = ${shortNumber(x)}, y = ${shortNumber(y)} lies outside the section: on y = 0, x runs from ${low} to ${high}`;
+      const point = `x = ${shortNumber(x)}, y = ${shortNumber(y)}`;
+      error = `${point} lies outside the section: on y = 0, x runs from ${low} to ${high}`;
     }
     complain("start", error, "start-x", "start-y");
     if (!error) this.begin([[p, q]], [x, y]);

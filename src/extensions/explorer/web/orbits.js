@@ -33,6 +33,9 @@ class Orbit {
 
   get done() { return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts); }
 
+  /** Whether the worker is still to be asked for something. */
+  get waits() { return !this.done || Boolean(this.start && !this.refused && !this.facts?.verdict); }
+
   /** Add impacts that the worker has computed, and keep the first ones. */
   append(piece, k) {
     this.k = k;
@@ -52,7 +55,8 @@ class Orbit {
     this.facts = shownFacts(piece.facts);
     this.refused = piece.refused ?? "";
     const [before] = this.history.at(-1) ?? [0];
-    if (piece.facts && (this.count > 1.01 * before || this.done)) this.history.push([this.count, piece.facts.exponent]);
+    if (piece.facts && (this.count > 1.01 * before || this.done))
+      this.history.push([this.count, piece.facts.exponent]);
   }
 
   /** Turn impacts of the worker in place into those of a backward orbit, if this is one. */

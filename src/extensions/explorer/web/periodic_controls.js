@@ -19,7 +19,8 @@ class PeriodicControls extends OfPage {
       page.mark();
       const far = (one) => one?.type !== "near";
       const { motion, branches } = this.state;
-      Object.assign(this.state, { periods: [], near: [], branches: branches.filter(far), motion: far(motion) ? motion : null });
+      Object.assign(this.state,
+        { periods: [], near: [], branches: branches.filter(far), motion: far(motion) ? motion : null });
       page.chooseMotion();
       if (!this.state.branches.length) page.branchLines = [];
       page.searcher.restart();
@@ -52,7 +53,9 @@ class PeriodicControls extends OfPage {
     if (Number.isNaN(jumpLength)) text = pseudorigid.TOO_LONG;
     else if (state.jump && jumpLength === 0) text = "The map is continuous at this energy, at most E_g.";
     else if (state.jump && jumpLength) {
-      text = `The map jumps across a curve of length ${shortNumber(jumpLength, 6)} in (x, y); its inverse across the mirror image.`;
+      const length = shortNumber(jumpLength, 6);
+      text =
+        `The map jumps across a curve of length ${length} in (x, y); its inverse across the mirror image.`;
     } else if (state.jump) text = "Computing the curve …";
     setText("jump-note", text);
   }
@@ -69,7 +72,7 @@ class PeriodicControls extends OfPage {
       list.append(this.periodicRow(orbit, one));
     }
     if (this.state.periods.length && this.state.periods.every((period) => page.periodic.has(period))) {
-      setText("periodic-note", `${count} symmetric ${count === 1 ? "orbit" : "orbits"}. On the section: dots are elliptic, crosses hyperbolic, squares inverse hyperbolic.`);
+      setText("periodic-note", `${count} symmetric ${count === 1 ? "orbit" : "orbits"}.`);
     } else if (!this.state.periods.length) setText("periodic-note", "");
     const select = element("saddle");
     const chosen = select.value;
@@ -106,14 +109,18 @@ class PeriodicControls extends OfPage {
   periodicRow(orbit, one) {
     const { period, type, trace, multiplier, rotation, time } = orbit;
     const shape = { elliptic: "●", hyperbolic: "✕", "inverse hyperbolic": "□" }[type];
-    const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}` : `multiplier ${shortNumber(multiplier, 7)}`;
-    const facts = `x = ${shortNumber(orbit.points[0][0], 7)} · trace ${shortNumber(trace, 7)} · residue ${shortNumber(0.25 * (2 - trace), 6)} · ${more} · time ${shortNumber(time, 6)}`;
+    const more = type === "elliptic" ? `rotation ${shortNumber(rotation, 7)}`
+      : `multiplier ${shortNumber(multiplier, 7)}`;
+    const digits = (value, count = 7) => shortNumber(value, count);
+    const residue = `trace ${digits(trace)} · residue ${digits(0.25 * (2 - trace), 6)}`;
+    const facts = `x = ${digits(orbit.points[0][0])} · ${residue} · ${more} · time ${digits(time, 6)}`;
     const show = () => this.page.showPeriodic(one);
     return node(
       "li",
       {},
       node("span", { textContent: shape, ariaHidden: "true" }),
-      node("div", {}, `Period ${period}, ${type}${one.type === "near" ? ", near a click" : ""}`, node("div", { className: "facts", textContent: facts })),
+      node("div", {}, `Period ${period}, ${type}${one.type === "near" ? ", near a click" : ""}`,
+        node("div", { className: "facts", textContent: facts })),
       button("In time", `In time: the ${type} orbit of period ${period}`, show),
     );
   }

@@ -164,7 +164,8 @@ class PointerControls extends OfPage {
     section.drawCursors();
     if (!gesture || cancelled) return;
     if (gesture.kind === "box") this.view.zoomBox(gesture.from, point);
-    if (gesture.kind === "fan" && gesture.to !== undefined) this.page.controls.orbits.shoot(gesture.fan, gesture.to);
+    if (gesture.kind === "fan" && gesture.to !== undefined)
+      this.page.controls.orbits.shoot(gesture.fan, gesture.to);
     if (gesture.kind !== "click") return;
     const { at = [Infinity, 0], when = 0 } = this.clicked ?? {};
     const now = performance.now();

@@ -19,7 +19,8 @@ function disk(x = 0, y = 0, half = HOME.disk[2]) { return { ...HOME_VIEW, kind: 
 /** The place of a start: a fraction, or a point with x and either y or xdot. */
 function placeOf(start, scene) {
   const { k, g } = scene.ball;
-  return typeof start === "number" ? [start, 0] : geometry.placeAt(k, g, scene.energy, ...pointOf(start, scene));
+  return typeof start === "number" ? [start, 0]
+    : geometry.placeAt(k, g, scene.energy, ...pointOf(start, scene));
 }
 
 function pointOf({ x, xdot, y }, { ball: { k, g }, energy }) {

@@ -6,7 +6,8 @@ function listenToRecord(page) {
     element("scene").value = block.text;
     const copied = await copyText(block.text, element("scene"));
     const first = copied ? "Copied." : "Copy the lines above.";
-    setText("scene-note", `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
+    setText("scene-note",
+      `${first} Paste them under scenes: in config.yaml, and run ./reproduce ${block.name}. ${block.note}`);
   });
   for (const [id, all] of [["csv", false], ["csv-all", true]]) {
     on(id, "click", async () => {
@@ -21,7 +22,8 @@ function listenToRecord(page) {
       setText("record-note", `${name} has ${COUNT.format(count)} impacts after the start, to the last bit.`);
     });
   }
-  for (const [id, ratio, name] of [["png2", 2, "section-2x.png"], ["png4", 4, "section-4x.png"], ["svg", null, "section.svg"]]) {
+  for (const [id, ratio, name] of [["png2", 2, "section-2x.png"],
+    ["png4", 4, "section-4x.png"], ["svg", null, "section.svg"]]) {
     on(id, "click", async () => {
       download(name, await picture(page, ratio));
       setText("record-note", `${name} has the section as it is drawn, with k, g, E and the address.`);
@@ -51,7 +53,9 @@ async function check(page) {
       const { difference } = result;
       if (!difference) found.push(`${name}: the same bits here, in ${count} impacts.`);
       else {
-        found.push(`${name}: other bits here, in ${difference.variable} of orbit ${difference.orbit}, from impact ${COUNT.format(difference.impact)} or one of the next ${figure.block} on.`);
+        const { variable, orbit, impact } = difference;
+        const where = `from impact ${COUNT.format(impact)} or one of the next ${figure.block} on`;
+        found.push(`${name}: other bits here, in ${variable} of orbit ${orbit}, ${where}.`);
       }
     }
   } catch (error) {

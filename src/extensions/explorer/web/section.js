@@ -74,7 +74,8 @@ class SectionView {
     const disk = view.kind === "disk";
     // Seen from above, along the axis of udot, the half ellipsoid is the plane (x, xdot) of Figure 6.
     this.framed = disk || (view.elevation === ABOVE.elevation && view.azimuth === ABOVE.azimuth);
-    const margin = this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
+    const margin =
+      this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
     this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
     this.wide = this.width - this.frame.left - this.frame.right;
     this.tall = this.height - this.frame.top - this.frame.bottom;
@@ -212,7 +213,8 @@ class SectionView {
     ground.strokeRect(frame.left, frame.top, wide, tall);
     const disk = this.kind === "disk";
     this.drawAxis(0, "x", wide, disk ? origin[0] : centre + origin[0], radius / scale);
-    this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall, origin[1], (disk ? this.sectionHeight : radius) / scale);
+    this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall,
+      origin[1], (disk ? this.sectionHeight : radius) / scale);
   }
 
   /** Draw which colours mean which rotation numbers, exponents or verdicts. */
@@ -247,14 +249,16 @@ class SectionView {
     const title = small ? scale.name.split(",")[0] : scale.name;
     write(lines, title, left + 80 * step, top, colours.ink, "right");
     write(lines, shortNumber(scale.range[0], 3), left, top + line + 12 * unit, colours.muted);
-    write(lines, shortNumber(scale.range[1], 3), left + 80 * step, top + line + 12 * unit, colours.muted, "right");
+    write(lines, shortNumber(scale.range[1], 3), left + 80 * step,
+      top + line + 12 * unit, colours.muted, "right");
   }
 
   /** Draw what branches, curves and marks mean, those that are there, at the left bottom. */
   drawLegend() {
     const { lines, colours, frame } = this;
     const { overlays } = this.read();
-    const names = { stable: "stable branch", unstable: "unstable branch", symmetry: "the map jumps", jump: "its inverse jumps" };
+    const names = { stable: "stable branch", unstable: "unstable branch",
+      symmetry: "the map jumps", jump: "its inverse jumps" };
     const shapes = { dot: "elliptic", cross: "hyperbolic", square: "inverse hyperbolic" };
     const drawn = (name) => overlays.lines.find(({ colour }) => colour === name);
     const stroke = (name) => (left, middle) => {
@@ -273,18 +277,20 @@ class SectionView {
   /** Draw rows of a legend, [text, a function that draws its sign at a point, or null], in a corner. */
   drawRows(rows, right) {
     const { lines, colours, frame } = this;
-    const tall = 18 * colours.unit;
+    const tall = (this.width < 450 ? 15 : 18) * colours.unit;
     const room = 26 * colours.unit;
-    const wide = room + 7 * colours.unit * Math.max(...rows.map(([text, sign]) => text.length - (sign ? 0 : 3)));
+    const wide =
+      room + 7 * colours.unit * Math.max(...rows.map(([text, sign]) => text.length - (sign ? 0 : 3)));
     const left = right ? this.width - frame.right - wide - 8 : frame.left + 8;
     const top = right ? frame.top + 6 : this.height - frame.bottom - 6 - tall * rows.length;
-    lines.font = colours.font;
+    lines.font = this.width < 450 ? `${11 * colours.unit}px ${colours.family}` : colours.font;
     lines.fillStyle = colours.page;
     lines.fillRect(left - 4, top - 3, wide + 8, tall * rows.length + 6);
     rows.forEach(([text, sign], i) => {
       const middle = top + tall * (i + 0.5);
       sign?.(left, middle);
-      write(lines, text, sign ? left + room : left, middle, sign ? colours.ink : colours.muted, "left", "middle");
+      write(lines, text, sign ? left + room : left, middle,
+        sign ? colours.ink : colours.muted, "left", "middle");
     });
   }
 
@@ -362,7 +368,8 @@ class SectionView {
   drawBox() {
     const { ground, colours, radius, k } = this;
     const low = -radius * Math.sqrt(k / (1 + k));
-    const size = (radius * Math.min(this.width, this.height)) / 4 / this.scale; // a part is half as tall as the view
+    // a part is half as tall as the view
+    const size = (radius * Math.min(this.width, this.height)) / 4 / this.scale;
     const point = size < radius / 3 && this.surfacePoint(...this.origin);
     const whole = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
     const ranges = point ? point.map((value) => [value - size, value + size]) : whole;
@@ -388,16 +395,19 @@ class SectionView {
       const [left, top] = at(half, edge);
       if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
       strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
-      const { offsets, labels, base } = ticksAround(half + (axis ? 0 : this.centre), to - from, Math.max(length / 44, 4));
+      const { offsets, labels, base } =
+        ticksAround(half + (axis ? 0 : this.centre), to - from, Math.max(length / 44, 4));
       const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
       offsets.forEach((offset, i) => {
         const tick = at(half + offset, edge);
-        strokePath(ground, colours.muted, 1, () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
+        strokePath(ground, colours.muted, 1,
+          () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
         put(labels[i], beside(tick, 13 + 3.6 * labels[i].length * Math.abs(out[0])), colours.muted);
       });
       const title = base ? `${name} − (${base})` : name;
       const letters = Math.max(...labels.map((label) => label.length)) + 0.5 * title.length;
-      const place = axis === 2 ? [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16] : beside([left, top], 26 + 7 * letters * Math.abs(out[0]));
+      const place = axis === 2 ? [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16]
+        : beside([left, top], 26 + 7 * letters * Math.abs(out[0]));
       put(title, place, colours.ink);
     });
     ground.lineWidth = 1;
@@ -587,7 +597,8 @@ class SectionView {
       udot: y.map((value) => -value / (1 + k)),
     };
     if (this.scale < 1e5) this.stroke(lines, rim, colours.rim, 1.5);
-    const states = Array.from({ length: 201 }, (_, i) => this.lineState(Math.sin(((i - 100) * Math.PI) / 200)));
+    const states =
+      Array.from({ length: 201 }, (_, i) => this.lineState(Math.sin(((i - 100) * Math.PI) / 200)));
     const [lx, lv, lw] = [0, 1, 2].map((i) => states.map((state) => state[i]));
     lines.setLineDash([5, 4]);
     this.stroke(lines, { x: lx, xdot: lv, udot: lw }, colours.symmetry, 1);
@@ -597,10 +608,12 @@ class SectionView {
     }
     this.marks = []; // those that are drawn: no two in one place
     for (const mark of overlays.marks) {
-      const places = mark.orbit.points.map(([x, v, w]) => this.screen(x, v, w)).filter((at) => at && this.inside(at));
+      const places =
+        mark.orbit.points.map(([x, v, w]) => this.screen(x, v, w)).filter((at) => at && this.inside(at));
       const free = places.filter((at) => !this.markAt(at));
       for (const at of free) this.mark(lines, at, colours[mark.colour], mark.shape);
-      const label = free.find(([left, top]) => !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
+      const label = free.find(([left, top]) =>
+        !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
       this.marks.push(...free.map((at) => ({ ...mark, at })));
       lines.font = colours.font;
       if (label) write(lines, mark.orbit.period, label[0] + 7, label[1] - 16, colours.ink);
@@ -748,7 +761,8 @@ function readColours(node = document.documentElement) {
   const style = getComputedStyle(node);
   const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea elliptic";
   const verdicts = "hyperbolic regular chaotic undecided regular-orbit chaotic-orbit";
-  const colours = Object.fromEntries(`${names} ${verdicts}`.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
+  const colours = Object.fromEntries(`${names} ${verdicts}`.split(" ")
+    .map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
   colours.ramp = style.getPropertyValue("--ramp").trim().split(" ");
   colours.family = getComputedStyle(document.body).fontFamily;

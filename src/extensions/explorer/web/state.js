@@ -26,7 +26,8 @@ function freshState() {
     orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
-    near: [], // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
+    // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
+    near: [],
     periods: [], // periods of the periodic orbits on the section
     branches: [], // {period, type, nth, saddle (-1: all), kind, side, length}
     jump: false,
@@ -56,13 +57,17 @@ function parameterError(name, text, ball) {
   const value = readNumber(text);
   const refused = `${name} = ${String(text).trim() || "nothing"} is not allowed`;
   if (Number.isNaN(value)) return `${refused}: a number`;
-  if (name === "k" && !(value > 0 && value <= 1)) return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
-  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: above 0, below k = ${shortNumber(ball.k, 4)}`;
+  if (name === "k" && !(value > 0 && value <= 1))
+    return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
+  if (name === "g" && !(value > 0 && value < ball.k))
+    return `${refused}: above 0, below k = ${shortNumber(ball.k, 4)}`;
   const [low, high] = rangeOf(name, ball).map((end, i) => inside(end, i ? -1 : 1));
   if (ballAllowed({ ...ball, [name]: value })) return "";
   if (name === "E") return `${refused}: above −g²/2k = ${low}, below k/2 − g = ${high}, eq. (31)`;
-  const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
-  return `${refused}: above ${low}, ${name === "k" && high === "1" ? "at most" : "below"} ${high} at ${others.join(" and ")}, eq. (31)`;
+  const others = ["k", "g", "E"].filter((other) => other !== name)
+    .map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
+  const below = name === "k" && high === "1" ? "at most" : "below";
+  return `${refused}: above ${low}, ${below} ${high} at ${others.join(" and ")}, eq. (31)`;
 }
 
 function ballAllowed({ k, g, E }) {
@@ -90,7 +95,7 @@ function shortNumber(value, digits = 6) {
   return String(Number(value.toPrecision(digits))).replaceAll("-", "−");
 }
 
-/** The end of an open range in four digits, rounded inwards (sign: 1 for a lower end, -1 for an upper one). */
+/** The end of an open range in four digits, rounded inwards; sign is 1 for a lower end, else -1. */
 function inside(end, sign) {
   const step = 10 ** (Math.floor(Math.log10(Math.abs(end) || 1)) - 3);
   const rounded = Math.round(end / step);
@@ -162,7 +167,8 @@ function readAddress(text) {
   const whole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
   const motion = (name, value) => {
     const match = /^(\d+)([ehi])(\d+)$|^(0)(n)(\d+)$/.exec(value)?.filter((part) => part !== undefined);
-    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
+    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1])))
+      fail(name, value, "a periodic orbit, like 6e0");
     return { period: Number(match[1]), type: LETTER_KINDS[match[2]], nth: Number(match[3]) };
   };
   const one = (name, value, words) => {
@@ -203,7 +209,8 @@ function readAddress(text) {
     near(value) {
       state.near = value.split(";").map((part) => {
         const [p, q, period] = part.split(/[:*]/).map((text) => number("near", text));
-        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period))) fail("near", part, "a place and a period, like 0.1:0.2*6");
+        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period)))
+          fail("near", part, "a place and a period, like 0.1:0.2*6");
         return { p, q, period };
       });
     },
@@ -223,7 +230,8 @@ function readAddress(text) {
     chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation", "distance", "families"])),
     t: (value) => (state.time = number("t", value)),
     span: (value) => (state.span = number("span", value, "a time above 0", (v) => v > 0 && v <= 1000)),
-    twin: (value) => (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
+    twin: (value) =>
+      (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
     next(value) {
       state.back = value.endsWith("<");
       const count = value.replace("<", "");
@@ -241,7 +249,7 @@ function readAddress(text) {
     const name = part.slice(0, at);
     if (at > 0 && Object.hasOwn(readers, name)) readers[name](part.slice(at + 1));
     else if (at > 0) fail(name, part.slice(at + 1), "no such field");
-    else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
+    else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name or k=0.2 and so on is needed`);
   }
   state.panel ??= state.chart === "exponent" ? "time" : "chart"; // older addresses have no panel
   const { k, g, energy: E } = state;

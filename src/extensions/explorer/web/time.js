@@ -119,8 +119,6 @@ class TimeView {
   }
 
   drawCurves(state, motion, colours) {
-    const { pen, width, height } = fitted(this.curves);
-    const frame = { left: 50, top: 24, right: 10, bottom: 36 };
     const [from, to] = this.window();
     const impacts = [];
     const curvesOf = (motion) => {
@@ -147,11 +145,11 @@ class TimeView {
     };
     const lines = curvesOf(motion);
     const other = curvesOf(this.read().twin.motion);
-    if (!width) return; // another panel is open
+    if (!this.curves.offsetWidth) return; // another panel is open
     let [low, high] = this.extent;
     if (!(low < high)) [low, high] = [-0.5, 0.3];
     const room = 0.06 * (high - low);
-    const plot = new Plot(pen, { width, height, frame, colours, across: [from, to], up: [low - room, high + room] });
+    const plot = Plot.on(this.curves, { across: [from, to], up: [low - room, high + room], right: 10 });
     plot.axes("t", "");
     plot.line(lines.height, colours.hues[0], 1.8);
     plot.line(lines.strain, colours.hues[1], 1.8);
@@ -181,7 +179,8 @@ class TimeView {
       pen.lineTo(width - 4, floor);
     });
     pen.font = colours.font;
-    motions.forEach((one, i) => this.drawBall(pen, this.now(one), { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
+    motions.forEach((one, i) => this.drawBall(pen, this.now(one),
+      { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
   }
 
   drawBall(pen, now, { middle: across, floor, scale, colours, hue }) {

@@ -68,8 +68,10 @@ class TimeControls extends OfPage {
   pair(id) {
     const distance = readNumber(element("apart").value);
     const allowed = distance > 0 && distance < 1;
-    complain("apart", allowed ? "" : `distance = ${element("apart").value.trim() || "nothing"} is not allowed: above 0, below 1`, "apart");
-    if (allowed && (id === "twin" || this.state.twin)) this.page.setTwin(element("twin").checked ? distance : 0);
+    complain("apart", allowed ? ""
+      : `distance = ${element("apart").value.trim() || "nothing"} is not allowed: above 0, below 1`, "apart");
+    if (allowed && (id === "twin" || this.state.twin))
+      this.page.setTwin(element("twin").checked ? distance : 0);
     else if (!allowed) element("twin").checked = this.state.twin > 0;
   }
 
@@ -82,7 +84,8 @@ class TimeControls extends OfPage {
     const curves = element("curves");
     for (const id of ["play", "back-impact", "next-impact"]) element(id).disabled = !motion;
     if (!now) {
-      element("moment").textContent = this.state.motion ? "Searching for the periodic orbit …" : "Start an orbit, or choose one.";
+      element("moment").textContent =
+        this.state.motion ? "Searching for the periodic orbit …" : "Start an orbit, or choose one.";
       return;
     }
     const [x, v, w] = now.state.map((value) => value.toFixed(4).replace("-", "−"));

@@ -105,7 +105,8 @@ class ViewControls extends OfPage {
   }
 
   nudge(across, up) {
-    if (this.state.view.kind === "surface" && this.state.view.half > HOME.surface[2] - 0.1) this.turn(30 * across, -30 * up);
+    if (this.state.view.kind === "surface" && this.state.view.half > HOME.surface[2] - 0.1)
+      this.turn(30 * across, -30 * up);
     else this.pan(-60 * across, 60 * up);
   }
 
@@ -125,7 +126,8 @@ class ViewControls extends OfPage {
     this.box.classList.toggle(name, on);
     element(name).setAttribute("aria-pressed", on);
     if (!on) this.page.controls.welcome();
-    else if (name === "pick") this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
+    else if (name === "pick")
+      this.hint("Click or tap the section: the periodic orbit nearest to that point is found.");
     else this.hint("Drag a box on the section: it fills the view then.");
   }
 }
