@@ -98,7 +98,7 @@ def test_one_finger_turns_the_surface_and_the_page_stays(phone):
 
     def swipe():
         """Return how far the page scrolled, and the view."""
-        touch("touchStart", (60, 100))
+        touch("touchStart", (-60, 100))
         for step in range(1, 9):
             touch("touchMove", (-60 + 5 * step, 100 - 15 * step))
         touch("touchEnd")

@@ -81,7 +81,7 @@ const analysis = (() => {
       for (let i = 0; i < this.blocks; i++) this.turns[i] = this.turns[2 * i] + this.turns[2 * i + 1];
     }
 
-    /** Exponent and rotation number after all impacts so far, and the verdict; "" if it stops, or is not known. */
+    /** Exponent and rotation number so far, and the verdict; "" if it stops, or is not known yet. */
     facts(judges = true) {
       if (judges) this.verdict ??= typeOf(...this.start); // takes up to 64,000 impacts
       return {

@@ -141,9 +141,6 @@ class AtlasView {
 /** A share of regular motion as a colour of more_figures/atlas/plane.png; grey where unknown. */
 function shade(share) {
   if (Number.isNaN(share)) return "#e0e0e0";
-  const viridis = [
-    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c",
-    "#28ae80", "#5ec962", "#addc30", "#fde725",
-  ];
+  const viridis = "#440154 #472d7b #3b528b #2c728e #21918c #28ae80 #5ec962 #addc30 #fde725".split(" ");
   return mixed(viridis, share);
 }

@@ -126,15 +126,7 @@ class Plot {
     pen.fill();
   }
 
-  vertical(value, colour) {
-    this.clipped((pen) => {
-      const [left] = this.at([value, 0]);
-      strokePath(pen, colour, 1.5, () => {
-        pen.moveTo(left, 0);
-        pen.lineTo(left, 1e5);
-      });
-    });
-  }
+  vertical(value, colour) { this.line(this.up.map((end) => [value, end]), colour); }
 
   key(entries) {
     const { pen, colours, frame, size } = this;
@@ -175,8 +167,7 @@ function drawExponents(canvas, orbits, cursor) {
   const plot =
     Plot.on(canvas, { across: [1, Math.log10(most)], up: [-0.06 * top, 1.08 * top], logarithmic: true });
   plot.axes("number of impacts", "largest exponent so far");
-  const order = [...shown].sort((a, b) => b.isSea() - a.isSea());
-  for (const orbit of order) {
+  for (const orbit of shown.sort((a, b) => b.isSea() - a.isSea())) {
     const line = late(orbit).map(([impacts, exponent]) => [Math.log10(impacts), exponent]);
     plot.line(line, orbit.colour(plot.colours), orbit.chosen ? 3 : 1.5);
   }

@@ -6,6 +6,7 @@
 const GRIDS = { exponent: [60, 300], rotation: [60, 300], verdict: [60, 100, 200] }; // cells along a side
 const CHUNK = 528; // orbits of a request, in full SIMD lanes; a change waits for at most one
 const EXPONENTS = [0.005, 0.5]; // the ends of the scale
+const MOST = 0.9; // share of cells that are decided before shares are shown
 const RIM = 0.9995; // section radii from the middle, beyond which no cell has its orbit
 const QUIET_GROWTH = 1.8; // after 200 impacts: below, a preview calls an orbit regular
 const LOW_ENERGY = 2; // g^2
@@ -214,12 +215,12 @@ class Colouring {
     const finer = this.done ? "" : "; finer ones follow";
     if (this.by !== "verdict") return `${cells}, 200 impacts each${finer}.`;
     if (!level) return `A preview of ${cells}, by 200 impacts each; finer ones follow.`;
-    const counts = [0, 0, 0, 0, 0];
-    grid.known.forEach((one, cell) => (counts[grid.verdict[cell]] += one));
-    const decided = counts[1] + counts[2] + counts[3] + counts[4];
-    const percent = (count, whole) => `${((100 * count) / Math.max(1, whole)).toFixed(1)} %`;
-    const shares = `regular ${percent(counts[1], decided)}, chaotic ${percent(counts[2], decided)}`;
-    const undecided = `undecided ${percent(counts[3] + counts[4], decided)}`;
-    return `${cells}, ${percent(decided, grid.cells)} decided; of these ${shares}, ${undecided}${finer}.`;
+    const count = (...kinds) => grid.verdict.filter((verdict) => kinds.includes(verdict)).length;
+    const decided = count(1, 2, 3, 4);
+    const percent = (part, whole) => `${((100 * part) / Math.max(1, whole)).toFixed(1)} %`;
+    const known = `${cells}, ${percent(decided, grid.cells)} decided`;
+    if (decided < MOST * grid.cells) return `${known} so far${finer}.`; // chaotic ones are decided first
+    const [regular, chaotic, open] = [[1], [2], [3, 4]].map((kinds) => percent(count(...kinds), decided));
+    return `${known}; of these regular ${regular}, chaotic ${chaotic}, undecided ${open}${finer}.`;
   }
 }

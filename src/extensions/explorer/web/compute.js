@@ -24,8 +24,7 @@ class Computer {
 
   /** Ask for a job; the promise holds its result. */
   ask(job, args) {
-    Computer.count = (Computer.count ?? 0) + 1;
-    const id = Computer.count;
+    const id = (Computer.count = (Computer.count ?? 0) + 1);
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject });
       this.worker.postMessage({ id, job, ...args });

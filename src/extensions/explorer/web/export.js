@@ -10,14 +10,15 @@ function yamlNumber(value) {
 function sceneKinds(state, orbits) {
   const forward = orbits.some((orbit) => !orbit.back && !orbit.refused);
   const saddle = state.branches.find((branch) => branch.nth === 0 && branch.period);
-  const kinds = [];
-  if (saddle && state.view.half < 0.2) kinds.push("closeup");
-  if (saddle && forward) kinds.push("tangle");
-  if (state.jump && forward) kinds.push("jumps");
-  if (forward) kinds.push("portrait");
-  if (state.motion?.period && state.motion.nth === 0) kinds.push("motion");
-  if (forward) kinds.push("exponents");
-  return kinds;
+  const kinds = {
+    closeup: saddle && state.view.half < 0.2,
+    tangle: saddle && forward,
+    jumps: state.jump && forward,
+    portrait: forward,
+    motion: state.motion?.period && state.motion.nth === 0,
+    exponents: forward,
+  };
+  return Object.keys(kinds).filter((kind) => kinds[kind]);
 }
 
 /** The block of a scene, and a note about what of the picture it leaves out. */

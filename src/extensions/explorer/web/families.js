@@ -7,8 +7,7 @@ class Families {
 
   get shown() {
     const { k, g } = this.page.state;
-    return [...this.found.values()].filter((family) => family.k === k
-      && family.g === g && family.samples.length);
+    return [...this.found.values()].filter((one) => one.k === k && one.g === g && one.samples.length);
   }
 
   /** Follow the orbits on the section that are not followed yet, if the diagram is shown. */
@@ -46,17 +45,13 @@ class Families {
 
   /** Open the section at the orbit whose point in the diagram is nearest to a point of the screen. */
   openAt(left, top) {
-    let best = { distance: 20 };
-    for (const family of this.shown) {
-      for (const sample of family.samples) {
-        for (const [p] of sample.places) {
-          const [a, b] = this.plot.at([sample.energy, p]);
-          const distance = Math.hypot(a - left, b - top);
-          if (distance < best.distance) best = { distance, family, sample };
-        }
-      }
-    }
-    if (best.sample) this.open(best.family, best.sample);
+    const near = this.shown.flatMap((family) => family.samples.flatMap((sample) =>
+      sample.places.map(([p]) => {
+        const [a, b] = this.plot.at([sample.energy, p]);
+        return { family, sample, distance: Math.hypot(a - left, b - top) };
+      })));
+    const [best] = near.sort((a, b) => a.distance - b.distance);
+    if (best?.distance < 20) this.open(best.family, best.sample);
   }
 
   /** Go to the energy of a sample and show its orbit. */

@@ -46,8 +46,8 @@ class Explorer {
     const lines = [...this.branchLines, ...this.jumpLines];
     const asks = this.state.lesson && !this.state.revealed; // which start is which
     const starts = this.orbits.flatMap(({ start }, i) => (asks && start ? [[String(i + 1), start]] : []));
-    const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) =>
-      (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
+    const motions = this.twin ? [this.motion, this.twin.motion] : [];
+    const cursors = motions.map((one) => one && this.time.now(one)?.state).filter(Boolean);
     const map = this.colouring.window ? this.colouring : null;
     const filling = this.filling.orbits;
     return {
@@ -193,9 +193,8 @@ class Explorer {
   async eachPiece(orbit, from, act, wanted = () => true) {
     const { k, g } = this.state;
     const end = orbit.count;
-    const kept = Object.fromEntries(["x", "xdot", "udot",
-      "tau"].map((name) => [name, orbit[name].subarray(from, orbit.kept)]));
-    if (from < orbit.kept) act(kept, from);
+    const kept = (name) => [name, orbit[name].subarray(from, orbit.kept)];
+    if (from < orbit.kept) act(Object.fromEntries(["x", "xdot", "udot", "tau"].map(kept)), from);
     let state = orbit.last;
     for (let done = orbit.kept; done < end; ) {
       const impacts = Math.min(100000, end - done);
@@ -369,6 +368,7 @@ class Explorer {
 
   /** Have periodic orbits, branches and the jump curve computed that the state asks for. */
   async search() {
+    clearTimeout(this.searchWaits);
     const { generation } = this;
     const { k, g, energy } = this.state;
     const specs = this.state.branches;
@@ -740,7 +740,6 @@ class Explorer {
 }
 
 function element(id) { return document.getElementById(id); }
-
 function nextFrame() { return new Promise((resolve) => requestAnimationFrame(resolve)); }
 
 /** Begin with the address, or with Figure 2. */

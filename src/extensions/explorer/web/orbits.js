@@ -17,8 +17,7 @@ class Orbit {
   }
 
   clear() {
-    Orbit.keys = (Orbit.keys ?? 0) + 1;
-    this.key = Orbit.keys;
+    this.key = Orbit.keys = (Orbit.keys ?? 0) + 1;
     this.count = 0; // impacts so far, of which the first are `kept`
     this.kept = 0;
     this.last = null; // the last state that is kept, before it is mirrored

@@ -192,26 +192,21 @@ class PointerControls extends OfPage {
   }
 
   keys() {
-    const { box, page } = this;
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const { box, page, view } = this;
+    const cross = () => page.section.cross;
+    const arrow = (x, y) => (shift) => (shift ? view.nudge(x, -y) : this.moveCross(x, y));
+    const acts = {
+      ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, -1), ArrowDown: arrow(0, 1),
+      Enter: () => (cross() ? this.startAt(cross()) : this.moveCross(0, 0)),
+      "+": () => view.zoom(0.7), "=": () => view.zoom(0.7), "-": () => view.zoom(1 / 0.7),
+      0: () => view.whole(), f: () => this.markFan(), b: () => this.markBox(),
+      " ": () => element("play").click(), Escape: () => this.hideCross(),
+    };
     box.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey) return;
-      const { section } = page;
       const { key } = event;
-      if (arrows[key]) {
-        if (event.shiftKey) this.view.nudge(arrows[key][0], -arrows[key][1]);
-        else this.moveCross(...arrows[key]);
-      } else if (key === "Enter") {
-        if (section.cross) this.startAt(section.cross);
-        else this.moveCross(0, 0);
-      } else if (key === "+" || key === "=") this.view.zoom(0.7);
-      else if (key === "-" || key === "−") this.view.zoom(1 / 0.7);
-      else if (key === "0") this.view.whole();
-      else if (key === "f" || key === "F") this.markFan();
-      else if (key === "b" || key === "B") this.markBox();
-      else if (key === " ") element("play").click();
-      else if (key === "Escape") this.hideCross();
-      else return;
+      const act = acts[key.length === 1 ? key.toLowerCase().replace("−", "-") : key];
+      if (!act || event.ctrlKey || event.altKey || event.metaKey) return;
+      act(event.shiftKey);
       event.preventDefault();
     });
     box.addEventListener("blur", () => this.hideCross());

@@ -269,6 +269,5 @@ function readAddress(text) {
 class OfPage {
   constructor(page) { this.page = page; }
   get state() { return this.page.state; }
-
   hint(text) { this.page.controls.hint(text); }
 }

@@ -34,18 +34,8 @@ class SvgPen {
     this.parts.push(`<path d="${this.path}" fill="none" ${line}${dash}/>`);
   }
 
-  fillRect(left, top, width, height) {
-    this.beginPath();
-    this.rect(left, top, width, height);
-    this.fill();
-  }
-
-  strokeRect(left, top, width, height) {
-    this.beginPath();
-    this.rect(left, top, width, height);
-    this.stroke();
-  }
-
+  fillRect(...box) { this.fill(this.beginPath(), this.rect(...box)); }
+  strokeRect(...box) { this.stroke(this.beginPath(), this.rect(...box)); }
   setLineDash(lengths) { this.dash = lengths.join(" "); }
   save() { this.open.push(0); }
 

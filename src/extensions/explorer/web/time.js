@@ -69,9 +69,8 @@ class PeriodicMotion {
 
   indexAt(t) {
     const turn = Math.floor(t / this.total);
-    let i = 0;
-    while (i + 1 < this.period && turn * this.total + this.begins[i + 1] <= t) i++;
-    return turn * this.period + i;
+    const i = this.begins.findLastIndex((begin) => turn * this.total + begin <= t);
+    return turn * this.period + Math.min(i, this.period - 1);
   }
 
   impact(j) { return j; }

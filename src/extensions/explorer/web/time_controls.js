@@ -94,9 +94,8 @@ class TimeControls extends OfPage {
     const when = this.state.time.toFixed(2).replace("-", "−");
     element("moment").textContent = `t = ${when} after impact ${impact}${count}, at (${x}, ${v}, ${w})`;
     const [first, last] = time.window();
-    curves.setAttribute("aria-valuemin", first);
-    curves.setAttribute("aria-valuemax", last);
-    curves.setAttribute("aria-valuenow", this.state.time.toFixed(2));
-    curves.setAttribute("aria-valuetext", `t = ${this.state.time.toFixed(2)}`);
+    const at = this.state.time.toFixed(2);
+    Object.assign(curves,
+      { ariaValueMin: first, ariaValueMax: last, ariaValueNow: at, ariaValueText: `t = ${at}` });
   }
 }
