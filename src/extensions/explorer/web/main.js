@@ -5,7 +5,7 @@
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
 const HUES = 7; // of the style sheet
 const SWEEP = 240; // energies from the least to the largest
-const FRAME = 60; // ms that each of them is shown at least
+const FRAME = 40; // ms that each of them is shown at least
 const GROWTH_STEP = 0.02; // of a branch in a frame
 const SLOW = 200; // impacts asked for at once, up to which one can watch
 
@@ -143,8 +143,10 @@ class Explorer {
     this.fresh = true; // the old picture stays until there are new impacts
     this.section.project();
     this.colouring.update();
-    if (!this.orbits.length) this.look();
-    this.chooseMotion();
+    if (!this.orbits.length) this.section.drawGround();
+    this.section.drawLines();
+    this.filling.update();
+    this.chooseMotion(); // which draws the impacts, and the section in colour follows
     clearTimeout(this.searchWaits); // a drag ends before periodic orbits are searched for
     this.searchWaits = setTimeout(() => this.search(), fast ? 150 : 0);
     this.run();
