@@ -1,11 +1,10 @@
-"use strict";
 /* How the explorer shows scenes of these kinds of picture: src/extensions/explorer/README.md. */
 Object.assign(PRESETS, {
   portrait: surface,
   motion: inTime,
   tangle: (scene) => ({ ...surface(scene), periods: [scene.period], branches: branchesOf(scene) }),
   closeup: closeUp,
-  exponents: (scene) => ({ orbits: orbitsOf(scene), chosen: 0 }),
+  exponents: (scene) => ({ orbits: orbitsOf(scene), panel: "chart", chosen: 0 }),
 });
 
 /** The window of a close-up in the plane (x, xdot), which is the half ellipsoid seen from above. */
@@ -30,7 +29,8 @@ function surface(scene) {
 function inTime(scene, scenes) {
   const { period, type, duration, ball, energy } = scene;
   const portrait = Object.values(scenes).find(
-    (other) => other.picture === "portrait" && other.ball.k === ball.k && other.ball.g === ball.g && other.energy === energy,
+    (other) => other.picture === "portrait" && other.ball.k === ball.k
+      && other.ball.g === ball.g && other.energy === energy,
   );
   const orbits = portrait ? orbitsOf(portrait).filter((orbit) => !orbit.sea) : [];
   return { orbits, motion: { period, type, nth: 0 }, periods: [period], span: duration };

@@ -1,9 +1,10 @@
-"use strict";
 /* How the explorer shows scenes of these kinds of picture: src/extensions/explorer/README.md. */
 Object.assign(PRESETS, {
-  spread: () => ({ view: disk(), orbits: fan(0.55, 0.68, 8, 20000), chosen: 0 }),
+  spread: () => ({ view: disk(), orbits: fan(0.55, 0.68, 8, 20000), panel: "chart", chosen: 0 }),
   clusters: () => ({ orbits: fan(0.6, 0.6, 1, 10000), chosen: 0, span: 60 }),
-  rotation: () => ({ view: disk(), orbits: fan(-0.46, -0.03, 44, 2000), chart: "rotation", chosen: 0 }),
+  rotation: () => ({
+    view: disk(), orbits: fan(-0.46, -0.03, 44, 2000), chart: "rotation", panel: "chart", chosen: 0,
+  }),
   jumps: (scene) => ({ view: disk(), orbits: orbitsOf(scene), jump: true, chosen: 0 }),
   flux(scene) {
     const branches = { outer: { length: 1.4 }, inner: { length: 1 } };

@@ -45,7 +45,10 @@ def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
             if (name := address(checked, variant, scene, block.as_mapping()))
         },
         "presets": presets(checked),
-        "tour": json.loads(read_text(Path(__file__).with_name("web") / "tour.json")),
+        **{
+            name: json.loads(read_text(Path(__file__).with_name("web") / f"{name}.json"))
+            for name in ("tour", "lesson")
+        },
         "check": published_orbits(root),
         "atlas": stored_atlas(),
     }
@@ -57,14 +60,19 @@ def of_parts(name: str) -> list[Path]:
 
 
 def presets(checked: Config) -> list[dict[str, str]]:
-    """Return titles of scenes and what to see in them, from the captions."""
+    """Return titles of scenes and what to see in them, from the captions.
+
+    A title names what the page shows of the picture, and no name of config.yaml.
+    """
     found = []
     for variant in PUBLISHED:
         for scene, block in checked.variants[variant].items():
             mapping = block.as_mapping()
             if address(checked, variant, scene, mapping) == scene:
                 caption = caption_of(scene, mapping)
-                title = f"{caption.name}: {caption.title}"
+                shown = caption.explorer_title or caption.title
+                numbered = caption.name.startswith("Figure ")
+                title = f"{caption.name}: {shown}" if numbered else shown[0].upper() + shown[1:]
                 see = caption.explorer or caption.see
                 found.append({"name": scene, "title": title, "see": see})
     return found

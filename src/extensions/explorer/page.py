@@ -43,7 +43,9 @@ APP = (
     *("state.js", "orbits.js", "section.js", "colouring.js", "filling.js", "time.js", "charts.js"),
     *("twin.js", "families.js", "compute.js", "presets.js"),
     PRESETS,
-    *("svg.js", "export.js", "atlas.js", "controls.js", "main.js"),
+    *("svg.js", "export.js", "atlas.js", "guide.js", "ball_controls.js", "orbit_controls.js"),
+    *("view_controls.js", "pointer_controls.js", "time_controls.js", "periodic_controls.js"),
+    *("record_controls.js", "controls.js", "main.js"),
 )
 
 

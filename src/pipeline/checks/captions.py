@@ -22,7 +22,8 @@ for _file in files("captions.toml").values():
 class Caption(NamedTuple):
     """The texts of a picture. `shows` and `see` are a few sentences, `details` are the rest.
 
-    `explorer` says what to see there, if that is something else.
+    `explorer` says what to see there, and `explorer_title` what it shows, if that is something
+    else.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Caption(NamedTuple):
     see: str
     details: str
     explorer: str
+    explorer_title: str
 
 
 def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = None) -> Caption:

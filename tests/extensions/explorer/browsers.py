@@ -1,13 +1,16 @@
-"""Real browsers for tests: Debian's Chromium and Firefox, by Selenium.
+"""Real browsers for tests: Debian's Chromium, Firefox and WebKit (Safari's engine), by Selenium.
 
-Debian 12 has no geckodriver, so Firefox is driven by WebDriver BiDi, which it speaks itself. Both
-browsers have the same interface: `open` a page, `click`, `run` a script, and `errors`.
+Debian 12 has no geckodriver, so Firefox is driven by WebDriver BiDi, which it speaks itself. WebKit
+has no headless mode: it has a screen of Xvfb. All browsers have the same interface: `open` a page,
+`click`, `run` a script, and `errors`.
 """
 
 import json
+import os
 import shutil
 import subprocess
 from contextlib import closing, contextmanager
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -15,7 +18,11 @@ from project import wait_for
 from selenium import webdriver
 from selenium.webdriver.remote.websocket_connection import WebSocketConnection
 
-PROGRAMS = {"chromium": ("chromium", "chromedriver"), "firefox": ("firefox-esr",)}
+PROGRAMS = {
+    "chromium": ("chromium", "chromedriver"),
+    "firefox": ("firefox-esr",),
+    "webkit": ("WebKitWebDriver", "Xvfb"),
+}
 _TIMEOUT = 180  # seconds that a script may take
 
 
@@ -25,25 +32,15 @@ def started(name, folder, width=1400, height=1000):
     missing = [program for program in PROGRAMS[name] if not shutil.which(program)]
     if missing:
         pytest.skip(f"{' and '.join(missing)} not installed (Debian packages, see .ci/run)")
-    with closing({"chromium": Chromium, "firefox": Firefox}[name](folder, width, height)) as opened:
+    kinds = {"chromium": Chromium, "firefox": Firefox, "webkit": WebKit}
+    with closing(kinds[name](folder, width, height)) as opened:
         yield opened
 
 
-class Chromium:
-    """Chromium by chromedriver."""
+class Driven:
+    """A browser by a Selenium driver."""
 
-    def __init__(self, folder, width, height):
-        options = webdriver.ChromeOptions()
-        options.binary_location = shutil.which("chromium")
-        for argument in (
-            "headless=new", "no-sandbox", "disable-gpu", "disable-dev-shm-usage",
-            f"user-data-dir={folder}", f"window-size={width},{height}",
-        ):  # fmt: skip
-            options.add_argument(f"--{argument}")
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        service = webdriver.ChromeService(shutil.which("chromedriver"))
-        self.driver = webdriver.Chrome(options, service)
-        self.driver.set_script_timeout(_TIMEOUT)
+    driver: webdriver.Remote
 
     def open(self, address):
         self.driver.get(address)
@@ -61,12 +58,71 @@ class Chromium:
     def resize(self, width, height):
         self.driver.set_window_size(width, height)
 
+    def close(self):
+        self.driver.quit()
+
+
+class WebKit(Driven):
+    """WebKit's small browser on a screen of its own."""
+
+    def __init__(self, folder, width, height):
+        folder.mkdir(parents=True, exist_ok=True)
+        reading, writing = os.pipe()
+        self._screen = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
+            pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
+        os.close(writing)
+        with open(reading) as number:
+            display = f":{number.readline().strip()}"
+        options = webdriver.WebKitGTKOptions()
+        options.binary_location = str(next(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser")))
+        options.add_argument("--automation")
+        variables = os.environ | {
+            "DISPLAY": display, "HOME": str(folder), "WEBKIT_DISABLE_COMPOSITING_MODE": "1",
+            "WEBKIT_DISABLE_SANDBOX_THIS_IS_DANGEROUS": "1", "NO_AT_BRIDGE": "1",
+        }  # fmt: skip
+        service = webdriver.WebKitGTKService(shutil.which("WebKitWebDriver"), env=variables)
+        self.driver = webdriver.WebKitGTK(options, service)
+        self.driver.set_script_timeout(_TIMEOUT)
+        self.resize(width, height)
+
+    def open(self, address):
+        super().open(address)
+        self.run(
+            "globalThis.failures ??= []; const keep = e => failures.push(String(e.message ?? e.reason));"
+            "for (const kind of ['error', 'unhandledrejection']) addEventListener(kind, keep)"
+        )
+
+    def errors(self):
+        """Return exceptions in the page since it was opened or since the last call."""
+        return self.run("return globalThis.failures.splice(0)")
+
+    def close(self):
+        super().close()
+        self._screen.kill()
+        self._screen.wait()
+
+
+class Chromium(Driven):
+    """Chromium by chromedriver."""
+
+    def __init__(self, folder, width, height):
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for argument in (
+            "headless=new", "no-sandbox", "disable-gpu", "disable-dev-shm-usage",
+            f"user-data-dir={folder}", f"window-size={width},{height}",
+        ):  # fmt: skip
+            options.add_argument(f"--{argument}")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        service = webdriver.ChromeService(shutil.which("chromedriver"))
+        self.driver = webdriver.Chrome(options, service)
+        self.driver.set_script_timeout(_TIMEOUT)
+
     def errors(self):
         """Return messages of the console since the last call: errors and warnings."""
         return [entry["message"] for entry in self.driver.get_log("browser")]
-
-    def close(self):
-        self.driver.quit()
 
 
 class Firefox:

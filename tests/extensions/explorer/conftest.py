@@ -23,9 +23,15 @@ def firefox(tmp_path_factory):
         yield browser
 
 
-@pytest.fixture(scope="session", params=["chromium", *slowly("firefox")])
+@pytest.fixture(scope="session")
+def webkit(tmp_path_factory):
+    with browsers.started("webkit", tmp_path_factory.mktemp("webkit")) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="session", params=["chromium", *slowly("firefox", "webkit")])
 def either(request):
-    """Chromium, then Firefox."""
+    """Chromium, then Firefox and WebKit."""
     return request.getfixturevalue(request.param)
 
 

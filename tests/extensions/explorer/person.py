@@ -51,6 +51,8 @@ class Visitor:
         self.browser.open("about:blank")
         self.browser.open(f"{self.file}#{address}" if address else self.file)
         self.run(HELP)
+        if not address and self.text("play") == "Pause":  # the first picture runs
+            self.run("document.getElementById('play').click()")
         self.settle()
 
     def reload(self):
@@ -67,7 +69,7 @@ class Visitor:
             wanted = re.findall(r"\*(\d+)", self.state().get("orbits", ""))
             rows = self.run(counts)
             return len(wanted) == len(rows) and all(
-                count == most or " stops: " in title
+                (count == most and "…" not in title) or " stops: " in title
                 for most, (count, title) in zip(wanted, rows, strict=True)
             )
 
@@ -94,17 +96,21 @@ class Visitor:
     def value(self, name):
         return self.run("return document.getElementById(args[0]).value", name)
 
-    def open_panels(self):
-        self.run("for (const panel of document.querySelectorAll('details')) panel.open = true")
+    def reveal(self, name):
+        """Open the panel or menu that an element is in, and scroll to it."""
+        self.run(
+            "const shown = document.getElementById(args[0]);"
+            "for (let n = shown; n; n = n.parentElement) {"
+            " if (n.matches('details')) n.open = true;"
+            " if (n.matches('[role=tabpanel]') && n.hidden)"
+            "  document.getElementById(n.getAttribute('aria-labelledby')).click(); }"
+            "shown.scrollIntoView({block: 'center'})",
+            name,
+        )
 
     def press(self, name):
         """Click on a button, in a panel that is open then."""
-        self.run(
-            "const button = document.getElementById(args[0]);"
-            "for (let n = button; n; n = n.parentElement) if (n.matches('details')) n.open = true;"
-            "button.scrollIntoView({block: 'center'})",
-            name,
-        )
+        self.reveal(name)
         self.browser.click(f"#{name}")
 
     def set(self, name, *values):
@@ -173,22 +179,19 @@ class Person(Visitor):
     def find(self, name):
         return self.driver.find_element("id", name)
 
-    def unfold(self, name):
-        if self.run("return !document.getElementById(args[0]).open", name):
-            self.driver.find_element("css selector", f"#{name} > summary").click()
-
     def clear_disk(self):
         """Show an empty disk."""
         self.press("as-disk")
         self.press("clear")
 
     def type(self, name, text):
+        self.reveal(name)
         self.find(name).send_keys(Keys.CONTROL + "a", Keys.NULL, Keys.BACKSPACE, text)
 
     def submit(self, name, text):
         """Type into a field and submit its form."""
         self.type(name, text)
-        self.find(name).submit()
+        self.run("document.getElementById(args[0]).form.requestSubmit()", name)
 
     def settled(self):
         """Wait until all orbits are complete, and return what the list says about each."""

@@ -93,7 +93,7 @@ def test_a_click_finds_a_saddle_with_its_branches_and_the_link_keeps_them(person
     height = np.sqrt(BALL.k * (1 + BALL.k)) * radius
     y = (saddle["xdot"] - BALL.k * saddle["udot"]).item()
     person.open(DISK)
-    person.unfold("periodic-panel")
+    person.press("tab-periodic")
     person.set("near-period", "6")
     person.press("pick")
     person.click((saddle["x"].item() - centre) / radius, y / height)

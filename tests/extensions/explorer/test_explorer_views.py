@@ -32,14 +32,14 @@ def test_the_tour_goes_on_and_back_and_ends(person):
     person.press("tour-start")
     for number, step in enumerate(TOUR, 1):
         person.settle()
-        assert person.text("tour-title") == f"{number} of 6. {step['title']}"
+        assert person.text("guide-title") == f"{number} of 6. {step['title']}"
         state = person.state()
         assert state["tour"] == str(number) and f"E={state['E']}&" in step["address"] + "&"
-        person.press("tour-next")
-    assert not person.find("tour").is_displayed()
+        person.press("guide-next")
+    assert not person.find("guide").is_displayed()
     person.press("undo")
-    wait_for(lambda: person.find("tour").is_displayed())
-    person.press("tour-back")
+    wait_for(lambda: person.find("guide").is_displayed())
+    person.press("guide-back")
     assert person.state()["tour"] == "5"
 
 

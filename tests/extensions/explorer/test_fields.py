@@ -35,16 +35,16 @@ def test_no_slider_reaches_a_refused_value(person, where):
 
 
 @pytest.mark.parametrize(("name", "text", "words"), [
-    ("g", "0.174", "between 0 and 0.09 at k = 0.2 and E = 0.01"),
-    ("g", "0.3", "between 0 and k = 0.2"),
-    ("k", "0.09", "between 0.1 and 1 at g = 0.04 and E = 0.01"),
+    ("g", "0.174", "above 0, below 0.09 at k = 0.2 and E = 0.01"),
+    ("g", "0.3", "above 0, below k = 0.2"),
+    ("k", "0.09", "above 0.1, at most 1 at g = 0.04 and E = 0.01"),
     ("k", "0", "k = 0 is not allowed"),
     ("k", "", "k = nothing is not allowed"),
     ("k", "1/0", "a number"),
     ("E", "1e", "a number"),
-    ("E", "-1", "between −g²/2k = −0.004 and k/2 − g = 0.06, eq. (31)"),
+    ("E", "-1", "above −g²/2k = −0.004, below k/2 − g = 0.06, eq. (31)"),
     ("impacts", "0", "whole number"),
-    ("E", "0.061", "and k/2 − g = 0.06, eq. (31)"),
+    ("E", "0.061", "below k/2 − g = 0.06, eq. (31)"),
     ("impacts", "20000000", "a whole number from 1 to"),
     ("impacts", "2.000", "a whole number from 1 to"),
     ("impacts", " ", "impacts = nothing is not allowed"),

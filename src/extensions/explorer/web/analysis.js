@@ -1,4 +1,3 @@
-"use strict";
 /*
  * What the page finds out about orbits, in the worker. The formulas are those of the package
  * pseudorigid and of the claims: dynamics/regularity.py, dynamics/rotation.py and
@@ -25,9 +24,7 @@ const analysis = (() => {
   const MOST_VERTICES = 400000;
 
   /** The state after some impacts. */
-  function iterate(k, g, state, impacts) {
-    return withTime(k, g, state, impacts).slice(0, 3);
-  }
+  function iterate(k, g, state, impacts) { return withTime(k, g, state, impacts).slice(0, 3); }
 
   /** The state after some impacts, and the time of the last flight. */
   function withTime(k, g, [x, xdot, udot], impacts = 1) {
@@ -56,7 +53,8 @@ const analysis = (() => {
      */
     advance(impacts) {
       const piece = this.orbit.advance(impacts);
-      const end = piece.tau.findIndex((tau, i) => !Number.isFinite(tau + piece.x[i] + piece.xdot[i] + piece.udot[i]));
+      const end =
+        piece.tau.findIndex((tau, i) => !Number.isFinite(tau + piece.x[i] + piece.xdot[i] + piece.udot[i]));
       if (end >= 0) {
         for (const name in piece) piece[name] = piece[name].slice(0, end);
         impacts = end;
@@ -83,14 +81,14 @@ const analysis = (() => {
       for (let i = 0; i < this.blocks; i++) this.turns[i] = this.turns[2 * i] + this.turns[2 * i + 1];
     }
 
-    /** Exponent and rotation number after all impacts so far, and the verdict; "" if it stops. */
-    facts() {
-      this.verdict ??= typeOf(...this.start);
+    /** Exponent and rotation number so far, and the verdict; "" if it stops, or is not known yet. */
+    facts(judges = true) {
+      if (judges) this.verdict ??= typeOf(...this.start); // takes up to 64,000 impacts
       return {
         impacts: this.impacts,
         exponent: this.orbit.exponent(),
         rotation: weightedMean(this.turns, 0, this.blocks) / this.width,
-        verdict: this.refused ? "" : this.verdict,
+        verdict: (!this.refused && this.verdict) || "",
       };
     }
   }
@@ -131,13 +129,16 @@ const analysis = (() => {
       for (let i = start; i < length; i++) {
         turns[i] = turnTo(piece.x[i - start], piece.xdot[i - start], piece.udot[i - start]);
       }
-      const means = [[0, length], [0, length / 2], [length / 2, length]].map((ends) => weightedMean(turns, ...ends));
+      const means =
+        [[0, length], [0, length / 2], [length / 2, length]].map((ends) => weightedMean(turns, ...ends));
       const [winding, first, second] = still ? [fixed.rotation, 0, 0] : means;
       const now = { growth: growthOf(sizes, length), winding, apart: Math.abs(first - second) };
       if (Number.isNaN(now.growth)) return "undefined"; // it grazes exactly
       if (Math.min(before.growth, now.growth) > RULE.chaotic) return "chaotic";
-      const calm = ({ growth, apart }) => Math.abs(growth - RULE.regular) < RULE.margin && apart < RULE.halves;
-      const lasting = Math.abs(now.growth - before.growth) < RULE.change && Math.abs(winding) * length >= RULE.turns;
+      const calm =
+        ({ growth, apart }) => Math.abs(growth - RULE.regular) < RULE.margin && apart < RULE.halves;
+      const lasting =
+        Math.abs(now.growth - before.growth) < RULE.change && Math.abs(winding) * length >= RULE.turns;
       if (length >= RULE.least && calm(before) && calm(now) && lasting) return "regular";
       before = now;
     }
@@ -484,9 +485,7 @@ const analysis = (() => {
       return this.mirror(after);
     }
 
-    mirror(state) {
-      return this.stable ? pseudorigid.reverse(this.k, ...state) : state;
-    }
+    mirror(state) { return this.stable ? pseudorigid.reverse(this.k, ...state) : state; }
 
     /** Whether the two orbits to where an image begins agree so far. */
     accurate(image, states) {
@@ -688,11 +687,7 @@ const analysis = (() => {
         y.push(NaN);
       }
     });
-    return {
-      x: Float64Array.from(x),
-      y: Float64Array.from(y),
-      length: fine + (fine - middle) / 3,
-    };
+    return { x: Float64Array.from(x), y: Float64Array.from(y), length: fine + (fine - middle) / 3 };
   }
 
   /** A periodic orbit at other energies, as far as it can be followed: samples {energy, trace, places}. */
@@ -712,14 +707,16 @@ const analysis = (() => {
         const state = to > least && to < most && (search ? found : solved)(to, guess);
         if (!state) {
           step /= 2;
-          if (search || step > 1e-6 * (most - least) || !(Math.abs(samples.at(-1)?.trace - 2) < 1e-3)) continue;
+          if (search || step > 1e-6 * (most - least)
+            || !(Math.abs(samples.at(-1)?.trace - 2) < 1e-3)) continue;
           [search, step] = [true, longest / 16];
           continue;
         }
         [before, last] = [last, { energy: to, ...chart(state) }];
         const [a, , , d] = pseudorigid.tangent(k, g, ...state, period);
         const { radius, centre, height } = geometry.section(k, g, to);
-        const places = orbitFrom(k, g, state, period).map(chart).map(({ x, y }) => [(x - centre) / radius, y / height]);
+        const places =
+          orbitFrom(k, g, state, period).map(chart).map(({ x, y }) => [(x - centre) / radius, y / height]);
         samples.push({ energy: to, trace: a + d, places });
         step = Math.min(longest, 1.5 * step);
       }
@@ -731,14 +728,17 @@ const analysis = (() => {
       const { radius } = geometry.section(k, g, to);
       const [x, y, across, up] = pseudorigid.newton(k, g, to, guess.x, guess.y, period, 8);
       const apart = (one, other) => Math.hypot(one.x - other.x, one.y - other.y) / radius;
-      const state = Math.hypot(across, up) < 1e-9 * radius && apart({ x, y }, guess) < 0.02 && geometry.chartState(k, g, to, x, y);
-      const again = state && orbitFrom(k, g, state, period).slice(1).some((point) => apart(chart(point), { x, y }) < 1e-6);
+      const state = Math.hypot(across, up) < 1e-9 * radius
+        && apart({ x, y }, guess) < 0.02 && geometry.chartState(k, g, to, x, y);
+      const again = state && orbitFrom(k, g, state, period).slice(1)
+        .some((point) => apart(chart(point), { x, y }) < 1e-6);
       return again ? null : state; // an orbit that closes earlier has another period
     }
 
     function found(to, guess) {
       const { radius } = geometry.section(k, g, to);
-      const all = periodicOrbits(k, g, to, period).flatMap((orbit) => orbit.points.map((point) => point.slice(0, 3)));
+      const all =
+        periodicOrbits(k, g, to, period).flatMap((orbit) => orbit.points.map((point) => point.slice(0, 3)));
       const distances = all.map((point) => Math.hypot(chart(point).x - guess.x, chart(point).y - guess.y));
       const nearest = distances.indexOf(Math.min(...distances));
       return distances[nearest] < 0.1 * radius ? all[nearest] : null;

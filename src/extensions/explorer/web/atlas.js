@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The atlas as a map: the share of regular motion over k and E/g^2. Beside it is a small section of
  * the place under the pointer. A click, or arrow keys and Enter, go there.
@@ -9,7 +8,7 @@ class AtlasView {
     this.page = page; // its state has the present place
     this.aim = null; // [log10 of E/g^2, k]: the keyboard's pointer
     const { atlas } = page.data;
-    element("atlas-panel").hidden = !atlas; // there is none without the sweeps
+    element("tab-atlas").hidden = !atlas; // there is none without the sweeps
     if (!atlas) return;
     this.atlas = { ...atlas, bytes: Uint8Array.from(atob(atlas.regular), (letter) => letter.charCodeAt(0)) };
     this.canvas = element("atlas");
@@ -56,13 +55,14 @@ class AtlasView {
   }
 
   draw() {
-    if (!element("atlas-panel").open) return;
+    if (!this.atlas || element("panel-atlas").hidden) return;
     const { pen, width, height } = fitted(this.canvas);
     const colours = readColours();
     const { k, energy, bytes, steps } = this.atlas;
     const logs = energy.map(Math.log10);
     const frame = { left: 48, top: 24, right: 12, bottom: 38 };
-    const plot = new Plot(pen, { width, height, frame, colours, across: [logs[0], logs.at(-1)], up: [k[0], k.at(-1)] });
+    const plot =
+      new Plot(pen, { width, height, frame, colours, across: [logs[0], logs.at(-1)], up: [k[0], k.at(-1)] });
     const image = new OffscreenCanvas(energy.length, k.length);
     const paper = image.getContext("2d");
     const cells = paper.createImageData(energy.length, k.length);
@@ -80,7 +80,8 @@ class AtlasView {
       write(pen, value, left - 6, plot.at([logs[0], value])[1], colours.muted, "right", "middle");
     }
     for (const value of [0.1, 0.3, 1, 3, 10, 30]) {
-      write(pen, value, plot.at([Math.log10(value), k[0]])[0], top + plot.size[1] + 5, colours.muted, "center");
+      write(pen, value, plot.at([Math.log10(value), k[0]])[0],
+        top + plot.size[1] + 5, colours.muted, "center");
     }
     write(pen, "k", 4, 3, colours.ink);
     write(pen, "E/g²", width - frame.right, height - 2, colours.ink, "right", "bottom");
@@ -112,7 +113,8 @@ class AtlasView {
     };
     const byte = bytes[nearest(k, point[1]) * energy.length + nearest(energy.map(Math.log10), point[0])];
     const share = byte > steps ? "unknown" : `${Math.round((100 * byte) / steps)} %`;
-    setText("atlas-note", `k = ${shortNumber(point[1], 3)}, E/g² = ${shortNumber(10 ** point[0], 3)}: regular share ${share}`);
+    setText("atlas-note",
+      `k = ${shortNumber(point[1], 3)}, E/g² = ${shortNumber(10 ** point[0], 3)}: regular share ${share}`);
   }
 
   /** Draw a few short orbits of a ball as points of the disk; g changes the scale only. */
@@ -139,9 +141,6 @@ class AtlasView {
 /** A share of regular motion as a colour of more_figures/atlas/plane.png; grey where unknown. */
 function shade(share) {
   if (Number.isNaN(share)) return "#e0e0e0";
-  const viridis = [
-    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c",
-    "#28ae80", "#5ec962", "#addc30", "#fde725",
-  ];
+  const viridis = "#440154 #472d7b #3b528b #2c728e #21918c #28ae80 #5ec962 #addc30 #fde725".split(" ");
   return mixed(viridis, share);
 }

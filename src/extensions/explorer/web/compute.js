@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The workers: one follows the orbits on the screen, another does what may take seconds, and a pool
  * of one for each processor computes many orbits, so that none waits for another.
@@ -25,8 +24,7 @@ class Computer {
 
   /** Ask for a job; the promise holds its result. */
   ask(job, args) {
-    Computer.count = (Computer.count ?? 0) + 1;
-    const id = Computer.count;
+    const id = (Computer.count = (Computer.count ?? 0) + 1);
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject });
       this.worker.postMessage({ id, job, ...args });

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Many orbits in the worker: those of the pixels of a section in colour, and those that fill a window.
  * The first follow the kernel in SIMD lanes. Their verdicts are a short form of the rule of
@@ -94,7 +93,8 @@ const crowd = (() => {
   function rest(orbits, index, verdict) {
     const open = [...verdict.keys()].filter((i) => !verdict[i]);
     const chosen = ([name, values]) => [name, Float64Array.from(open, (i) => values[i])];
-    return { index: Uint32Array.from(open, (i) => index[i]), orbits: Object.fromEntries(Object.entries(orbits).map(chosen)) };
+    return { index: Uint32Array.from(open, (i) => index[i]),
+      orbits: Object.fromEntries(Object.entries(orbits).map(chosen)) };
   }
 
   /**
@@ -115,8 +115,10 @@ const crowd = (() => {
         }
       };
       const follower = new analysis.Follower(k, g, energy, state);
-      collect(follower.advance(DECISIVE));
-      let facts = follower.facts();
+      const first = follower.advance(DECISIVE);
+      collect(first);
+      let facts = follower.facts(!brief);
+      if (brief) facts.verdict = first.size.at(-1) > SURE.size ? "chaotic" : "regular"; // one of many
       const goesOn = () =>
         !brief && facts.verdict === "regular" && points.x.length < ENOUGH &&
         follower.impacts < (points.x.length > PROMISING ? LONGEST : TRIED);
@@ -126,7 +128,8 @@ const crowd = (() => {
       }
       const { verdict, rotation, exponent } = facts;
       return {
-        ...Object.fromEntries(Object.entries(points).map(([name, values]) => [name, Float64Array.from(values)])),
+        ...Object.fromEntries(Object.entries(points)
+          .map(([name, values]) => [name, Float64Array.from(values)])),
         facts: { verdict, rotation, exponent },
       };
     });

@@ -1,4 +1,3 @@
-"use strict";
 /* From play to record: a block for config.yaml, orbits as CSV, the view as PNG and SVG, the link. */
 
 /** A number as YAML reads it back to the last bit: an exponent needs a point before it. */
@@ -11,14 +10,15 @@ function yamlNumber(value) {
 function sceneKinds(state, orbits) {
   const forward = orbits.some((orbit) => !orbit.back && !orbit.refused);
   const saddle = state.branches.find((branch) => branch.nth === 0 && branch.period);
-  const kinds = [];
-  if (saddle && state.view.half < 0.2) kinds.push("closeup");
-  if (saddle && forward) kinds.push("tangle");
-  if (state.jump && forward) kinds.push("jumps");
-  if (forward) kinds.push("portrait");
-  if (state.motion?.period && state.motion.nth === 0) kinds.push("motion");
-  if (forward) kinds.push("exponents");
-  return kinds;
+  const kinds = {
+    closeup: saddle && state.view.half < 0.2,
+    tangle: saddle && forward,
+    jumps: state.jump && forward,
+    portrait: forward,
+    motion: state.motion?.period && state.motion.nth === 0,
+    exponents: forward,
+  };
+  return Object.keys(kinds).filter((kind) => kinds[kind]);
 }
 
 /** The block of a scene, and a note about what of the picture it leaves out. */
@@ -39,7 +39,8 @@ function sceneBlock(kind, { state, orbits, periodic, section }) {
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
     const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
     if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
-    if (shown.length < orbits.length) notes.push("A scene has no backward orbits and none that stop early: they are left out.");
+    if (shown.length < orbits.length)
+      notes.push("A scene has no backward orbits and none that stop early: they are left out.");
   }
   if (kind === "portrait" || kind === "tangle") {
     const { elevation, azimuth } = view;
@@ -119,7 +120,8 @@ function windowLines({ k, g, energy }, periodic, section, period, type) {
   const distances = orbit.points.map((point) => Math.hypot(point[0] - x, point[1] - v));
   const point = distances.indexOf(Math.min(...distances));
   const [across, up] = [0, 1].map((i) => states.map((state) => (state[i] - orbit.points[point][i]) / radius));
-  const range = (values) => `[${yamlNumber(Number(Math.min(...values).toPrecision(6)))}, ${yamlNumber(Number(Math.max(...values).toPrecision(6)))}]`;
+  const end = (value) => yamlNumber(Number(value.toPrecision(6)));
+  const range = (values) => `[${end(Math.min(...values))}, ${end(Math.max(...values))}]`;
   return [`point: ${point}`, `window: {x: ${range(across)}, xdot: ${range(up)}}`];
 }
 

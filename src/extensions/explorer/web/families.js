@@ -1,4 +1,3 @@
-"use strict";
 /* Families: the periodic orbits on the section at all energies at which Newton's method follows them. */
 class Families {
   constructor(page) {
@@ -8,7 +7,7 @@ class Families {
 
   get shown() {
     const { k, g } = this.page.state;
-    return [...this.found.values()].filter((family) => family.k === k && family.g === g && family.samples.length);
+    return [...this.found.values()].filter((one) => one.k === k && one.g === g && one.samples.length);
   }
 
   /** Follow the orbits on the section that are not followed yet, if the diagram is shown. */
@@ -28,35 +27,31 @@ class Families {
   }
 
   draw(canvas) {
-    const { pen, width, height } = fitted(canvas);
     const colours = readColours();
     const { state } = this.page;
     const samples = this.shown.flatMap((family) => family.samples);
     const energies = samples.map(({ energy }) => energy);
-    const across = energies.length ? [Math.min(...energies, state.energy), Math.max(...energies, state.energy)] : geometry.energyBounds(state.k, state.g);
-    const frame = { left: 50, top: 24, right: 26, bottom: 36 };
-    this.plot = new Plot(pen, { width, height, frame, colours, across, up: [-1, 1] });
+    const across = energies.length ? [Math.min(...energies, state.energy),
+      Math.max(...energies, state.energy)] : geometry.energyBounds(state.k, state.g);
+    this.plot = Plot.on(canvas, { across, up: [-1, 1] });
     this.plot.axes("E", "place x in section radii");
     for (const { energy, trace, places } of samples) {
-      for (const [p] of places) this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.regular : colours.chaotic, 1.2);
+      for (const [p] of places)
+        this.plot.dot([energy, p], Math.abs(trace) < 2 ? colours.elliptic : colours.hyperbolic, 1.2);
     }
     this.plot.vertical(state.energy, colours.focus);
-    this.plot.key([["elliptic", colours.regular], ["hyperbolic", colours.chaotic]]);
+    this.plot.key([["elliptic", colours.elliptic], ["hyperbolic", colours.hyperbolic]]);
   }
 
   /** Open the section at the orbit whose point in the diagram is nearest to a point of the screen. */
   openAt(left, top) {
-    let best = { distance: 20 };
-    for (const family of this.shown) {
-      for (const sample of family.samples) {
-        for (const [p] of sample.places) {
-          const [a, b] = this.plot.at([sample.energy, p]);
-          const distance = Math.hypot(a - left, b - top);
-          if (distance < best.distance) best = { distance, family, sample };
-        }
-      }
-    }
-    if (best.sample) this.open(best.family, best.sample);
+    const near = this.shown.flatMap((family) => family.samples.flatMap((sample) =>
+      sample.places.map(([p]) => {
+        const [a, b] = this.plot.at([sample.energy, p]);
+        return { family, sample, distance: Math.hypot(a - left, b - top) };
+      })));
+    const [best] = near.sort((a, b) => a.distance - b.distance);
+    if (best?.distance < 20) this.open(best.family, best.sample);
   }
 
   /** Go to the energy of a sample and show its orbit. */
@@ -64,9 +59,10 @@ class Families {
     const { page } = this;
     const { k, g, periods } = page.state;
     page.mark();
-    Object.assign(page.state, { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
-    page.controls.editing = true; // one entry of the history
-    page.controls.takeBall({ k, g, E: energy });
+    Object.assign(page.state,
+      { periods: [...new Set([...periods, period])], motion: one, time: 0, chosen: -1 });
+    page.controls.ball.editing = true; // one entry of the history
+    page.controls.ball.takeBall({ k, g, E: energy });
     page.controls.refresh();
     page.controls.hint(`The orbit of period ${period} at E = ${shortNumber(energy, 6)} is shown in time.`);
   }

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Orbits that fill a window after a zoom. They begin at places spread evenly over what is in sight, in
  * cells of a grid that no orbit has met yet. The same window and size of the page give the same orbits.
@@ -14,12 +13,11 @@ const SETTLED = 250; // ms after which a view is filled
 /** An orbit of which only the points in the window are kept. */
 class WindowOrbit {
   constructor({ x, xdot, udot, facts }, index, page) {
-    Object.assign(this, { x, xdot, udot, facts, page, kept: x.length, hue: index % HUES });
+    Object.assign(this, { x, xdot, udot, facts: shownFacts(facts), page, kept: x.length, hue: index % HUES });
     Object.assign(this, { chosen: false, settled: true, few: true });
   }
 
   isSea() { return this.facts.verdict !== "regular"; }
-
   colour(colours) { return Orbit.prototype.colour.call(this, colours); }
 }
 
@@ -29,6 +27,15 @@ class Filling {
     this.key = "";
     this.orbits = [];
     this.done = false;
+  }
+
+  /** What fills the window, in a line. */
+  get words() {
+    const { orbits, done, rare } = this;
+    if (!done || !orbits.length) return "";
+    const regular = COUNT.format(orbits.filter((orbit) => !orbit.isSea()).length);
+    const began = `${COUNT.format(orbits.length)} orbits began in this window, ${regular} of them regular`;
+    return rare ? `${began}. They return to it too rarely to draw curves.` : `The window is full: ${began}.`;
   }
 
   /** Fill what is in sight now, unless that is done or under way. */
@@ -50,14 +57,15 @@ class Filling {
     this.orbits = [];
     section.drawPoints();
     const window = key && section.window();
-    setText("map-note", page.colouring.words);
+    page.controls.status();
     if (!window) return;
     const { k, g, energy } = page.state;
     const low = geometry.pointAt(k, g, energy, window.p[0], window.q[0]);
     const high = geometry.pointAt(k, g, energy, window.p[1], window.q[1]);
     const range = { x: [low.x, high.x], y: [low.y, high.y] };
     const met = new Uint8Array(CELLS * CELLS);
-    const share = (value, [from, to]) => Math.min(CELLS - 1, Math.floor((CELLS * (value - from)) / (to - from)));
+    const share =
+      (value, [from, to]) => Math.min(CELLS - 1, Math.floor((CELLS * (value - from)) / (to - from)));
     let points = 0;
     let next = 0;
     while (points < MOST_POINTS) {
@@ -65,7 +73,8 @@ class Filling {
       for (; next < STARTS && places.length < SEEDS; next++) {
         const [across, up] = SPREAD.map((step) => (0.5 + next * step) % 1);
         const cell = Math.floor(up * CELLS) * CELLS + Math.floor(across * CELLS);
-        const [p, q] = [[across, window.p], [up, window.q]].map(([part, [from, to]]) => from + part * (to - from));
+        const [p, q] =
+          [[across, window.p], [up, window.q]].map(([part, [from, to]]) => from + part * (to - from));
         if (!met[cell] && geometry.stateAt(k, g, energy, { p, q })) places.push([p, q]);
       }
       const count = this.orbits.length;
@@ -91,6 +100,6 @@ class Filling {
     }
     this.done = true;
     if (["rotation", "exponent"].includes(page.state.colour)) section.look();
-    page.controls.filled();
+    page.controls.status();
   }
 }

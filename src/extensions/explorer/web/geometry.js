@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Geometry of the section and closed forms of the map. The page and the worker both have this file.
  *

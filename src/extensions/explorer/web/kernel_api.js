@@ -15,7 +15,8 @@ globalThis.pseudorigid = (() => {
   const ROWS = ORBIT + 8 * 24;
   const LANE_ROWS = ROWS + 8 * 5 * CHUNK;
   const LANE_KEPT = [0, 1, 2, 3, ...Array.from({ length: 11 }, (_, i) => 33 + i)]; // rows, in CROWD's order
-  const CROWD = ["x", "xdot", "udot", "tau", "a", "b", "c", "length", "sum", "p", "q", "turned", "weighted", "whole", "grown"];
+  const CROWD = ["x", "xdot", "udot", "tau", "a", "b", "c", "length",
+    "sum", "p", "q", "turned", "weighted", "whole", "grown"];
   const ORDER = LANE_ROWS + 8 * 44 * LANES;
   const PAGE = 65536; // bytes of a page of memory
   const memory = new WebAssembly.Memory({ initial: Math.ceil((ORDER + 8 * LANES) / PAGE) });
@@ -153,13 +154,9 @@ globalThis.pseudorigid = (() => {
   }
 
   // Return the velocities just after an impact, eq. (25).
-  function afterImpact(k, xdot, udot) {
-    return call("rebound", 2, xdot, udot, k, ...coefficients(k));
-  }
+  function afterImpact(k, xdot, udot) { return call("rebound", 2, xdot, udot, k, ...coefficients(k)); }
 
-  function coefficients(k) {
-    return call("impact_coefficients", 2, k);
-  }
+  function coefficients(k) { return call("impact_coefficients", 2, k); }
 
   // Return the state on y = 0 at a fraction of the section's radius, from -1 to 1.
   function start(k, g, energy, fraction) {
@@ -216,15 +213,11 @@ globalThis.pseudorigid = (() => {
     }
 
     // Return the exponent of the first vector over all impacts so far, in nats an impact.
-    exponent() {
-      return this.orbit[23] / this.impacts;
-    }
+    exponent() { return this.orbit[23] / this.impacts; }
   }
 
   // Start an orbit that `advance` continues.
-  function follow(k, g, x, xdot, udot) {
-    return new Follower(k, g, x, xdot, udot);
-  }
+  function follow(k, g, x, xdot, udot) { return new Follower(k, g, x, xdot, udot); }
 
   // Return the exponent that lyapunov_spectrum(..., records=1) has at index 0.
   function exponent(k, g, x, xdot, udot, impacts) {
@@ -340,7 +333,8 @@ globalThis.pseudorigid = (() => {
   }
 
   return {
-    history, start, exponent, stateXY, step, iterate, iterateMany, crowd, followMany, exponents, reverse, afterImpact, tangent, newton, follow,
+    history, start, exponent, stateXY, step, iterate, iterateMany, crowd,
+      followMany, exponents, reverse, afterImpact, tangent, newton, follow,
     sha256, bytesOf, checkFigure, TOO_LONG,
   };
 })();

@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The page as a whole: it holds the state, has the workers compute what the state asks for, and
  * draws it. controls.js turns what a person does into calls of these methods.
@@ -6,6 +5,7 @@
 const BATCH_TIME = 60; // ms that the worker computes before the page draws again
 const HUES = 7; // of the style sheet
 const SWEEP = 240; // energies from the least to the largest
+const FRAME = 40; // ms that each of them is shown at least
 const GROWTH_STEP = 0.02; // of a branch in a frame
 const SLOW = 200; // impacts asked for at once, up to which one can watch
 
@@ -40,21 +40,26 @@ class Explorer {
     const marks = this.shownPeriodic().map(({ orbit, one }) => ({
       orbit,
       one,
-      colour: orbit.type === "elliptic" ? "regular" : "ink",
+      colour: orbit.type === "elliptic" ? "elliptic" : "hyperbolic",
       shape: { elliptic: "dot", hyperbolic: "cross", "inverse hyperbolic": "square" }[orbit.type],
     }));
     const lines = [...this.branchLines, ...this.jumpLines];
-    const cursors = this.twin ? [this.motion, this.twin.motion].flatMap((one) => (one && this.time.now(one)?.state ? [this.time.now(one).state] : [])) : [];
+    const asks = this.state.lesson && !this.state.revealed; // which start is which
+    const starts = this.orbits.flatMap(({ start }, i) => (asks && start ? [[String(i + 1), start]] : []));
+    const motions = this.twin ? [this.motion, this.twin.motion] : [];
+    const cursors = motions.map((one) => one && this.time.now(one)?.state).filter(Boolean);
     const map = this.colouring.window ? this.colouring : null;
     const filling = this.filling.orbits;
     return {
-      state: this.state, orbits: this.orbits, filling, map, scale: this.scale(), overlays: { lines, marks }, cursors,
+      state: this.state, orbits: this.orbits, filling, map,
+        scale: this.scale(), overlays: { lines, marks, starts }, cursors,
     };
   }
 
   /** The periodic orbits on the section, each with what names it in the state. */
   shownPeriodic() {
-    const near = this.state.near.map((spec, nth) => ({ orbit: this.found.get(writeNear(spec)), one: { period: 0, type: "near", nth } }));
+    const near = this.state.near.map((spec, nth) =>
+      ({ orbit: this.found.get(writeNear(spec)), one: { period: 0, type: "near", nth } }));
     const symmetric = this.state.periods.flatMap((period) => {
       const seen = {};
       return (this.periodic.get(period) ?? []).map((orbit) => {
@@ -65,15 +70,17 @@ class Explorer {
     return [...near, ...symmetric].filter(({ orbit }) => orbit);
   }
 
-  /** What colours mean: {name, range}, without a range for verdicts; null if there is nothing to say. */
+  /** What colours mean: {name, range}, or {notes} for verdicts; null if there is nothing to say. */
   scale() {
-    const names = { rotation: "rotation number", exponent: "exponent", verdict: "verdict" };
+    const names = { rotation: "rotation number", exponent: "exponent" };
     const { window, by, range } = this.colouring;
-    if (window) return { name: by === "verdict" ? names[by] : `${names[by]}, 200 impacts`, range };
+    if (window && by === "verdict") return { notes: shortFormNotes(this.state) };
+    if (window) return { name: `${names[by]}, 200 impacts`, range };
     const { colour } = this.state;
     if (!["rotation", "exponent"].includes(colour)) return null;
     const found = this.range();
-    return Number.isFinite(found[0]) ? { name: colour === "exponent" ? "exponent so far" : names[colour], range: found } : null;
+    return Number.isFinite(found[0])
+      ? { name: colour === "exponent" ? "exponent so far" : names[colour], range: found } : null;
   }
 
   /** The range of what colours the orbits, the rotation number or the exponent. */
@@ -82,8 +89,6 @@ class Explorer {
     const [low, high] = [Math.min, Math.max].map((end) => end(...values.filter(Number.isFinite)));
     return low < high ? [low, high] : [low, low + 1e-9];
   }
-
-  // ---------------------------------------------------------------- states
 
   /** Show a state: from the address, or a preset. Orbits that were on the page before stay. */
   show(state) {
@@ -108,7 +113,7 @@ class Explorer {
     this.searcher.restart();
     this.tracing = (this.tracing ?? 0) + 1;
     this.forgetLines();
-    assignHues(this.orbits, this.section.section, HUES);
+    assignHues(this.orbits, HUES);
     this.chooseMotion();
     this.look();
     this.search();
@@ -124,9 +129,8 @@ class Explorer {
   /** Compute everything anew for the present ball and energy; fast, or so that one can watch. */
   restart(fast) {
     this.generation += 1;
-    this.follower.restart();
     this.follower.ask("reset", {});
-    this.round += 1; // what is asked for will not come
+    this.round += 1; // what was asked for is not drawn
     this.searcher.restart();
     this.periodic.clear();
     this.found.clear();
@@ -139,9 +143,12 @@ class Explorer {
     this.fresh = true; // the old picture stays until there are new impacts
     this.section.project();
     this.colouring.update();
-    if (!this.orbits.length) this.look();
-    this.chooseMotion();
-    this.search();
+    if (!this.orbits.length) this.section.drawGround();
+    this.section.drawLines();
+    this.filling.update();
+    this.chooseMotion(); // which draws the impacts, and the section in colour follows
+    clearTimeout(this.searchWaits); // a drag ends before periodic orbits are searched for
+    this.searchWaits = setTimeout(() => this.search(), fast ? 150 : 0);
     this.run();
     this.saveSoon();
   }
@@ -184,12 +191,12 @@ class Explorer {
     }
   }
 
-  /** Call `act` with pieces of an orbit's impacts, from one on; those that are not kept are computed again. */
+  /** Call `act` with pieces of an orbit's impacts, from one on; later ones are computed again. */
   async eachPiece(orbit, from, act, wanted = () => true) {
     const { k, g } = this.state;
     const end = orbit.count;
-    const kept = Object.fromEntries(["x", "xdot", "udot", "tau"].map((name) => [name, orbit[name].subarray(from, orbit.kept)]));
-    if (from < orbit.kept) act(kept, from);
+    const kept = (name) => [name, orbit[name].subarray(from, orbit.kept)];
+    if (from < orbit.kept) act(Object.fromEntries(["x", "xdot", "udot", "tau"].map(kept)), from);
     let state = orbit.last;
     for (let done = orbit.kept; done < end; ) {
       const impacts = Math.min(100000, end - done);
@@ -201,8 +208,6 @@ class Explorer {
       done += impacts;
     }
   }
-
-  // ---------------------------------------------------------------- orbits
 
   /** Start orbits at places [p, q], or at one point `xy`; the last one is shown in time. */
   startOrbits(places, xy = null) {
@@ -223,12 +228,18 @@ class Explorer {
     this.run();
   }
 
-  changedOrbits() {
+  /** Take over the orbits into the state, which shows no preset any more. */
+  ownOrbits() {
     this.state.preset = "";
-    this.state.orbits = this.orbits.map(({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea }));
+    const kept = ({ p, q, xy, impacts, back, sea }) => ({ p, q, xy, impacts, back, sea });
+    this.state.orbits = this.orbits.map(kept);
     this.controls.words();
-    this.controls.listOrbits();
     this.saveSoon();
+  }
+
+  changedOrbits() {
+    this.ownOrbits();
+    this.controls.orbits.list();
   }
 
   remove(orbit) {
@@ -285,6 +296,7 @@ class Explorer {
     const { round } = this;
     this.running = round;
     await nextFrame();
+    await this.asking; // of the round before
     let pieces = round === this.round && (await this.ask());
     while (pieces && round === this.round) {
       const added = this.append(pieces);
@@ -294,19 +306,21 @@ class Explorer {
       pieces = round === this.round && (await asked);
     }
     if (this.running === round) this.running = null;
-    if (round === this.round && this.orbits.some((orbit) => !orbit.done)) this.run(); // begun since
+    if (round === this.round && this.orbits.some((orbit) => orbit.waits)) this.run(); // begun since
   }
 
   /** Ask for further impacts; null if no orbit needs them. */
   ask() {
-    const waiting = this.orbits.filter((orbit) => !orbit.done);
+    const waiting = this.orbits.filter((orbit) => orbit.waits);
     if (!waiting.length) return null;
     const orbits = waiting.map((orbit) => {
-      const most = Math.min(Math.round(orbit.pace), (orbit.endless ? MOST_FOLLOWED : orbit.impacts) - orbit.count);
+      const end = orbit.endless ? MOST_FOLLOWED : orbit.impacts;
+      const most = Math.max(0, Math.min(Math.round(orbit.pace), end - orbit.count));
       orbit.pace = Math.min((orbit.pace < SLOW ? 1.18 : 2) * orbit.pace + 1, MOST_IMPACTS);
       return [orbit.key, most];
     });
-    return this.follower.ask("advance", { orbits, time: BATCH_TIME });
+    this.asking = this.follower.ask("advance", { orbits, time: BATCH_TIME });
+    return this.asking;
   }
 
   /** Add impacts to the orbits; returns [orbit, its new impacts] and whether colours changed. */
@@ -315,14 +329,16 @@ class Explorer {
     let recoloured = false;
     const ranges = ["rotation", "exponent"].includes(this.state.colour); // which change with each orbit
     const look = (orbit) =>
-      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict, ranges && Math.floor(Math.log2(orbit.count + 1))]);
+      String([orbit.isSea(), orbit.settled, orbit.facts?.verdict,
+        ranges && Math.floor(Math.log2(orbit.count + 1))]);
     for (const piece of pieces) {
       const orbit = this.orbits.find(({ key }) => key === piece.key);
       if (!orbit) continue;
       const before = look(orbit);
       orbit.append(piece, this.state.k);
       plots.push([orbit, piece]);
-      if (orbit.refused) this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
+      if (orbit.refused)
+        this.controls.hint(`The orbit stops after ${COUNT.format(orbit.count)} impacts: ${orbit.refused}.`);
       recoloured ||= before !== look(orbit);
       if (orbit.count > orbit.impacts) {
         orbit.impacts = orbit.count;
@@ -331,7 +347,7 @@ class Explorer {
         this.saveSoon();
       }
     }
-    if (recoloured) assignHues(this.orbits, this.section.section, HUES);
+    if (recoloured) assignHues(this.orbits, HUES);
     return { plots, recoloured };
   }
 
@@ -342,20 +358,19 @@ class Explorer {
       for (const [orbit, piece] of plots) this.section.plot(orbit, piece, 0, piece.x.length);
       this.section.showPoints();
     }
-    this.controls.updateFacts();
-    if (!this.orbits.some((orbit) => !orbit.done)) this.controls.completed();
+    this.controls.orbits.updateFacts();
+    if (!this.orbits.some((orbit) => orbit.waits)) this.controls.orbits.completed();
     this.drawChartSoon();
     if (!this.playing) {
       this.time.draw();
-      this.controls.moment();
+      this.controls.time.moment();
     }
     this.section.drawCursors();
   }
 
-  // ---------------------------------------------------------------- what takes longer
-
   /** Have periodic orbits, branches and the jump curve computed that the state asks for. */
   async search() {
+    clearTimeout(this.searchWaits);
     const { generation } = this;
     const { k, g, energy } = this.state;
     const specs = this.state.branches;
@@ -374,7 +389,7 @@ class Explorer {
         if (this.state.motion?.period === period) this.chooseMotion();
         this.section.drawLines();
       }
-      this.controls.listPeriodic();
+      this.controls.periodic.list();
       this.families.update();
       if (this.state.jump && !this.jumpLines.length) {
         const curve = await this.searcher.ask("jump", { k, g, energy });
@@ -477,11 +492,13 @@ class Explorer {
           for (const stable of kinds) {
             const details = { saddle, side, stable, length: spec.length, window: this.window };
             setText("branch-note", `Tracing branches: ${lines.length} done …`);
-            const line = await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
+            const line =
+              await this.searcher.ask("branch", { k, g, energy, points: orbit.points, spec: details });
             if (generation !== this.generation || round !== this.tracing) return;
             if (line.ended !== null) ended.push(line.ended);
             const again = lines.length < this.branchLines.length; // finer, in the place of one that is there
-            lines.push({ line, colour: stable ? "stable" : "unstable", width: 1.3, share: again || this.calm ? 1 : 0 });
+            lines.push({ line, colour: stable ? "stable" : "unstable",
+              width: 1.3, share: again || this.calm ? 1 : 0 });
             if (!again) this.branchLines = [...lines];
             if (!this.growing) this.grow(this.growing = true);
           }
@@ -517,7 +534,7 @@ class Explorer {
       { line: lift(1), colour: "symmetry", width: 2 },
       { line: lift(-1), colour: "jump", width: 2.5 },
     ];
-    this.controls.noteJump();
+    this.controls.periodic.noteJump();
     this.section.drawLines();
   }
 
@@ -525,7 +542,7 @@ class Explorer {
     this.mark();
     this.state.jump = on;
     Object.assign(this, { jumpLines: [], jumpLength: null });
-    this.controls.noteJump();
+    this.controls.periodic.noteJump();
     this.section.drawLines();
     this.search();
     this.saveSoon();
@@ -553,22 +570,22 @@ class Explorer {
     this.saveSoon();
   }
 
-  // ---------------------------------------------------------------- the energy as a film
-
   /** Raise E from the least energy, or from where it is, to the bound of eq. (31). */
   async sweepEnergy() {
     const { k, g } = this.state;
     const [low, high] = geometry.energyBounds(k, g);
-    const steps = Array.from({ length: SWEEP }, (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
-    if (this.state.energy >= steps.at(-1)) this.controls.takeBall({ k, g, E: steps[0] });
+    const steps = Array.from({ length: SWEEP },
+      (_, i) => Number((low + ((i + 1) / (SWEEP + 1)) ** 2 * (high - low)).toPrecision(6)));
+    if (this.state.energy >= steps.at(-1)) this.controls.ball.takeBall({ k, g, E: steps[0] });
     this.sweeping = true;
-    this.controls.showSweep();
+    this.controls.ball.showSweep();
     for (const E of steps.filter((value) => value > this.state.energy)) {
       const begin = performance.now();
-      this.controls.takeBall({ k, g, E });
+      this.controls.ball.takeBall({ k, g, E });
       element("E").value = String(E);
-      const shown = () => (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
-      while (this.sweeping && !(shown() && performance.now() - begin > 100)) {
+      const shown = () =>
+        (this.state.map === "none" ? this.orbits.every((orbit) => orbit.done) : this.colouring.energy === E);
+      while (this.sweeping && !(shown() && performance.now() - begin > FRAME)) {
         if (performance.now() - begin > 2000) break;
         await nextFrame();
       }
@@ -579,15 +596,13 @@ class Explorer {
 
   stopSweep() {
     this.sweeping = false;
-    this.controls.showSweep();
+    this.controls.ball.showSweep();
   }
-
-  // ---------------------------------------------------------------- the ball in time
 
   choose(index, play = false) {
     Object.assign(this.state, { chosen: index, motion: null, time: 0 });
     this.chooseMotion();
-    this.controls.markChosen();
+    this.controls.orbits.markChosen();
     if (play && !this.calm) this.play();
     this.saveSoon();
   }
@@ -603,16 +618,16 @@ class Explorer {
     this.time.draw();
     this.section.drawPoints();
     this.section.drawCursors();
-    this.controls.moment();
-    this.controls.updateFacts();
-    this.controls.markChosen();
+    this.controls.time.moment();
+    this.controls.orbits.updateFacts();
+    this.controls.orbits.markChosen();
     this.drawChartSoon();
   }
 
   /** Let a second ball start at a distance, or with 0 none. */
   setTwin(distance) {
     this.mark();
-    Object.assign(this.state, { twin: distance, chart: distance ? "distance" : "exponent" });
+    Object.assign(this.state, { twin: distance, chart: distance ? "distance" : "exponent", panel: "chart" });
     this.chooseMotion();
     this.controls.press();
     this.saveSoon();
@@ -629,7 +644,7 @@ class Explorer {
     this.state.time = Math.min(Math.max(time, first), last);
     this.time.draw();
     this.section.drawCursors();
-    this.controls.moment();
+    this.controls.time.moment();
     this.drawChartSoon();
     this.saveSoon();
   }
@@ -639,7 +654,7 @@ class Explorer {
     const [first, last] = this.motion.ends;
     if (this.state.time >= last && this.motion.count) this.state.time = first;
     this.playing = true;
-    this.controls.showPlaying();
+    this.controls.time.showPlaying();
     let before = null;
     const frame = (now) => {
       if (!this.playing) return;
@@ -657,7 +672,7 @@ class Explorer {
 
   pause() {
     this.playing = false;
-    this.controls.showPlaying();
+    this.controls.time.showPlaying();
   }
 
   stepImpact(step) {
@@ -670,11 +685,10 @@ class Explorer {
     else if (index > 0 || this.motion.count === Infinity) this.setTime(this.motion.flight(index - 1).begin);
   }
 
-  // ---------------------------------------------------------------- charts and the address
-
   drawChart() {
     setText("twin-note", this.twin.words);
     const { motion, state } = this;
+    if (state.panel !== "chart") return;
     const shown = !state.motion && motion?.count ? motion.indexAt(state.time) : -1;
     const charts = {
       distance: (canvas) => this.twin.draw(canvas),
@@ -727,13 +741,8 @@ class Explorer {
   }
 }
 
-function element(id) {
-  return document.getElementById(id);
-}
-
-function nextFrame() {
-  return new Promise((resolve) => requestAnimationFrame(resolve));
-}
+function element(id) { return document.getElementById(id); }
+function nextFrame() { return new Promise((resolve) => requestAnimationFrame(resolve)); }
 
 /** Begin with the address, or with Figure 2. */
 function begin() {
@@ -753,7 +762,9 @@ function begin() {
       if (!Object.hasOwn(data.scenes, state.preset)) state.preset = "";
       explorer.show(state);
       explorer.controls.welcome();
-      if (state.leftOut) explorer.controls.hint(`The last ${state.leftOut} orbits of the address are left out: the page shows at most ${MOST_ORBITS}.`);
+      if (!address && !explorer.calm) explorer.play();
+      const left = `The last ${state.leftOut} orbits of the address are left out`;
+      if (state.leftOut) explorer.controls.hint(`${left}: the page shows at most ${MOST_ORBITS}.`);
     } catch (error) {
       if (!explorer.orbits.length) explorer.show(presetState("fig2", data.scenes));
       explorer.controls.hint(error instanceof URIError ? "The address cannot be read." : `${error.message}.`);

@@ -1,24 +1,14 @@
-"use strict";
 /* The orbits on the screen: their first impacts, and what is known about each. */
-const NEAR = 300; // impacts by which an orbit's curve is known
 const KEPT = 50000; // impacts of an orbit that are kept; later ones are computed again to draw them
 
-/**
- * Give each regular orbit the hue whose nearest bearer is furthest, so that curves next to each other
- * differ. It depends on the orbits before it in the list only.
- */
-function assignHues(orbits, section, hues) {
-  const before = [];
-  for (const orbit of orbits) {
-    if (orbit.isSea() || !orbit.settled || orbit.facts?.verdict === "undecided") continue;
-    const nearest = Array(hues).fill(Infinity);
-    for (const other of before) {
-      nearest[other.hue] = Math.min(nearest[other.hue], orbit.distance(other, section));
-    }
-    orbit.hue = nearest.indexOf(Math.max(...nearest));
-    before.push(orbit);
-  }
+/** Give the regular orbits the hues in turn, so that those that start beside each other differ. */
+function assignHues(orbits, hues) {
+  const regular = orbits.filter((one) => !one.isSea() && one.settled && one.facts?.verdict !== "undecided");
+  regular.forEach((orbit, i) => (orbit.hue = i % hues));
 }
+
+/** What is shown of an orbit's facts: a chaotic one has no rotation number. */
+function shownFacts(facts) { return facts?.verdict === "chaotic" ? { ...facts, rotation: NaN } : facts; }
 
 class Orbit {
   constructor({ p, q, xy, impacts, back, sea }, page) {
@@ -27,8 +17,7 @@ class Orbit {
   }
 
   clear() {
-    Orbit.keys = (Orbit.keys ?? 0) + 1;
-    this.key = Orbit.keys;
+    this.key = Orbit.keys = (Orbit.keys ?? 0) + 1;
     this.count = 0; // impacts so far, of which the first are `kept`
     this.kept = 0;
     this.last = null; // the last state that is kept, before it is mirrored
@@ -41,9 +30,10 @@ class Orbit {
     for (const name of ["x", "xdot", "udot", "tau"]) this[name] = new Float64Array(256);
   }
 
-  get done() {
-    return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts);
-  }
+  get done() { return !this.start || this.refused !== "" || (!this.endless && this.count >= this.impacts); }
+
+  /** Whether the worker is still to be asked for something. */
+  get waits() { return !this.done || Boolean(this.start && !this.refused && !this.facts?.verdict); }
 
   /** Add impacts that the worker has computed, and keep the first ones. */
   append(piece, k) {
@@ -61,10 +51,11 @@ class Orbit {
     }
     this.kept += size;
     this.count += piece.x.length;
-    this.facts = piece.facts;
+    this.facts = shownFacts(piece.facts);
     this.refused = piece.refused ?? "";
     const [before] = this.history.at(-1) ?? [0];
-    if (piece.facts && (this.count > 1.01 * before || this.done)) this.history.push([this.count, piece.facts.exponent]);
+    if (piece.facts && (this.count > 1.01 * before || this.done))
+      this.history.push([this.count, piece.facts.exponent]);
   }
 
   /** Turn impacts of the worker in place into those of a backward orbit, if this is one. */
@@ -77,7 +68,6 @@ class Orbit {
 
   /** The state before impact i; 0 is the start. */
   stateAt(i) { return i === 0 ? this.start : [this.x[i - 1], this.xdot[i - 1], this.udot[i - 1]]; }
-
   isSea() { return Boolean(this.sea || this.facts?.verdict === "chaotic"); }
 
   /** Whether it is the one that the time view shows, which is highlighted. */
@@ -91,27 +81,13 @@ class Orbit {
       return Number.isFinite(value) ? mixed(colours.ramp, (value - low) / (high - low)) : colours.sea;
     }
     if (this.chosen && this.isSea()) return colours.ink;
-    if (by === "verdict") return colours[this.facts?.verdict] ?? colours.sea;
+    if (by === "verdict") return colours[`${this.facts?.verdict}-orbit`] ?? colours.ink;
     if (this.isSea()) return colours.sea;
     return this.hue === null ? colours.ink : colours.hues[this.hue];
   }
 
   /** Whether it is known well enough to get a colour. */
   get settled() { return Boolean(this.facts?.verdict || (this.count && this.done)); }
-
-  /** The least distance between the start of each of two orbits and the other's curve, squared. */
-  distance(other, { radius, height }) {
-    let least = Infinity;
-    for (const [a, b] of [[this, other], [other, this]]) {
-      const y = a.q * height;
-      for (let i = 0; i < Math.min(b.kept, NEAR); i++) {
-        const p = (b.x[i] - a.start[0]) / radius;
-        const q = (b.xdot[i] - b.k * b.udot[i] - y) / height;
-        least = Math.min(least, p * p + q * q);
-      }
-    }
-    return least;
-  }
 
   /** The rotation number with the digits that mean something. */
   get rotationText() {

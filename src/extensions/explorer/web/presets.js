@@ -1,4 +1,3 @@
-"use strict";
 /*
  * Presets: the scenes of config.yaml, which are in the page's data, by their kinds of picture. Here is
  * what they are made of. A part's presets.js has a function for each of its kinds, which makes the
@@ -15,19 +14,13 @@ function presetState(name, scenes) {
   return { ...base, ...PRESETS[scene.picture](scene, scenes) };
 }
 
-/** The state of a step of the tour, counted from 1. */
-function tourState(step, steps) {
-  return { ...readAddress(steps[step - 1].address), tour: step };
-}
-
-function disk(x = 0, y = 0, half = HOME.disk[2]) {
-  return { ...HOME_VIEW, kind: "disk", x, y, half };
-}
+function disk(x = 0, y = 0, half = HOME.disk[2]) { return { ...HOME_VIEW, kind: "disk", x, y, half }; }
 
 /** The place of a start: a fraction, or a point with x and either y or xdot. */
 function placeOf(start, scene) {
   const { k, g } = scene.ball;
-  return typeof start === "number" ? [start, 0] : geometry.placeAt(k, g, scene.energy, ...pointOf(start, scene));
+  return typeof start === "number" ? [start, 0]
+    : geometry.placeAt(k, g, scene.energy, ...pointOf(start, scene));
 }
 
 function pointOf({ x, xdot, y }, { ball: { k, g }, energy }) {

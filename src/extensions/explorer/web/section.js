@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The section: a disk in (x, y), or the half ellipsoid of Figure 2, on canvases: the ground with its
  * axes, the section in colour, the impacts of orbits, lines over them, and cursors. Impacts are counted
@@ -65,8 +64,6 @@ class SectionView {
     this.drawCursors();
   }
 
-  // ---------------------------------------------------------------- from states to the screen
-
   /** Prepare the numbers of `place` and `screen` from the state. */
   project() {
     const { state } = this.read();
@@ -77,7 +74,8 @@ class SectionView {
     const disk = view.kind === "disk";
     // Seen from above, along the axis of udot, the half ellipsoid is the plane (x, xdot) of Figure 6.
     this.framed = disk || (view.elevation === ABOVE.elevation && view.azimuth === ABOVE.azimuth);
-    const margin = this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
+    const margin =
+      this.framed ? { left: !disk ? 62 : view.half > 0.02 ? 52 : 66, top: 10, right: 10, bottom: 40 } : null;
     this.frame = margin ?? { left: 6, top: 6, right: 6, bottom: 6 };
     this.wide = this.width - this.frame.left - this.frame.right;
     this.tall = this.height - this.frame.top - this.frame.bottom;
@@ -199,13 +197,11 @@ class SectionView {
     );
   }
 
-  // ---------------------------------------------------------------- the ground
-
   drawGround() {
     const { ground, colours } = this;
     ground.clearRect(0, 0, this.width, this.height);
     ground.fillStyle = colours.surface;
-    ground.font = `13px ${colours.font}`;
+    ground.font = colours.font;
     if (this.kind === "disk") this.drawDisk();
     else this.drawHalfEllipsoid();
     if (!this.framed) {
@@ -217,7 +213,8 @@ class SectionView {
     ground.strokeRect(frame.left, frame.top, wide, tall);
     const disk = this.kind === "disk";
     this.drawAxis(0, "x", wide, disk ? origin[0] : centre + origin[0], radius / scale);
-    this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall, origin[1], (disk ? this.sectionHeight : radius) / scale);
+    this.drawAxis(1, disk ? "y = ẋ − k u̇" : "ẋ⁻", tall,
+      origin[1], (disk ? this.sectionHeight : radius) / scale);
   }
 
   /** Draw which colours mean which rotation numbers, exponents or verdicts. */
@@ -225,27 +222,76 @@ class SectionView {
     const { lines, colours } = this;
     const { scale } = this.read();
     if (!scale) return;
-    const unit = this.width < 450 ? 1 : 2; // smaller on a phone
-    const wide = scale.range ? 80 * unit + 16 : 60 + 18 * unit;
-    const [left, top] = [this.width - this.frame.right - wide, this.frame.top + 8];
-    lines.font = `${9 + 2 * unit}px ${colours.font}`;
-    lines.fillStyle = colours.page;
-    lines.fillRect(left - 8, top - 5, wide + 2, scale.range ? 52 : 50);
+    const small = this.width < 450; // a phone
+    const { unit } = colours;
+    const step = unit * (small ? 1 : 2); // pixels of one of 80 colours
+    const line = 18 * unit;
+    lines.font = colours.font;
     if (!scale.range) {
-      ["regular", "chaotic"].forEach((name, i) => {
+      const side = 13 * unit;
+      const swatch = (name) => (left, middle) => {
         lines.fillStyle = colours[name];
-        lines.fillRect(left, top + 4 + 22 * i, 12, 12);
-        write(lines, name, left + 20, top + 2 + 22 * i, colours.ink);
-      });
+        lines.fillRect(left, middle - side / 2, side, side);
+        lines.strokeStyle = colours.muted;
+        lines.strokeRect(left, middle - side / 2, side, side);
+      };
+      const rows = ["regular", "chaotic", "undecided"].map((name) => [name, swatch(name)]);
+      this.drawRows([...rows, ...scale.notes.map((note) => [note, null])], true);
       return;
     }
+    lines.fillStyle = colours.page;
+    const [left, top] = [this.width - this.frame.right - 80 * step - 16, this.frame.top + 8];
+    lines.fillRect(left - 8, top - 5, 80 * step + 18, 3 * line);
     for (let i = 0; i < 80; i++) {
       lines.fillStyle = mixed(colours.ramp, i / 79);
-      lines.fillRect(left + unit * i, top + 18, unit + 0.5, 9);
+      lines.fillRect(left + step * i, top + line, step + 0.5, 9 * unit);
     }
-    write(lines, unit === 1 ? scale.name.split(",")[0] : scale.name, left + 80 * unit, top, colours.ink, "right");
-    write(lines, shortNumber(scale.range[0], 3), left, top + 30, colours.muted);
-    write(lines, shortNumber(scale.range[1], 3), left + 80 * unit, top + 30, colours.muted, "right");
+    const title = small ? scale.name.split(",")[0] : scale.name;
+    write(lines, title, left + 80 * step, top, colours.ink, "right");
+    write(lines, shortNumber(scale.range[0], 3), left, top + line + 12 * unit, colours.muted);
+    write(lines, shortNumber(scale.range[1], 3), left + 80 * step,
+      top + line + 12 * unit, colours.muted, "right");
+  }
+
+  /** Draw what branches, curves and marks mean, those that are there, at the left bottom. */
+  drawLegend() {
+    const { lines, colours, frame } = this;
+    const { overlays } = this.read();
+    const names = { stable: "stable branch", unstable: "unstable branch",
+      symmetry: "the map jumps", jump: "its inverse jumps" };
+    const shapes = { dot: "elliptic", cross: "hyperbolic", square: "inverse hyperbolic" };
+    const drawn = (name) => overlays.lines.find(({ colour }) => colour === name);
+    const stroke = (name) => (left, middle) => {
+      lines.fillStyle = colours[name];
+      lines.fillRect(left, middle - 1, 18 * colours.unit, 2.5);
+    };
+    const rows = Object.keys(names).filter(drawn).map((name) => [names[name], stroke(name)]);
+    for (const [shape, name] of Object.entries(shapes)) {
+      const one = this.marks.find((mark) => mark.shape === shape);
+      const sign = (left, middle) => this.mark(lines, [left + 9, middle], colours[one.colour], shape);
+      if (one) rows.push([name, sign]);
+    }
+    if (rows.length) this.drawRows(rows, false);
+  }
+
+  /** Draw rows of a legend, [text, a function that draws its sign at a point, or null], in a corner. */
+  drawRows(rows, right) {
+    const { lines, colours, frame } = this;
+    const tall = (this.width < 450 ? 15 : 18) * colours.unit;
+    const room = 26 * colours.unit;
+    const wide =
+      room + 7 * colours.unit * Math.max(...rows.map(([text, sign]) => text.length - (sign ? 0 : 3)));
+    const left = right ? this.width - frame.right - wide - 8 : frame.left + 8;
+    const top = right ? frame.top + 6 : this.height - frame.bottom - 6 - tall * rows.length;
+    lines.font = this.width < 450 ? `${11 * colours.unit}px ${colours.family}` : colours.font;
+    lines.fillStyle = colours.page;
+    lines.fillRect(left - 4, top - 3, wide + 8, tall * rows.length + 6);
+    rows.forEach(([text, sign], i) => {
+      const middle = top + tall * (i + 0.5);
+      sign?.(left, middle);
+      write(lines, text, sign ? left + room : left, middle,
+        sign ? colours.ink : colours.muted, "left", "middle");
+    });
   }
 
   drawDisk() {
@@ -289,9 +335,9 @@ class SectionView {
     this.clip(ground);
     ground.beginPath();
     if (this.scale > 1e4) {
-      if (this.place(...this.middle)) ground.rect(0, 0, this.width, this.height);
+      if (this.place(...this.middle)) ground.fillRect(0, 0, this.width, this.height);
     } else {
-      // What one sees of it is convex: the hull of its rim and of its outline against the eye.
+      // One sees what is inside its rim, and inside its outline against the eye.
       const [e0, e1, e2] = this.eye;
       const turns = Array.from({ length: 720 }, (_, i) => (i * Math.PI) / 360);
       const rim = turns.map((a) => {
@@ -308,11 +354,13 @@ class SectionView {
         .map((a) => side.map((value, i) => radius * (Math.cos(a) * value + Math.sin(a) * top[i])))
         .map(([dx, v, w]) => [dx, v * Math.sqrt(k), w])
         .filter(([, v, w]) => v + w >= 0);
-      const corners = hull([...rim, ...outline.map((point) => this.flat(...point))]);
-      corners.forEach(([left, up], n) => (n ? ground.lineTo(left, up) : ground.moveTo(left, up)));
+      for (const corners of [rim, outline.map((point) => this.flat(...point))]) {
+        ground.fillStyle = colours.surface;
+        ground.beginPath();
+        corners.forEach((corner) => ground.lineTo(...corner));
+        ground.fill();
+      }
     }
-    ground.fillStyle = colours.surface;
-    ground.fill();
     ground.restore();
   }
 
@@ -320,7 +368,8 @@ class SectionView {
   drawBox() {
     const { ground, colours, radius, k } = this;
     const low = -radius * Math.sqrt(k / (1 + k));
-    const size = (radius * Math.min(this.width, this.height)) / 4 / this.scale; // a part is half as tall as the view
+    // a part is half as tall as the view
+    const size = (radius * Math.min(this.width, this.height)) / 4 / this.scale;
     const point = size < radius / 3 && this.surfacePoint(...this.origin);
     const whole = [[-radius, radius], [low, radius * Math.sqrt(k)], [low, radius]];
     const ranges = point ? point.map((value) => [value - size, value + size]) : whole;
@@ -346,22 +395,23 @@ class SectionView {
       const [left, top] = at(half, edge);
       if (out[0] * (left - middle[0]) + out[1] * (top - middle[1]) < 0) out = out.map((value) => -value);
       strokePath(ground, colours.muted, 1, () => ends.forEach((end) => ground.lineTo(...end)));
-      const { offsets, labels, base } = ticksAround(half + (axis ? 0 : this.centre), to - from, Math.max(length / 44, 4));
+      const { offsets, labels, base } =
+        ticksAround(half + (axis ? 0 : this.centre), to - from, Math.max(length / 44, 4));
       const beside = ([a, b], away) => [a + away * out[0], b + away * out[1]];
       offsets.forEach((offset, i) => {
         const tick = at(half + offset, edge);
-        strokePath(ground, colours.muted, 1, () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
+        strokePath(ground, colours.muted, 1,
+          () => [tick, beside(tick, 5)].forEach((end) => ground.lineTo(...end)));
         put(labels[i], beside(tick, 13 + 3.6 * labels[i].length * Math.abs(out[0])), colours.muted);
       });
       const title = base ? `${name} − (${base})` : name;
       const letters = Math.max(...labels.map((label) => label.length)) + 0.5 * title.length;
-      const place = axis === 2 ? [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16] : beside([left, top], 26 + 7 * letters * Math.abs(out[0]));
+      const place = axis === 2 ? [ends[1][0], Math.min(ends[0][1], ends[1][1]) - 16]
+        : beside([left, top], 26 + 7 * letters * Math.abs(out[0]));
       put(title, place, colours.ink);
     });
     ground.lineWidth = 1;
   }
-
-  // ---------------------------------------------------------------- impacts
 
   drawPoints() {
     this.inks?.fill(0);
@@ -452,8 +502,6 @@ class SectionView {
     }
   }
 
-  // ---------------------------------------------------------------- the section in colour
-
   /** The part of the section in sight, as ranges of p and q; null if there is none. */
   window() {
     const { left, top } = this.frame;
@@ -500,8 +548,21 @@ class SectionView {
         table[2 * (row * wide + column) + 1] = (place[1] - q[0]) / (q[1] - q[0]);
       }
     }
-    Object.assign(this, { sharesOf: key, sharesTable: { table, wide, tall } });
+    Object.assign(this, { sharesOf: key, sharesTable: { table, wide, tall, cells: new Map() } });
     return this.sharesTable;
+  }
+
+  /** The cell of a grid under each pixel of the map; beyond the last one outside the section. */
+  cellsOf(window, size) {
+    const { table, wide, tall, cells } = this.shares(window);
+    if (cells.has(size)) return cells.get(size);
+    const found = Uint32Array.from({ length: wide * tall }, (_, i) => {
+      const [across, up] = [table[2 * i], table[2 * i + 1]];
+      if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return size * size;
+      return Math.floor(up * size) * size + Math.floor(across * size);
+    });
+    cells.set(size, found);
+    return found;
   }
 
   /** Draw the section in colour, if it is. */
@@ -509,20 +570,18 @@ class SectionView {
     const { map } = this.read();
     this.map.clearRect(0, 0, this.width, this.height);
     if (!map?.window) return;
-    const { table, wide, tall } = this.shares(map.window);
+    const { wide, tall } = this.shares(map.window);
     const image = new ImageData(wide, tall);
     const pixels = new Uint32Array(image.data.buffer);
-    const ink = map.inks(this.colours);
-    for (let i = 0; i < pixels.length; i++) {
-      if (!Number.isNaN(table[2 * i])) pixels[i] = ink(table[2 * i], table[2 * i + 1]);
+    for (const { size, inks } of map.layers(this.colours)) {
+      const cells = this.cellsOf(map.window, size);
+      for (let i = 0; i < pixels.length; i++) if (pixels[i] === 0) pixels[i] = inks[cells[i]];
     }
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [wide, tall];
     canvas.getContext("2d").putImageData(image, 0, 0);
     this.map.drawImage(canvas, 0, 0, this.width, this.height);
   }
-
-  // ---------------------------------------------------------------- lines and cursors
 
   drawLines() {
     const { lines, colours, centre, radius, k } = this;
@@ -538,7 +597,8 @@ class SectionView {
       udot: y.map((value) => -value / (1 + k)),
     };
     if (this.scale < 1e5) this.stroke(lines, rim, colours.rim, 1.5);
-    const states = Array.from({ length: 201 }, (_, i) => this.lineState(Math.sin(((i - 100) * Math.PI) / 200)));
+    const states =
+      Array.from({ length: 201 }, (_, i) => this.lineState(Math.sin(((i - 100) * Math.PI) / 200)));
     const [lx, lv, lw] = [0, 1, 2].map((i) => states.map((state) => state[i]));
     lines.setLineDash([5, 4]);
     this.stroke(lines, { x: lx, xdot: lv, udot: lw }, colours.symmetry, 1);
@@ -548,16 +608,20 @@ class SectionView {
     }
     this.marks = []; // those that are drawn: no two in one place
     for (const mark of overlays.marks) {
-      const places = mark.orbit.points.map(([x, v, w]) => this.screen(x, v, w)).filter((at) => at && this.inside(at));
+      const places =
+        mark.orbit.points.map(([x, v, w]) => this.screen(x, v, w)).filter((at) => at && this.inside(at));
       const free = places.filter((at) => !this.markAt(at));
       for (const at of free) this.mark(lines, at, colours[mark.colour], mark.shape);
-      const label = free.find(([left, top]) => !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
+      const label = free.find(([left, top]) =>
+        !this.marks.some(({ at }) => Math.hypot(at[0] - left - 8, at[1] - top + 8) < 16));
       this.marks.push(...free.map((at) => ({ ...mark, at })));
-      lines.font = `13px ${colours.font}`;
+      lines.font = colours.font;
       if (label) write(lines, mark.orbit.period, label[0] + 7, label[1] - 16, colours.ink);
     }
+    for (const [text, state] of overlays.starts) this.label(lines, text, this.screen(...state));
     lines.restore();
     this.drawScale();
+    this.drawLegend();
   }
 
   clip(pen) {
@@ -567,9 +631,7 @@ class SectionView {
   }
 
   /** The mark of a periodic orbit at a point of the screen. */
-  markAt([left, top]) {
-    return this.marks?.find(({ at }) => Math.hypot(at[0] - left, at[1] - top) < 9);
-  }
+  markAt([left, top]) { return this.marks?.find(({ at }) => Math.hypot(at[0] - left, at[1] - top) < 9); }
 
   /** The orbit with an impact near a point of the screen, a regular one rather than the sea. */
   orbitAt([left, top]) {
@@ -633,6 +695,15 @@ class SectionView {
     pen.lineWidth = 1;
   }
 
+  /** Draw a number in a ring at a start. */
+  label(pen, text, at) {
+    if (!at) return;
+    pen.fillStyle = this.colours.page;
+    strokePath(pen, this.colours.ink, 1.5, () => pen.arc(...at, 10 * this.colours.unit, 0, 2 * Math.PI));
+    pen.fill();
+    write(pen, text, ...at, this.colours.ink, "center", "middle");
+  }
+
   drawCursors() {
     const { cursors, colours } = this;
     const { cursors: moments } = this.read();
@@ -674,23 +745,6 @@ class SectionView {
   }
 }
 
-/** The corners of the convex hull of points, in order around it. */
-function hull(points) {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  const half = (list) => {
-    const chain = [];
-    for (const [x, y] of list) {
-      for (; chain.length > 1; chain.pop()) {
-        const [[ax, ay], [bx, by]] = chain.slice(-2);
-        if ((bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0) break;
-      }
-      chain.push([x, y]);
-    }
-    return chain.slice(0, -1);
-  };
-  return [...half(sorted), ...half(sorted.reverse())];
-}
-
 /** The point of a segment from `near` towards `away` at the edge of a square of half size `far`. */
 function cut(near, away, far) {
   let share = 1;
@@ -705,12 +759,15 @@ function cut(near, away, far) {
 /** The colours of the style sheet in an element. */
 function readColours(node = document.documentElement) {
   const style = getComputedStyle(node);
-  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea";
-  const colours = Object.fromEntries(names.split(" ").map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
+  const names = "page panel surface ink muted line rim symmetry stable unstable jump focus sea elliptic";
+  const verdicts = "hyperbolic regular chaotic undecided regular-orbit chaotic-orbit";
+  const colours = Object.fromEntries(`${names} ${verdicts}`.split(" ")
+    .map((n) => [n, style.getPropertyValue(`--${n}`).trim()]));
   colours.hues = [0, 1, 2, 3, 4, 5, 6].map((i) => style.getPropertyValue(`--hue${i}`).trim());
-  [colours.regular, colours.chaotic] = colours.hues;
   colours.ramp = style.getPropertyValue("--ramp").trim().split(" ");
-  colours.font = getComputedStyle(document.body).fontFamily;
+  colours.family = getComputedStyle(document.body).fontFamily;
+  colours.unit = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+  colours.font = `${Math.round(13 * colours.unit)}px ${colours.family}`;
   return colours;
 }
 

@@ -11,6 +11,7 @@ const MOST_IMPACTS = 10000000; // of an orbit, unless it runs on
 const MOST_FOLLOWED = 2000000000;
 const COLOURS = ["orbit", "verdict", "rotation", "exponent"];
 const MAPS = ["none", "exponent", "rotation", "verdict"]; // what colours the pixels of the section
+const PANELS = ["time", "chart", "orbits", "periodic", "atlas", "export", "help"];
 const HOME = { disk: [0, 0, 1.12], surface: [0, 0, 1.12] };
 
 function freshState() {
@@ -25,7 +26,8 @@ function freshState() {
     orbits: [], // {p, q, xy, impacts, back, sea}
     chosen: -1, // the orbit that the time view shows, unless `motion` is given
     motion: null, // {period, type, nth}: the periodic orbit that the time view shows
-    near: [], // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
+    // {p, q, period (0: any)}: places whose nearest periodic orbits are {period: 0, type: "near", nth}
+    near: [],
     periods: [], // periods of the periodic orbits on the section
     branches: [], // {period, type, nth, saddle (-1: all), kind, side, length}
     jump: false,
@@ -36,7 +38,10 @@ function freshState() {
     back: false, // direction and impacts of the next orbit
     impacts: 3000,
     preset: "",
+    panel: "time", // the one that is open
     tour: 0, // the step of the tour, 0 for none
+    lesson: 0, // the question, 0 for none
+    revealed: false, // whether its answer is shown
   };
 }
 
@@ -52,13 +57,17 @@ function parameterError(name, text, ball) {
   const value = readNumber(text);
   const refused = `${name} = ${String(text).trim() || "nothing"} is not allowed`;
   if (Number.isNaN(value)) return `${refused}: a number`;
-  if (name === "k" && !(value > 0 && value <= 1)) return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
-  if (name === "g" && !(value > 0 && value < ball.k)) return `${refused}: between 0 and k = ${shortNumber(ball.k, 4)}`;
-  const [low, high] = rangeOf(name, ball).map((end) => shortNumber(end, 4));
+  if (name === "k" && !(value > 0 && value <= 1))
+    return `${refused}: above 0, at most 1 (a sphere has at most 1/3)`;
+  if (name === "g" && !(value > 0 && value < ball.k))
+    return `${refused}: above 0, below k = ${shortNumber(ball.k, 4)}`;
+  const [low, high] = rangeOf(name, ball).map((end, i) => inside(end, i ? -1 : 1));
   if (ballAllowed({ ...ball, [name]: value })) return "";
-  if (name === "E") return `${refused}: between −g²/2k = ${low} and k/2 − g = ${high}, eq. (31)`;
-  const others = ["k", "g", "E"].filter((other) => other !== name).map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
-  return `${refused}: between ${low} and ${high} at ${others.join(" and ")}, eq. (31)`;
+  if (name === "E") return `${refused}: above −g²/2k = ${low}, below k/2 − g = ${high}, eq. (31)`;
+  const others = ["k", "g", "E"].filter((other) => other !== name)
+    .map((other) => `${other} = ${shortNumber(ball[other], 4)}`);
+  const below = name === "k" && high === "1" ? "at most" : "below";
+  return `${refused}: above ${low}, ${below} ${high} at ${others.join(" and ")}, eq. (31)`;
 }
 
 function ballAllowed({ k, g, E }) {
@@ -86,9 +95,14 @@ function shortNumber(value, digits = 6) {
   return String(Number(value.toPrecision(digits))).replaceAll("-", "−");
 }
 
-const COUNT = new Intl.NumberFormat("en");
+/** The end of an open range in four digits, rounded inwards; sign is 1 for a lower end, else -1. */
+function inside(end, sign) {
+  const step = 10 ** (Math.floor(Math.log10(Math.abs(end) || 1)) - 3);
+  const rounded = Math.round(end / step);
+  return shortNumber((rounded + (sign * (rounded - end / step) < -1e-9 ? sign : 0)) * step, 4);
+}
 
-// ------------------------------------------------------------------ the address
+const COUNT = new Intl.NumberFormat("en");
 
 function writeAddress(state) {
   const { view } = state;
@@ -113,7 +127,10 @@ function writeAddress(state) {
     ["twin", state.twin || ""],
     ["next", `${state.impacts}${state.back ? "<" : ""}`],
     ["preset", state.preset],
+    ["panel", state.panel === "time" ? "" : state.panel],
     ["tour", state.tour || ""],
+    ["lesson", state.lesson || ""],
+    ["revealed", state.revealed ? 1 : ""],
   ]);
   const parts = [...fields].filter(([, value]) => value !== "");
   return "#" + parts.map((part) => part.join("=")).join("&");
@@ -124,16 +141,12 @@ function writeOrbit({ p, q, xy, impacts, back, sea }) {
   return `${place}*${impacts}${back ? "<" : ""}${sea ? "!" : ""}`;
 }
 
-function writeNear({ p, q, period }) {
-  return `${p}:${q}*${period}`;
-}
+function writeNear({ p, q, period }) { return `${p}:${q}*${period}`; }
 
 const KIND_LETTERS = { near: "n", elliptic: "e", hyperbolic: "h", "inverse hyperbolic": "i" };
 const LETTER_KINDS = Object.fromEntries(Object.entries(KIND_LETTERS).map(([a, b]) => [b, a]));
 
-function writeMotion({ period, type, nth }) {
-  return `${period}${KIND_LETTERS[type]}${nth}`;
-}
+function writeMotion({ period, type, nth }) { return `${period}${KIND_LETTERS[type]}${nth}`; }
 
 function writeBranch(branch) {
   const { saddle, kind, side, length } = branch;
@@ -154,7 +167,8 @@ function readAddress(text) {
   const whole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
   const motion = (name, value) => {
     const match = /^(\d+)([ehi])(\d+)$|^(0)(n)(\d+)$/.exec(value)?.filter((part) => part !== undefined);
-    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1]))) fail(name, value, "a periodic orbit, like 6e0");
+    if (!match || !whole(match[2] === "n" ? 0 : 1, 12)(Number(match[1])))
+      fail(name, value, "a periodic orbit, like 6e0");
     return { period: Number(match[1]), type: LETTER_KINDS[match[2]], nth: Number(match[3]) };
   };
   const one = (name, value, words) => {
@@ -195,7 +209,8 @@ function readAddress(text) {
     near(value) {
       state.near = value.split(";").map((part) => {
         const [p, q, period] = part.split(/[:*]/).map((text) => number("near", text));
-        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period))) fail("near", part, "a place and a period, like 0.1:0.2*6");
+        if (!(p * p + q * q < 1 && whole(0, MOST_PERIOD)(period)))
+          fail("near", part, "a place and a period, like 0.1:0.2*6");
         return { p, q, period };
       });
     },
@@ -215,22 +230,28 @@ function readAddress(text) {
     chart: (value) => (state.chart = one("chart", value, ["exponent", "rotation", "distance", "families"])),
     t: (value) => (state.time = number("t", value)),
     span: (value) => (state.span = number("span", value, "a time above 0", (v) => v > 0 && v <= 1000)),
-    twin: (value) => (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
+    twin: (value) =>
+      (state.twin = number("twin", value, "a distance above 0, below 1", (v) => v > 0 && v < 1)),
     next(value) {
       state.back = value.endsWith("<");
       const count = value.replace("<", "");
       state.impacts = number("next", count, `1 to ${MOST_IMPACTS}`, whole(1, MOST_IMPACTS));
     },
     preset: (value) => (state.preset = value),
+    panel: (value) => (state.panel = one("panel", value, PANELS)),
     tour: (value) => (state.tour = number("tour", value, "a step from 1 to 6", whole(1, 6))),
+    lesson: (value) => (state.lesson = number("lesson", value, "a question from 1 to 5", whole(1, 5))),
+    revealed: (value) => (state.revealed = value === "1"),
   };
+  state.panel = null;
   for (const part of decodeURIComponent(text).replace(/^#/, "").split("&")) {
     const at = part.indexOf("=");
     const name = part.slice(0, at);
     if (at > 0 && Object.hasOwn(readers, name)) readers[name](part.slice(at + 1));
     else if (at > 0) fail(name, part.slice(at + 1), "no such field");
-    else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name, or fields like k=0.2, are needed`);
+    else throw new Error(`the address has ${part.slice(0, 40)}: a scene's name or k=0.2 and so on is needed`);
   }
+  state.panel ??= state.chart === "exponent" ? "time" : "chart"; // older addresses have no panel
   const { k, g, energy: E } = state;
   const wrong = !(k > 0 && k <= 1) ? "k" : !(g > 0 && g < k) ? "g" : "E";
   const error = parameterError(wrong, String({ k, g, E }[wrong]), { k, g, E });
@@ -242,4 +263,11 @@ function readAddress(text) {
   });
   if (state.chosen >= state.orbits.length) state.chosen = state.orbits.length - 1;
   return state;
+}
+
+/** What controls a part of the page's state. */
+class OfPage {
+  constructor(page) { this.page = page; }
+  get state() { return this.page.state; }
+  hint(text) { this.page.controls.hint(text); }
 }

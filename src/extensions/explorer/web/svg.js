@@ -1,4 +1,3 @@
-"use strict";
 /* A pen with what the section's drawing uses of a canvas's, which writes SVG. */
 class SvgPen {
   constructor() {
@@ -12,14 +11,8 @@ class SvgPen {
   setTransform() {}
   clearRect() {}
   beginPath() { this.path = ""; }
-
-  moveTo(left, top) {
-    this.path += `M${this.number(left)} ${this.number(top)}`;
-  }
-
-  lineTo(left, top) {
-    this.path += `${this.path ? "L" : "M"}${this.number(left)} ${this.number(top)}`;
-  }
+  moveTo(left, top) { this.path += `M${this.number(left)} ${this.number(top)}`; }
+  lineTo(left, top) { this.path += `${this.path ? "L" : "M"}${this.number(left)} ${this.number(top)}`; }
 
   rect(left, top, width, height) {
     const [x, y, w, h] = [left, top, width, height].map(this.number);
@@ -32,36 +25,25 @@ class SvgPen {
     this.path += `M${x} ${y}a${r} ${r} 0 1 1 ${2 * r} 0a${r} ${r} 0 1 1 ${-2 * r} 0z`;
   }
 
-  fill() {
-    if (this.path) this.parts.push(`<path d="${this.path}" fill="${this.fillStyle}"/>`);
-  }
+  fill() { if (this.path) this.parts.push(`<path d="${this.path}" fill="${this.fillStyle}"/>`); }
 
   stroke() {
     if (!this.path) return;
+    const line = `stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}" stroke-linejoin="bevel"`;
     const dash = this.dash && ` stroke-dasharray="${this.dash}"`;
-    this.parts.push(
-      `<path d="${this.path}" fill="none" stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}" stroke-linejoin="bevel"${dash}/>`,
-    );
+    this.parts.push(`<path d="${this.path}" fill="none" ${line}${dash}/>`);
   }
 
-  fillRect(left, top, width, height) {
-    this.beginPath();
-    this.rect(left, top, width, height);
-    this.fill();
-  }
-
-  strokeRect(left, top, width, height) {
-    this.beginPath();
-    this.rect(left, top, width, height);
-    this.stroke();
-  }
-
+  fillRect(...box) { this.fill(this.beginPath(), this.rect(...box)); }
+  strokeRect(...box) { this.stroke(this.beginPath(), this.rect(...box)); }
   setLineDash(lengths) { this.dash = lengths.join(" "); }
   save() { this.open.push(0); }
 
   clip() {
     this.clips += 1;
-    this.parts.push(`<clipPath id="c${this.clips}"><path d="${this.path}"/></clipPath><g clip-path="url(#c${this.clips})">`);
+    const name = `c${this.clips}`;
+    this.parts.push(`<clipPath id="${name}"><path d="${this.path}"/></clipPath>`,
+      `<g clip-path="url(#${name})">`);
     this.open[this.open.length - 1] += 1;
   }
 
@@ -73,7 +55,8 @@ class SvgPen {
     const down = { top: 0.8, middle: 0.35, bottom: -0.2 }[this.textBaseline] * size;
     const place = `x="${this.number(left)}" y="${this.number(top + down)}" text-anchor="${anchor}"`;
     const family = this.font.includes("mono") ? "monospace" : "sans-serif";
-    this.parts.push(`<text ${place} font-size="${size}" font-family="${family}" fill="${this.fillStyle}">${escaped(text)}</text>`);
+    const font = `font-size="${size}" font-family="${family}" fill="${this.fillStyle}"`;
+    this.parts.push(`<text ${place} ${font}>${escaped(text)}</text>`);
   }
 
   drawImage(canvas, left, top, width, height) {
@@ -84,7 +67,8 @@ class SvgPen {
   /** Dots at places [left, top, left, top, ...]. */
   dots(places, size, colour) {
     let path = "";
-    for (let i = 0; i < places.length; i += 2) path += `M${this.number(places[i])} ${this.number(places[i + 1])}h0`;
+    for (let i = 0; i < places.length; i += 2)
+      path += `M${this.number(places[i])} ${this.number(places[i + 1])}h0`;
     this.parts.push(`<path d="${path}" stroke="${colour}" stroke-width="${size}" stroke-linecap="round"/>`);
   }
 
@@ -92,11 +76,10 @@ class SvgPen {
 
   /** The file, with a text about it. */
   file(width, height, about) {
-    const head = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`;
+    const size = `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"`;
+    const head = `<svg xmlns="http://www.w3.org/2000/svg" ${size}>`;
     return [head, `<metadata>${escaped(about)}</metadata>`, ...this.parts, "</svg>\n"].join("\n");
   }
 }
 
-function escaped(text) {
-  return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;");
-}
+function escaped(text) { return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;"); }

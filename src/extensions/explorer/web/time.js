@@ -1,4 +1,3 @@
-"use strict";
 /*
  * The motion in time: a sequence of flights, eq. (26), the ball that flies, touches and flattens, and
  * the curves of Figures 3 and 4. x points downwards from where the undeformed ball touches the floor.
@@ -59,7 +58,6 @@ class PeriodicMotion {
   }
 
   get ends() { return [-Infinity, Infinity]; }
-
   get count() { return Infinity; }
 
   flight(j) {
@@ -71,9 +69,8 @@ class PeriodicMotion {
 
   indexAt(t) {
     const turn = Math.floor(t / this.total);
-    let i = 0;
-    while (i + 1 < this.period && turn * this.total + this.begins[i + 1] <= t) i++;
-    return turn * this.period + i;
+    const i = this.begins.findLastIndex((begin) => turn * this.total + begin <= t);
+    return turn * this.period + Math.min(i, this.period - 1);
   }
 
   impact(j) { return j; }
@@ -121,8 +118,6 @@ class TimeView {
   }
 
   drawCurves(state, motion, colours) {
-    const { pen, width, height } = fitted(this.curves);
-    const frame = { left: 50, top: 24, right: 10, bottom: 36 };
     const [from, to] = this.window();
     const impacts = [];
     const curvesOf = (motion) => {
@@ -149,10 +144,11 @@ class TimeView {
     };
     const lines = curvesOf(motion);
     const other = curvesOf(this.read().twin.motion);
+    if (!this.curves.offsetWidth) return; // another panel is open
     let [low, high] = this.extent;
     if (!(low < high)) [low, high] = [-0.5, 0.3];
     const room = 0.06 * (high - low);
-    const plot = new Plot(pen, { width, height, frame, colours, across: [from, to], up: [low - room, high + room] });
+    const plot = Plot.on(this.curves, { across: [from, to], up: [low - room, high + room], right: 10 });
     plot.axes("t", "");
     plot.line(lines.height, colours.hues[0], 1.8);
     plot.line(lines.strain, colours.hues[1], 1.8);
@@ -181,12 +177,15 @@ class TimeView {
       pen.moveTo(4, floor);
       pen.lineTo(width - 4, floor);
     });
-    pen.font = `13px ${colours.font}`;
-    motions.forEach((one, i) => this.drawBall(pen, this.now(one), { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
+    pen.font = colours.font;
+    motions.forEach((one, i) => this.drawBall(pen, this.now(one),
+      { middle: (i + 0.5) * wide, floor, scale, colours, hue: colours.hues[2 * i] }));
   }
 
   drawBall(pen, now, { middle: across, floor, scale, colours, hue }) {
-    write(pen, now ? `u = ${now.u.toFixed(3).replace("-", "−")}` : "no orbit", across, floor + 6, colours.muted, "center");
+    const strain = now && now.u.toFixed(3).replace("-", "−");
+    const text = !now ? "no orbit" : across < 50 || this.read().twin.motion ? strain : `u = ${strain}`;
+    write(pen, text, across, floor + 6, colours.muted, "center");
     if (!now) return;
     const middle = floor - scale * (1 - now.x);
     const half = scale * Math.max(0.02, 1 + now.u);

@@ -1,10 +1,10 @@
-"use strict";
 /*
  * The worker's side of the conversation with compute.js. Each message {id, job, ...} is answered by
  * {id, result} or {id, error}.
  */
 const followers = new Map();
 let rate = 200; // impacts in a ms, as measured last
+const SEEN_FIRST = 300; // impacts of an orbit that are shown before its verdict is computed
 
 const jobs = {
   /** Begin to follow an orbit; the state of a backward one has been mirrored by the page. */
@@ -23,24 +23,28 @@ const jobs = {
 
   /**
    * Follow orbits, [[key, impacts at most], ...], for about `time` ms, which they share, and return
-   * the new impacts and the facts of each.
+   * the new impacts and the facts of each. At most one verdict is computed at a time.
    */
   advance({ orbits, time }) {
     const known = orbits.filter(([key]) => followers.has(key));
+    let judged = false;
     return known.map(([key, most]) => {
       const follower = followers.get(key);
       const impacts = Math.max(1, Math.min(most, Math.round((rate * time) / known.length)));
       const begin = performance.now();
       let piece = { x: [], xdot: [], udot: [], tau: [] };
       try {
-        if (!follower.refused) piece = follower.advance(impacts);
+        if (!follower.refused && most > 0) piece = follower.advance(impacts);
       } catch ({ message }) {
         follower.refused = message; // where the kernel finds no impact
       }
       const measured = impacts / Math.max(0.01, performance.now() - begin); // clocks may be coarse
       if (impacts > 100) rate = Math.min(2 * rate, Math.max(rate / 2, measured));
       const { x, xdot, udot, tau } = piece;
-      return { key, x, xdot, udot, tau, facts: follower.facts?.() ?? null, refused: follower.refused };
+      const judges =
+        !judged && follower.verdict === undefined && (most === 0 || follower.impacts > SEEN_FIRST);
+      judged ||= judges;
+      return { key, x, xdot, udot, tau, facts: follower.facts?.(judges) ?? null, refused: follower.refused };
     });
   },
 
