@@ -3,10 +3,10 @@
 import inspect
 import math
 import re
-import tomllib
 
 import numpy as np
 import pytest
+import yaml
 from project import ROOT
 
 import pseudorigid
@@ -90,7 +90,7 @@ def test_bad_input_is_one_line(name, arguments, words):
 
 
 def test_the_version_is_that_of_the_project_and_other_names_are_refused():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert pseudorigid.__version__ == project["version"] and "__version__" in dir(pseudorigid)
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["version"]
+    assert pseudorigid.__version__ == cited and "__version__" in dir(pseudorigid)
     with pytest.raises(AttributeError, match="module 'pseudorigid' has no attribute 'Bal'"):
         pseudorigid.Bal  # noqa: B018

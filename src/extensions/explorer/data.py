@@ -8,13 +8,13 @@ the sweep behind it takes minutes. Renew it after ./reproduce atlas:
 
 import base64
 import json
-import tomllib
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
 import yaml
 
+import pseudorigid
 from pipeline.checks.captions import caption_of
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.config.schema.fields import YamlMapping
@@ -23,7 +23,6 @@ from pipeline.declaration import files
 from pipeline.records.files import read_text, write_whole
 from pipeline.records.sources import ROOT
 
-BLOCK = 1024  # values in a block of MANIFEST.json
 STATE = ("x", "xdot", "udot", "tau")
 ATLAS = "explorer_map.json"  # a file of the part that has the sweeps
 # The shares of the atlas, from 0 to 1, are rounded in these steps; MISSING means no value.
@@ -32,9 +31,8 @@ STEPS, MISSING = 250, 255
 
 def collect(checked: Config, root: Path = ROOT) -> dict[str, Any]:
     """Return the data, which JSON can hold; the same tree gives the same data."""
-    project = tomllib.loads(read_text(ROOT / "pyproject.toml"))["project"]
     return {
-        "version": f"{project['name']} {project['version']}",
+        "version": f"pseudorigid {pseudorigid.__version__}",
         "citation": citation(),
         "scenes": {
             name: {
@@ -115,8 +113,7 @@ def address(checked: Config, variant: str, scene: str, block: YamlMapping) -> st
 def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
     """Return the committed figures' starts, and the hashes of their orbits' variables.
 
-    Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles,
-    and the beginnings of the hashes of its blocks.
+    Hashes are those of MANIFEST.json: SHA-256 of all values of a variable as little-endian doubles.
     """
     name = f"{PUBLISHED[MAIN]}/MANIFEST.json"
     if not (root / name).is_file():  # before the first ./reproduce accept
@@ -140,11 +137,7 @@ def published_orbits(root: Path = ROOT) -> list[dict[str, Any]]:
                     "energy": block["energy"],
                     "starts": starts,
                     "impacts": counts if isinstance(counts, list) else [counts] * len(starts),
-                    "block": BLOCK,
-                    "variables": {
-                        name: {part: variables[name][part] for part in ("sha256", "blocks")}
-                        for name in STATE
-                    },
+                    "variables": {name: variables[name]["sha256"] for name in STATE},
                 }
             )
     except (ValueError, LookupError, TypeError, AttributeError) as error:

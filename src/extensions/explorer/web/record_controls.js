@@ -50,13 +50,10 @@ async function check(page) {
       setText("check-note", `Computing ${name} …`);
       const result = await page.checker.ask("check", { figure });
       const count = COUNT.format(result.impacts);
-      const { difference } = result;
-      if (!difference) found.push(`${name}: the same bits here, in ${count} impacts.`);
-      else {
-        const { variable, orbit, impact } = difference;
-        const where = `from impact ${COUNT.format(impact)} or one of the next ${figure.block} on`;
-        found.push(`${name}: other bits here, in ${variable} of orbit ${orbit}, ${where}.`);
-      }
+      const { different } = result;
+      const bits = different.length ? "other bits here" : "the same bits here";
+      const where = different.length ? `, of ${different.join(", ")}` : "";
+      found.push(`${name}: ${bits}, in ${count} impacts${where}.`);
     }
   } catch (error) {
     found.push(`The check could not be done: ${error.message}.`);
