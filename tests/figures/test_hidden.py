@@ -6,6 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 from examples import computed, function
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from project import shipped
 from slowly import slowly
 
@@ -16,7 +18,7 @@ from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.variables import states_of
 from pseudorigid.figures.axes.box import Box
-from pseudorigid.figures.axes.limits import complete_box, of_data
+from pseudorigid.figures.axes.limits import complete_box, inside
 from pseudorigid.figures.axes.view import OccludingEllipsoid
 from pseudorigid.figures.canvas import style
 
@@ -145,11 +147,10 @@ def test_a_box_shows_nothing_that_the_whole_surface_hides(energy, axes):
     points = np.hstack([states_of(data), OccludingEllipsoid(0.2, 0.04, energy).rim()])
     assert not np.any(Box(scene).seen(points) & ~Box(scene | {"axes": WIDE}).seen(points))
     limits = [scene["axes"][name]["limits"] for name in style.NAMES]
-    if axes:
-        for (low, high), (least, most) in zip(limits, ends, strict=True):
-            assert low <= least + 1e-9 and most - 1e-9 <= high
-    for name, given in axes.items():  # kept if they hold the surface
-        assert given == scene["axes"][name] or given["limits"] != scene["axes"][name]["limits"]
+    for (low, high), (least, most) in zip(limits, ends, strict=True):
+        assert low <= least + 1e-9 and most - 1e-9 <= high
+    for name, own in axes.items():  # kept if they hold the surface
+        assert own == scene["axes"][name] or own["limits"] != scene["axes"][name]["limits"]
 
 
 def test_the_surface_ends_where_its_farthest_points_lie():
@@ -163,10 +164,35 @@ def test_the_surface_ends_where_its_farthest_points_lie():
         assert (part.min(), part.max()) == pytest.approx(ends, abs=1e-5)
 
 
-def test_a_box_around_one_island_stays_small():
-    """Nothing behind the surface is seen there, and nothing is said."""
-    scene, data = portrait(0.01, [-0.23], {})
-    axes = complete_box(scene, data)["axes"]
-    assert axes == {n: of_data(data[n].values, margin=0.08, most=6) for n in style.NAMES}
-    ring, data = portrait(0.001, [0.95], {})
-    assert complete_box(ring, data)["axes"]["udot"]["limits"][1] > 0.2236
+@given(
+    k=st.floats(0.02, 1.0),
+    share=st.floats(0.02, 0.98),
+    height=st.floats(0.02, 0.98),
+    starts=st.lists(st.floats(-0.95, 0.95), min_size=1, max_size=4),
+    elevation=st.floats(5, 85),
+    azimuth=st.floats(-180, 180),
+)
+@settings(max_examples=40, deadline=None)
+def test_a_box_without_axes_holds_the_whole_surface(k, share, height, starts, elevation, azimuth):
+    """No point of the rim is outside, and no line of the grid is seen inside the surface."""
+    g = share * k
+    low, high = Ball.dimensionless(k).energy_bounds()[0] * g**2, 0.5 * k - g
+    energy = low + height * (high - low)
+    ball, surface = Ball(k, g), OccludingEllipsoid(k, g, energy)
+    data = scene_orbits(ball, energy, starts, [50] * len(starts))
+    view = {"elevation": elevation, "azimuth": azimuth}
+    scene = {"ball": {"k": k, "g": g}, "energy": energy, "view": view}
+    scene = complete_box(scene, data)
+    limits = [scene["axes"][name]["limits"] for name in style.NAMES]
+    assert inside(limits, surface.rim()).all() and inside(limits, states_of(data)).all()
+    wide = {
+        name: {"limits": [3 * lo - 2 * hi, 3 * hi - 2 * lo], "ticks": [lo]}
+        for name, (lo, hi) in zip(style.NAMES, limits, strict=True)
+    }
+    points = np.hstack([states_of(data), surface.rim()])
+    try:
+        box, whole = Box(scene), Box(scene | {"axes": wide})
+    except ValueError as error:  # a flat surface seen from its edge
+        assert "expected" in str(error)
+        return
+    assert np.array_equal(box.seen(points), whole.seen(points))

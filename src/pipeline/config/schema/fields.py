@@ -145,7 +145,7 @@ class Axis(Block):
 
     limits: Range
     """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn. An axis
-    that is left out holds its data."""
+    that is left out holds its data, and in a box the whole energy surface."""
     ticks: list[Number] = allowed("a list of 1 to 50 numbers", min_length=1, max_length=50)
     """Positions of the tick marks and their labels, within the limits."""
 

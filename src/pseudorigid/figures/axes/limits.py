@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..canvas import style
 from .panel import Axis, log10
-from .view import OccludingEllipsoid, Projection
+from .view import OccludingEllipsoid
 
 # Limits are refused if they are wider than the data's largest modulus by these factors. The
 # abscissa of a line may be wide because a run may be a short trial of a longer one, and its
@@ -130,22 +130,18 @@ def complete(scene: dict[str, Any], **axes: Callable[[], Any]) -> dict[str, Any]
 
 
 def complete_box(scene: dict[str, Any], *datasets: xr.Dataset) -> dict[str, Any]:
-    """Return the scene with the axes of a box, around the datasets for those that it lacks.
+    """Return the scene with the axes of a box that holds the energy surface.
 
-    Where limits of the scene cut the energy surface, the box grows to hold it: an open surface
-    shows its inside, and looks like another one. A box around data alone, such as one island, cuts
-    it if nothing is seen that the whole surface hides. Raises ValueError if the axes show nothing
-    of the last dataset.
+    Axes that the scene lacks hold the datasets and the surface. Where limits of the scene cut the
+    surface, the box grows: an open surface shows its inside, and looks like another one. Raises
+    ValueError if the axes show nothing of the last dataset.
     """
     data = {name: [dataset[name].values for dataset in datasets] for name in style.NAMES}
-    own = {name: partial(of_data, *data[name], margin=0.08, most=6) for name in data}
+    ends = dict(zip(style.NAMES, _surface(scene).ends(), strict=True))
+    own = {name: partial(of_data, *data[name], ends[name], margin=0.08, most=6) for name in data}
     axes = complete(scene, **own)["axes"]
-    refuse_empty(axes, {name: data[name][-1] for name in data})
-    around = _around_surface(scene, axes)
-    points = np.array([np.concatenate(parts) for parts in data.values()])
-    if around.keys() & scene.get("axes", {}).keys() or _shows_inside(scene, axes, points):
-        axes |= around
-    return complete(scene | {"axes": axes}, **own)
+    refuse_empty(axes, {name: parts[-1] for name, parts in data.items()})
+    return complete(scene | {"axes": axes | _around_surface(scene, axes)}, **own)
 
 
 def cuts(scene: dict[str, Any], what: str, dataset: xr.Dataset) -> Iterator[str]:
@@ -182,26 +178,18 @@ def _share_beyond(limits: Sequence[float], values: np.ndarray, shown: float = _P
     return f"{100 * np.sum(excess > 0) / np.sum(~np.isnan(excess)):.3g} %"
 
 
+def _surface(scene: dict[str, Any]) -> OccludingEllipsoid:
+    """Return the energy surface of a scene."""
+    return OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
+
+
 def _around_surface(scene: dict[str, Any], axes: dict[str, Any]) -> dict[str, Any]:
     """Return axes that hold the energy surface, for those of `axes` whose limits cut it."""
-    ends = OccludingEllipsoid(**scene["ball"], energy=scene["energy"]).ends()
     return {
         name: of_data(pair, margin=0.08)
-        for name, pair in zip(style.NAMES, ends, strict=True)
+        for name, pair in zip(style.NAMES, _surface(scene).ends(), strict=True)
         if name in axes and _share_beyond(axes[name]["limits"], np.array(pair), _ROUNDING)
     }
-
-
-def _shows_inside(scene: dict[str, Any], axes: dict[str, Any], points: np.ndarray) -> bool:
-    """Return whether one sees a point, or one of the rim, that the whole surface would hide."""
-    surface = OccludingEllipsoid(**scene["ball"], energy=scene["energy"])
-    spans = [axes[name]["limits"] for name in style.NAMES]
-    points = np.hstack([points, surface.rim()])
-    points = points[:, inside(spans, points)]
-    before = surface.before(Projection(spans, scene["view"]).eye, points)
-    hidden = np.array([surface.has(front) for front in before])
-    still = hidden & np.array([inside(spans, front) for front in before])
-    return bool(np.any(hidden.any(axis=0) & ~still.any(axis=0)))
 
 
 def inside(limits: Iterable[Sequence[float]], values: Iterable[Any]) -> np.ndarray:
