@@ -9,7 +9,7 @@ import xarray as xr
 from ..kernel.tangents import turns_and_growth
 from .ball import Ball, require_ball
 from .inputs import StateLike, not_allowed, whole_number
-from .regularity import LENGTHS, around_fixed_point, judged
+from .regularity import around_fixed_point, judged
 from .variables import attributes_of, described, orbit_dims
 
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
@@ -114,7 +114,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 64_00
     state : (x, xdot, udot) or xarray.Dataset
         Just before an impact, as for `orbit`. States may have different energies.
     impacts : int
-        How many impacts to follow an orbit at most, at least 500. Orbits are judged after 500,
+        How many impacts to follow an orbit at most, at least 100. Orbits are judged after 500,
         1,000, 2,000, ... 64,000 impacts. Below 32,000 impacts no orbit is called regular.
 
     Returns
@@ -148,7 +148,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: SupportsIndex = 64_00
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']
     """
-    impacts = whole_number("impacts", impacts, LENGTHS[0])
+    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
     finite, columns = _finite_states(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     rotation, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)

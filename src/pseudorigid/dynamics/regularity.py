@@ -82,7 +82,7 @@ def judged(
     which stages compute orbits and their periods, so that a drawing need not compile other loops.
     """
     x, centre, expected = around_fixed_point(ball, states)
-    n, lengths = len(centre), [length for length in LENGTHS if length <= impacts]
+    n, lengths = len(centre), [length for length in LENGTHS if length <= impacts] or [impacts]
     types, rotation = np.full(n, "undecided", object), np.full(n, math.nan)
     columns = *x, centre, expected, types, rotation, np.zeros(n, np.int64)
 
