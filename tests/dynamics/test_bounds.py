@@ -102,7 +102,7 @@ def test_functions_that_follow_states_refuse_their_energy_and_maps_do_not():
                 function(tuple(refused))
         function(tuple(states[:, 1]))
         function(PAPER.start(0.5, math.nextafter(0.06, 0.0)))  # roundings are no mistake
-    with pytest.raises(ValueError, match="^energy of the state"):
+    with pytest.raises(ValueError, match=r"^energy of the state"):
         pseudorigid.motion(PAPER, tuple(one), 5.0)
     assert np.isfinite(PAPER.impact(*one)).all() and np.isfinite(PAPER.jacobian(*one)).all()
     assert np.isfinite(PAPER.history(states, 5)).all()
