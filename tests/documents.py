@@ -10,7 +10,7 @@ from pipeline import config
 AXES = {"limits": [-1, 1], "ticks": [0]}
 SCENES = yaml.safe_load("""
 a_portrait:
-  {picture: portrait, energy: 0.01, starts: [-0.5, 0.5], impacts: [10, 20], sea: [1],
+  {picture: portrait, energy: 0.01, starts: [-0.5, 0.5], impacts: [10, 20],
    view: {elevation: 40, azimuth: 115},
    axes: {x: &axis {limits: [-1, 1], ticks: [0]}, xdot: *axis, udot: *axis}}
 a_motion:

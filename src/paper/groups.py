@@ -4,11 +4,10 @@ Checks that need more than one field stand with the group.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
-from annotated_types import Predicate
 from pydantic import Field
 
 from pipeline.config.schema.fields import (
@@ -22,7 +21,6 @@ from pipeline.config.schema.fields import (
     Point,
     Range,
     allowed,
-    distinct,
     first_if,
     rising,
     whole,
@@ -109,10 +107,16 @@ SectionAxes = dict[Literal["x", "xdot", "udot"], Axis]
 class OfOrbits(Scene):
     """A scene of orbits from given starts."""
 
+    removed: ClassVar[Mapping[str, str]] = {
+        "sea": "no key any more: which orbits are chaotic is computed. Delete it."
+    }
+
     starts: Starts
     """Start of each orbit. A number is a fraction of the section's radius along the symmetry line
     y = 0, from the section's centre: -1 and 1 are the rim, where impacts graze. A mapping is a
-    point of the section. Fractions carry over to another ball or energy, points do not."""
+    point of the section. Fractions carry over to another ball or energy, points do not. (The
+    numbers in a picture are places in this list, counted from 1.) Chaotic orbits, whose tangent
+    vectors grow exponentially, are drawn first, in grey."""
     impacts: Impacts
     """Number of impacts of each orbit. A few thousand dots fill a closed curve, some ten thousand
     the chaotic sea. Exponents converge slowly: the paper takes 200000."""
@@ -133,27 +137,6 @@ class OfOrbits(Scene):
     def impacts_of_each(self) -> list[int]:
         """Return the number of impacts of each orbit."""
         return self.impacts if isinstance(self.impacts, list) else [self.impacts] * len(self.starts)
-
-
-class OfChaoticOrbits(OfOrbits):
-    """A scene of orbits, of which the chaotic ones are drawn in grey."""
-
-    sea: Annotated[
-        list[Annotated[int, whole(0, LARGEST)]],
-        allowed("a list of places in starts, counted from 0, none of them twice"),
-        Predicate(distinct),
-    ] = []
-    """Places in `starts`, counted from 0, of orbits that you expect to be chaotic. (The numbers in
-    a picture are places counted from 1.) It changes no picture: those whose tangent vectors grow
-    exponentially are called chaotic, and drawn first, in grey."""
-
-    def cross_field_errors(self) -> Iterator[CrossFieldError]:
-        """Check that places in `sea` are places in `starts`."""
-        yield from super().cross_field_errors()
-        last = len(self.starts) - 1
-        for place in self.sea:
-            if place > last:
-                yield ("sea",), place, f"a place in starts, counted from 0, at most {last}"
 
 
 class OfRecords(OfOrbits):

@@ -5,7 +5,6 @@ from typing import Literal
 
 from paper.groups import (
     OfBranches,
-    OfChaoticOrbits,
     OfManifolds,
     OfOrbits,
     OfPeriodicOrbit,
@@ -17,7 +16,7 @@ from pipeline.config.schema.fields import ABSENT, Axis, allowed, whole
 from pipeline.config.schema.scene import CrossFieldError
 
 
-class Portrait(OnSurface, OfChaoticOrbits):
+class Portrait(OnSurface, OfOrbits):
     """orbits on the energy surface"""
 
     stages = ("orbits",)

@@ -25,13 +25,13 @@ function surface(scene) {
   return { view: { ...HOME_VIEW, azimuth, elevation }, orbits: orbitsOf(scene), chosen: 0 };
 }
 
-/** A periodic orbit in time, among the regular orbits of a portrait of the same ball and energy. */
+/** A periodic orbit in time, among the orbits of a portrait of the same ball and energy. */
 function inTime(scene, scenes) {
   const { period, type, duration, ball, energy } = scene;
   const portrait = Object.values(scenes).find(
     (other) => other.picture === "portrait" && other.ball.k === ball.k
       && other.ball.g === ball.g && other.energy === energy,
   );
-  const orbits = portrait ? orbitsOf(portrait).filter((orbit) => !orbit.sea) : [];
+  const orbits = portrait ? orbitsOf(portrait) : [];
   return { orbits, motion: { period, type, nth: 0 }, periods: [period], span: duration };
 }

@@ -7,6 +7,7 @@ from .dynamics.motion import motion as motion
 from .dynamics.newton import periodic_orbits as periodic_orbits
 from .dynamics.orbits import orbit as orbit
 from .dynamics.periodic import symmetric_orbits as symmetric_orbits
+from .dynamics.periods import count_orbits as count_orbits
 from .dynamics.quantities import classify_orbits as classify_orbits
 from .dynamics.quantities import residue as residue
 from .dynamics.quantities import rotation_number as rotation_number

@@ -16,7 +16,7 @@ from pipeline.config.schema.kinds import KINDS
 
 SADDLE = {"ball": PAPER, "period": 6, "type": "hyperbolic", "energy": 0.01, "starts": [-0.2]}
 EXPONENTS = {"ball": PAPER, "energy": 0.01, "impacts": 1500, "records": 20}
-PORTRAIT = {"ball": PAPER, "energy": 0.01, "sea": []}
+PORTRAIT = {"ball": PAPER, "energy": 0.01}
 ISLANDS = [-0.440981 + 0.014 * i for i in range(26)]
 SLOW = 0.9999999999
 HIGH_UP = {"displacement": {"limits": [0.2, 0.4], "ticks": [0.3]}}

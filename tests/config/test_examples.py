@@ -32,7 +32,7 @@ def test_the_examples_are_blocks_of_a_config(name):
     checked(name)
 
 
-ONE_IMPACT = {"starts": [0.1], "impacts": 1, "sea": []}
+ONE_IMPACT = {"starts": [0.1], "impacts": 1}
 
 
 @pytest.mark.slow

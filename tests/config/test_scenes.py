@@ -10,12 +10,12 @@ from pipeline import config
 
 def test_a_scene_is_completed_with_defaults():
     document = good()
-    for field in ("sea", "view", "axes"):
+    for field in ("view", "axes"):
         del document["scenes"]["a_portrait"][field]
     scenes = config.check(document).scenes
     assert list(scenes) == list(SCENES)
     given = document["scenes"]["a_portrait"]
-    added = {"sea": [], "view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
+    added = {"view": {"elevation": 40, "azimuth": 115}, "formats": ["png"]}
     assert scenes["a_portrait"].as_mapping() == given | {"ball": {"k": 0.2, "g": 0.04}} | added
 
 
@@ -99,7 +99,7 @@ BAD = [
     ("a_portrait.impacts", [10], ": [10] is not allowed: expected one number for each of the 2"),
     ("a_portrait.impacts", 6_000_000, ": 6000000 is not allowed: expected at most 10000000"),
     ("a_portrait.impacts", [10, 2.5], "[1]: 2.5 is not allowed: expected a whole number"),
-    ("a_portrait.sea", [2], ": 2 is not allowed: expected a place in starts, counted from 0, at m"),
+    ("a_portrait.sea", [1], ": no key any more: which orbits are chaotic is computed. Delete it."),
     ("a_portrait.axes.udot", {"limits": [0, 100], "ticks": [0]},
      ".limits: [0, 100] is not allowed: expected limits that make the box in this view 0.1 to"),
     ("a_tangle.branches.outer.length", 4167, ": 4167 is not allowed: expected at most 10000000 "
@@ -142,3 +142,14 @@ def test_keys_are_texts_and_a_name_has_no_spaces():
     assert first == f"scenes: 'fig 2' is not allowed: {name}"
     assert second == f"scenes: 2 is not allowed: {name}"
     assert third.startswith("scenes.a_portrait[3]: unknown key: allowed here: ")
+
+
+def test_a_k_that_no_sphere_has_gives_one_line():
+    assert config.check(good()).warning() == ""
+    document = good() | {"variants": {"wide": {"ball": {"k": 0.4}}}}
+    document["scenes"]["a_motion"]["ball"] = {"k": 0.35, "g": 0.04}
+    words = "config.yaml: k = 0.35, 0.4: no sphere has a k above 1/3, which is that of a thin shell"
+    assert config.check(document).warning() == words
+    document["ball"]["k"] = 1 / 3
+    del document["variants"], document["scenes"]["a_motion"]["ball"]
+    assert config.check(document).warning() == ""

@@ -6,7 +6,7 @@ from typing import Annotated
 from annotated_types import Predicate
 
 from extensions.proofs.kinds import Curves
-from paper.groups import OfChaoticOrbits, OfRecords, bounded, is_sound, not_elliptic
+from paper.groups import OfOrbits, OfRecords, bounded, is_sound, not_elliptic
 from pipeline.config.schema.fields import ABSENT, LARGEST, Fraction, Name, allowed, rising, whole
 from pipeline.config.schema.scene import CrossFieldError, Picture, Scene
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
@@ -107,7 +107,7 @@ class Rotation(Scene):
         yield from not_elliptic(self, "energies")
 
 
-class Jumps(OfChaoticOrbits):
+class Jumps(OfOrbits):
     """the curves where the map and its inverse jump"""
 
     stages = ("jumps", "orbits")

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from annotated_types import Predicate
 
-from paper.groups import OfBranches, OfChaoticOrbits, OfOrbits, bounded, not_elliptic
+from paper.groups import OfBranches, OfOrbits, bounded, not_elliptic
 from pipeline.config.schema.fields import (
     ABSENT,
     Axis,
@@ -98,7 +98,7 @@ class Escape(Scene):
         yield from bounded(self, "orbits", "impacts", "impacts in all")
 
 
-class Curves(OfChaoticOrbits):
+class Curves(OfOrbits):
     """proved invariant curves on the section"""
 
     stages: ClassVar[tuple[str, ...]] = ("curves", "orbits")

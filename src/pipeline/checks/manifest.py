@@ -15,7 +15,7 @@ import xarray as xr
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
 from ..records.files import ABSENT, FileError, file_hash, read_text
 from ..records.pictures import drawing_hash
-from ..records.provenance import read_record, record_path, versions
+from ..records.provenance import read_record, record_path
 from .published_sets import MANIFEST, SUMS, PublishedSet, format_sums
 from .quantities import facts
 
@@ -59,18 +59,25 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
         for path in (path for path in published_set.drawn.values() if Path(path).stem == scene):
             known = facts(published_set.build_specs[path].config, data)
             described[path] = known | {"drawing": drawing_hash(root / path)}
-    shared, sources, results = versions(), dict[str, str](), dict[str, dict[str, Any]]()
-    for path, content in sorted(described.items()):
-        record = read_record(root, record_path(path))
+    records = {path: read_record(root, record_path(path)) for path in sorted(described)}
+    shared = _shared([record["environment"] for record in records.values()])
+    sources, results = dict[str, str](), dict[str, dict[str, Any]]()
+    for path, record in records.items():
         sources |= record["sources"]
         files = [*record["sources"]]
         same = next((p for p, entry in results.items() if entry["sources"] == files), files)
-        entry = {"sources": same, "output": record["output"] | content}
+        entry = {"sources": same, "output": record["output"] | described[path]}
         results[path] = entry | {name: record[name] for name in ("config", "inputs")}
         if further := {n: v for n, v in record["environment"].items() if n not in shared}:
             results[path]["environment"] = further
     texts = {path: file_hash(root / path) for path in published_set.text_files}
     return {"environment": shared, "texts": texts, "sources": sources, "results": results}
+
+
+def _shared(mappings: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the entries that all mappings have."""
+    first, *others = mappings or [{}]
+    return {n: v for n, v in first.items() if all(n in each and each[n] == v for each in others)}
 
 
 def record_of(manifest: Manifest, path: str) -> dict[str, Any]:

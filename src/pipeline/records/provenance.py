@@ -16,7 +16,7 @@ import platform
 import re
 import subprocess
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache, partial
 from importlib import metadata
@@ -27,14 +27,21 @@ from ..declaration import parts
 from ..loading import LOADED
 from .differences import differing_layers, differing_names
 from .files import ABSENT, FileError, file_hash, read_bytes, read_text, why_not_a_file, write_whole
-from .sources import ROOT, syntax_hash
+from .sources import ROOT, imported_modules, syntax_hash
 
 SHAPE = ("config", "sources", "inputs", "environment", "output")  # the mappings of a record
-# The packages that decide bits. Python's own version does not, nor do the tools around the work.
-PACKAGES = (
-    *("deflate", "fonttools", "llvmlite", "matplotlib", "netCDF4"),
-    *("numba", "numpy", "pyparsing", "python-flint", "scipy", "xarray"),
-)
+# Imported module -> the packages that decide bits: its own, and those that it brings. Python's own
+# version does not, nor do the tools around the work.
+PACKAGES = {
+    "deflate": ("deflate",),
+    "flint": ("python-flint",),
+    "matplotlib": ("matplotlib", "fonttools", "pyparsing"),
+    "netCDF4": ("netCDF4",),
+    "numba": ("numba", "llvmlite"),
+    "numpy": ("numpy",),
+    "scipy": ("scipy",),
+    "xarray": ("xarray",),
+}
 CURRENT = "current"
 MISSING = "missing"
 DAMAGED = "changed after it was made"
@@ -124,10 +131,10 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
     for path, meaning in spec.sources.items():
         if syntax_hash(path) != meaning:
             raise _changed(path)
-    installed = versions(spec.result)
+    installed = versions(spec)
     for package, version in spec.environment.items():
-        if installed[package] != version:
-            words = f"{package} is {installed[package]} here, not {version}"
+        if installed.get(package) != version:
+            words = f"{package} is {installed.get(package)} here, not {version}"
             raise FileError(f"{words}: run ./reproduce again")
     commit, dirty = _commit()
     record: dict[str, Any] = {
@@ -180,20 +187,28 @@ def require_loaded_unchanged() -> None:
             require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
-def versions(result: str = "") -> dict[str, str | None]:
-    """Return the installed version of each package that decides bits, None for a missing one.
+def versions(
+    spec: BuildSpec,
+    modules_of: Callable[[str], set[str]] = imported_modules,
+    version_of: Callable[[str], str | None] | None = None,
+) -> dict[str, str | None]:
+    """Return the installed version of each package that decides the bits of a result, or None.
 
-    Those are PACKAGES and, for a GIF, what encodes it. What is installed when it is first needed
-    has the version that would be installed.
+    Those are PACKAGES of the modules that its sources import, by `modules_of`, and, for a GIF, what
+    encodes it. Files are relative to the current folder.
     """
-    packages = (*PACKAGES, "pillow") if result.endswith(".gif") else PACKAGES
+    imported = set[str]().union(*map(modules_of, spec.sources))
+    packages = {each for module in imported & PACKAGES.keys() for each in PACKAGES[module]}
+    packages |= {"pillow"} if spec.result.endswith(".gif") else set()
+    return {package: (version_of or _installed)(package) for package in sorted(packages)}
+
+
+def _installed(package: str) -> str | None:
+    """Return the version of a package, of one that is installed on demand that of its list."""
+    with suppress(metadata.PackageNotFoundError):
+        return metadata.version(package)
     lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
-    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
-    installed = {package: pins.get(package) for package in packages}
-    for package in packages:
-        with suppress(metadata.PackageNotFoundError):
-            installed[package] = metadata.version(package)
-    return installed
+    return dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line)).get(package)
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
@@ -249,10 +264,14 @@ class Freshness:
         self.digest = cache(lambda path: file_hash(root / path))
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.reason = cache(self._reason)
-        self.build_specs, packages = dict[str, BuildSpec](), versions()
+        self.build_specs = dict[str, BuildSpec]()
+        modules_of, version_of = (
+            cache(lambda file: imported_modules(root / file)),
+            cache(_installed),
+        )
         for path, spec in build_specs.items():
             sources = {file: self.syntax_hash(file) for file in spec.sources}
-            environment = versions(path) if path.endswith(".gif") else packages
+            environment = versions(spec, modules_of, version_of)
             self.build_specs[path] = spec._replace(sources=sources, environment=environment)
 
     def set_times(self) -> None:

@@ -163,6 +163,15 @@ def syntax_hash(path: str | os.PathLike[str]) -> str | None:
     return parsed(path.name, path.read_bytes()).syntax_hash if path.is_file() else None
 
 
+def imported_modules(path: str | os.PathLike[str]) -> set[str]:
+    """Return the names, without submodules, of the modules that a file imports absolutely."""
+    path = Path(path)
+    imports = parsed(path.name, path.read_bytes()).imports if path.is_file() else []
+    if isinstance(imports, str):  # no Python
+        return set()
+    return {module.partition(".")[0] for level, module, _ in imports if not level}
+
+
 def parsed(name: str, data: bytes) -> ParsedSource:
     """Return the hash and the imports of a file with this name and content.
 

@@ -10,7 +10,8 @@ import xarray as xr
 from .ball import Ball, require_ball
 from .branch import Branch, Window
 from .inputs import coordinates, not_allowed, number, one_of
-from .variables import NAMES, of_rows, of_type, variables
+from .periods import orbit_of_type
+from .variables import NAMES, of_rows, variables
 
 MOST_VERTICES_OF_SCENE = 10_000_000
 _STATES = {name: NAMES[name] for name in ("x", "xdot", "udot")}
@@ -157,7 +158,7 @@ def scene_manifolds(
     >>> scene_manifolds(ball, 0.01, six, 6, "hyperbolic", coarse, outer).sizes["branch"]
     12
     """
-    orbit = of_type(periodic, type, period)
+    orbit = orbit_of_type(ball, energy, periodic, type, period)
     attributes: dict[str, Any] = {}
     if branches is not None:
         extents = {side: dict(branches[side]) for side in sorted(branches)}

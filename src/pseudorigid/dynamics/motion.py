@@ -11,7 +11,8 @@ from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball, require_ball
 from .inputs import StateLike, not_allowed, number
-from .variables import LENGTH, NAMES, TIME, of_type, states_of, variables
+from .periods import orbit_of_type
+from .variables import LENGTH, NAMES, TIME, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
 SAMPLES = 200
@@ -121,6 +122,6 @@ def scene_motion(
     >>> scene_motion(ball, 0.01, symmetric_orbits(ball, 0.01, 1), 1, "elliptic", 16).sizes["impact"]
     6
     """
-    orbit = of_type(periodic, type, period)
+    orbit = orbit_of_type(ball, energy, periodic, type, period)
     first = states_of(orbit)[:, 0]
     return motion(ball, orbit if ball.map.certified else first, duration)

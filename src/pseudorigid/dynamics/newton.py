@@ -152,7 +152,7 @@ def _periodic_points(
     for halving in range(1, halvings + 1):
         corners = at[:, coarse, None, None][:, :MOST_CELLS]
         step = 0.5 * step
-        corners = corners + step * np.stack(np.indices((3, 3)))[:, None]
+        corners = corners + step * np.indices((3, 3))[:, None]
         at, coarse = _cells_with_a_root(corners, _gaps(ball, energy, period, corners))
         starts.append((at if halving == halvings else at[:, ~coarse]) + 0.5 * step)
     x, y = _on_disk(np.concatenate(starts, axis=1))

@@ -37,8 +37,6 @@ function sceneBlock(kind, { state, orbits, periodic, section }) {
     });
     const impacts = shown.map((orbit) => orbit.impacts);
     lines.push(...flowList("starts", starts), ...flowList("impacts", impacts));
-    const sea = shown.flatMap((orbit, i) => (orbit.isSea() ? [i] : []));
-    if ((kind === "portrait" || kind === "jumps") && sea.length) lines.push(...flowList("sea", sea));
     if (shown.length < orbits.length)
       notes.push("A scene has no backward orbits and none that stop early: they are left out.");
   }

@@ -29,12 +29,12 @@ function pointOf({ x, xdot, y }, { ball: { k, g }, energy }) {
 }
 
 function orbitsOf(scene) {
-  const { starts, impacts, sea = [] } = scene;
+  const { starts, impacts } = scene;
   return starts.slice(0, MOST_ORBITS).map((start, i) => {
     const [p, q] = placeOf(start, scene);
     const count = Array.isArray(impacts) ? impacts[i] : impacts;
     const xy = typeof start === "number" ? null : pointOf(start, scene);
-    return { p, q, xy, impacts: Math.min(count, MOST_IMPACTS), back: false, sea: sea.includes(i) };
+    return { p, q, xy, impacts: Math.min(count, MOST_IMPACTS), back: false, sea: false };
   });
 }
 

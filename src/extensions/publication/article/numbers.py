@@ -79,12 +79,18 @@ def numbers_of(root: Path, config: Config) -> str:
             "figures": figures,
             "printed": {"exponent": EXPONENT},
             "theorems": [{"name": t.name, "statement": t.statement} for t in THEOREMS.values()],
-            "packages": committed[PUBLISHED[MAIN]]["environment"],
+            "packages": _packages(committed[PUBLISHED[MAIN]]),
         },
         sort_keys=True,
         indent=1,
         ensure_ascii=False,
     )
+
+
+def _packages(committed: Table) -> Table:
+    """Return the packages that made the results of a manifest, with their versions."""
+    records = (manifest.record_of(committed, path) for path in committed["results"])
+    return {name: v for record in records for name, v in record["environment"].items()}
 
 
 def _of_citation(cff: Table) -> Table:

@@ -87,8 +87,8 @@ def _run(root: Path, config: Config) -> Iterator[str]:
     yield "Seconds and commit are those of the run that made a file."
     records = {path: read_record(root, record_path(path)) for path in shown}
     yield from _table(("file", "sha256", "commit", "seconds"), map(_made, records.items()))
-    versions = {tuple(record["environment"].items()) for record in records.values()}
-    yield from (f"Made with {', '.join(map(' '.join, each))}." for each in sorted(versions))
+    versions = {each for record in records.values() for each in record["environment"].items()}
+    yield f"Made with {', '.join(map(' '.join, sorted(versions)))}."
 
 
 def _made(result: tuple[str, dict[str, Any]]) -> list[str]:

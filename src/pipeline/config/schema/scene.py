@@ -68,6 +68,8 @@ class Picture(fields.Block):
     headline: ClassVar[str] = ""
     # The kind of the scene that a field `over` names; its fields and its data are this scene's too.
     drawn_over: ClassVar[str] = ""
+    # Keys that scenes had once -> what to say of them.
+    removed: ClassVar[Mapping[str, str]] = {}
     # Whether it shows orbits on one section of the paper's map, as the section at an energy.
     on_section: ClassVar[bool] = False
 

@@ -77,7 +77,9 @@ def _mistakes(model: type[Block], error: ValidationError, place: Place) -> Itera
     misspelt = {loc[:-1] for loc in unknown_keys}
     for loc, kind, value in mistakes:
         where = (*place, *(part for part in loc if part not in TAGS))
-        if kind == _UNKNOWN_KEY:
+        if words := getattr(model, "removed", {}).get(loc[0]) if len(loc) == 1 else None:
+            yield Mistake(where, words)
+        elif kind == _UNKNOWN_KEY:
             node = _node(model, loc[:-1])
             known = list(node.get("properties") or node["propertyNames"]["enum"])
             hint = suggestion(where[-1], known) or f"allowed here: {', '.join(known)}"
