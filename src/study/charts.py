@@ -143,7 +143,8 @@ def _curves(
         panel.dots(x[-1:], y[-1:], color, hollow=bool(hollow), marker=marker)
         drawn.append(np.stack(panel.place(x, y), axis=1))
         labels.append((x[-1], y[-1], name, color))
-    label(panel, drawn, labels, taken)
+    if labels:
+        label(panel, drawn, labels, taken)
 
 
 def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> list[Entry]:
