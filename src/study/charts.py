@@ -94,7 +94,7 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     panel = PanelWithZeros(sheet, (LEFT, 165, 590, 600), across, up)
     fast = {family: points[family] for family in _FAST if family in points}
     most = 5 * math.ceil(2e15 * max(float(y.max()) for _, y in fast.values())) + 5  # in 1e-16
-    near = Axis((0.8, 1.4), (0.8, 1.0, 1.2, 1.4), "Time (march: 1)")
+    near = Axis((0.8, 1.4), (0.8, 1.0, 1.2), "Time (march: 1)")
     up = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
     detail = Panel(sheet, (705, 165, 1030, 600), near, up)
     letters(sheet, panel.frame, detail.frame)
