@@ -95,8 +95,8 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     fast = {family: points[family] for family in _FAST if family in points}
     most = 5 * math.ceil(2e15 * max(float(y.max()) for _, y in fast.values())) + 5  # in 1e-16
     near = Axis((0.8, 1.4), (0.8, 1.0, 1.2), "Time (march: 1)")
-    up = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
-    detail = Panel(sheet, (705, 165, 1030, 600), near, up)
+    errors = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
+    detail = Panel(sheet, (705, 165, 1030, 600), near, errors)
     letters(sheet, panel.frame, detail.frame)
     _stack(detail, fast)
     box = (10**-0.3, 10**0.3), (1e-17, 1e-16 * most)
