@@ -14,7 +14,6 @@ from runs import VARIANTS
 
 from pipeline.declaration import parts
 from pipeline.records import sources
-from pipeline.records.provenance import versions
 
 # As under ./reproduce: tests that pytest has rewritten are kept, which halves collection.
 sys.dont_write_bytecode = False
@@ -67,7 +66,8 @@ def pickled(shared, request):
             return pickle.loads((shared(name, make) / "pickle").read_bytes())
         files = [ROOT / file for file in sources.source_files(*modules)]
         files += (ROOT / "tests").rglob("claim_data.py")
-        meaning = [sources.syntax_hash(file) for file in files], versions()
+        locked = (ROOT / "requirements" / "lock.txt").read_bytes()
+        meaning = [sources.syntax_hash(file) for file in files], locked
         digest = hashlib.sha256(repr(meaning).encode()).hexdigest()[:16]
         kept = request.config.cache.mkdir("computed") / f"{name}-{digest}"
         return pickle.loads((once(kept, make) / "pickle").read_bytes())

@@ -156,6 +156,9 @@ class Drawing:
         self._walk(self.root)
         self.texts = [item for item in self.items if isinstance(item, Text)]
         self.lines = [item for item in self.items if isinstance(item, Line)]
+        boxes = [[*line.points.min(axis=0), *line.points.max(axis=0)] for line in self.lines]
+        reach = [[-line.width, -line.width, line.width, line.width] for line in self.lines]
+        self.boxes = np.reshape(boxes, (-1, 4)) + np.reshape(reach, (-1, 4)) / 2
         self.data = [line for line in self.lines if not line.quiet]
 
     def _walk(self, element):

@@ -94,9 +94,9 @@ def work(scene: Scene, data: xr.Dataset) -> Figure:
     panel = PanelWithZeros(sheet, (LEFT, 165, 590, 600), across, up)
     fast = {family: points[family] for family in _FAST if family in points}
     most = 5 * math.ceil(2e15 * max(float(y.max()) for _, y in fast.values())) + 5  # in 1e-16
-    near = Axis((0.8, 1.4), (0.8, 1.0, 1.2, 1.4), "Time (march: 1)")
-    up = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
-    detail = Panel(sheet, (705, 165, 1030, 600), near, up)
+    near = Axis((0.8, 1.4), (0.8, 1.0, 1.2), "Time (march: 1)")
+    errors = Axis((0, most), range(0, most + 1, 5), "in units of $10^{-16}$")
+    detail = Panel(sheet, (705, 165, 1030, 600), near, errors)
     letters(sheet, panel.frame, detail.frame)
     _stack(detail, fast)
     box = (10**-0.3, 10**0.3), (1e-17, 1e-16 * most)
@@ -143,7 +143,8 @@ def _curves(
         panel.dots(x[-1:], y[-1:], color, hollow=bool(hollow), marker=marker)
         drawn.append(np.stack(panel.place(x, y), axis=1))
         labels.append((x[-1], y[-1], name, color))
-    label(panel, drawn, labels, taken)
+    if labels:
+        label(panel, drawn, labels, taken)
 
 
 def _lines(panel: Panel, data: xr.Dataset, over: str, name: str, at: int) -> list[Entry]:

@@ -80,7 +80,9 @@ def counts(methods: Sequence[CountedMethod], count: int = 20_000) -> xr.Dataset:
     texts = "sines with their cosines", "rotations by a known angle", "inverse functions"
     variables = {
         name: (("counted", "drawn"), values, f"mean number of {text} a flight")
-        for name, text, values in zip(COUNTS, texts, np.moveaxis(found, -1, 0), strict=True)
+        for name, text, values in zip(
+            COUNTS, texts, np.moveaxis(np.array(found), -1, 0), strict=True
+        )
     }
     names = {"counted_name": ("counted", [m.name for m in methods], "method and its settings")}
     names["drawn_set"] = "drawn", [*drawn], "set of states"

@@ -208,7 +208,8 @@ def _installed(package: str) -> str | None:
     with suppress(metadata.PackageNotFoundError):
         return metadata.version(package)
     lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
-    return dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line)).get(package)
+    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
+    return pins.get(package)
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:

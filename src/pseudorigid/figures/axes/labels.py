@@ -34,7 +34,7 @@ def label(
         wide = width(text, 7.0) + 2
         for right, high in _SHIFTS:
             at, middle = own_x + (right if right > 0 else right - wide), own_y + high
-            box = at - 4, middle - 14, at + wide, middle + 14
+            box = at - 4, middle - 14, at + wide, middle + (22 if "^" in text else 14)
             hides = (marks > box[:2]).all(axis=1) & (marks < box[2:]).all(axis=1)
             over = any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3]
                        for b in taken)  # fmt: skip
