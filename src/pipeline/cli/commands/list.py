@@ -20,8 +20,9 @@ def run(args: Arguments) -> int:
     config, wanted = args.config, args.name
     scenes = {scene for group in config.variants.values() for scene in group}
     for name in wanted:
-        if name not in (known := [*config.variants, *sorted(scenes)]):
+        if name not in (known := [*config.variants, *config.ranges, *sorted(scenes)]):
             raise CommandLineError(f"no figure, set or variant {name}{hint(name, known)}")
+    wanted = [each for name in wanted for each in (name, *config.members(name))]
 
     def is_wanted(group: str, scene: str) -> bool:
         return not wanted or group in wanted or scene in wanted
