@@ -40,15 +40,15 @@ def variants_and_scenes(args: Arguments, *further: str) -> tuple[list[str], list
 
     `further` are other names of variants. Raises CommandLineError without a variant.
     """
-    ranges, names = args.config.ranges, args.variant
-    known = [*further, *args.config.own_variants, *ranges, *args.config.faulty]
+    config, names = args.config, args.variant
+    known = [*further, *config.own_variants, *config.ranges, *config.faulty]
     scenes = [name for name in names if name not in known]
     if len(scenes) == len(names):
         require_known("variant", scenes, known)
         have = ", ".join(dict.fromkeys(known)) or "none"
         raise CommandLineError(f"{args.word} needs a name: config.yaml has {have}")
-    require_known("variant or figure", scenes, [*known, *args.config.scenes])
-    found = (ranges[n].members if n in ranges else [n] for n in names if n in known)
+    require_known("variant or figure", scenes, [*known, *config.scenes])
+    found = (config.members(name) for name in names if name in known)
     return [*dict.fromkeys(member for each in found for member in each)], scenes
 
 

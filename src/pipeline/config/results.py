@@ -59,6 +59,10 @@ class Config:
         """The names of the variants of the main set that can be made."""
         return [name for name in self.variants if name not in SETS]
 
+    def members(self, name: str) -> list[str]:
+        """Return the variants of a range, or a variant itself."""
+        return [*self.ranges[name].members] if name in self.ranges else [name]
+
     @cached_property
     def datasets(self) -> Datasets:
         """The path of each stage's dataset."""

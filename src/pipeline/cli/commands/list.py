@@ -28,8 +28,9 @@ def run(args: Arguments) -> int:
     config, wanted = args.config, args.name
     scenes = {scene for group in config.variants.values() for scene in group}
     for name in wanted:
-        if name not in (known := [*config.variants, *sorted(scenes)]):
+        if name not in (known := [*config.variants, *config.ranges, *sorted(scenes)]):
             raise CommandLineError(f"no figure, set or variant {name}{hint(name, known)}")
+    wanted = [each for name in wanted for each in (name, *config.members(name))]
     files = [each for each in _files(config, wanted) if not wanted or {*each[2:4]} & {*wanted}]
     if args.json:
         print(json.dumps([dict(zip(_KEYS, each, strict=True)) for each in files], indent=1))
