@@ -186,13 +186,7 @@ FAULTS = [
     (DRAWING, spoil_pixel, "fig3.png", rf"drawing: {DRAWING}: 1 of [\d,]+ pixels differ", True),
     (PERIODIC, spoil_attribute, "fig3", f"data: {PERIODIC}: attribute energy differs$", True),
     (ORBITS, cut_to(4000), "fig2", f"data: {ORBITS}: ", True),
-    (
-        MOTION,
-        spoil_value,
-        "fig4",
-        rf"data: {MOTION}: variable strain differs from value 1,",
-        True,
-    ),
+    (MOTION, spoil_value, "fig4", rf"data: {MOTION}: variable strain differs$", True),
 ]
 
 
@@ -304,7 +298,7 @@ def test_without_an_answer_of_git_the_lists_are_not_known_to_be_committed(moved,
 
 
 @pytest.mark.parametrize("size", [3, 1024, 3000])
-def test_a_description_of_data_depends_on_every_value_and_says_where(size):
+def test_a_description_of_data_depends_on_every_value(size):
     def described(at, value):
         values = np.zeros(size)
         values[at] = value
@@ -313,7 +307,4 @@ def test_a_description_of_data_depends_on_every_value_and_says_where(size):
     first = described(0, 0.0)
     assert described(-1, 0.0) == first
     for at in (0, size // 2, size - 1):
-        other = described(at, 1e-300)
-        assert other["sha256"] != first["sha256"]
-        pairs = zip(first["blocks"].split(), other["blocks"].split(), strict=True)
-        assert [a != b for a, b in pairs] == [i == at // 1024 for i in range(-(-size // 1024))]
+        assert described(at, 1e-300)["sha256"] != first["sha256"]

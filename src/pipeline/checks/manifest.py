@@ -13,7 +13,6 @@ from typing import Any
 import xarray as xr
 
 from ..records.artifacts import canonical_json, canonical_values, load, plain_attributes
-from ..records.differences import CHUNK
 from ..records.files import ABSENT, FileError, file_hash, read_text
 from ..records.pictures import drawing_hash
 from ..records.provenance import read_record, record_path
@@ -26,22 +25,17 @@ Manifest = dict[str, Any]
 
 
 def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
-    """Describe a dataset by hashes of its attributes, variables and chunks of their values."""
+    """Describe a dataset by hashes of its attributes and variables."""
     variables = {}
     for name, variable in dataset.variables.items():
         dtype, values = canonical_values(variable)
-        slices = [values[start : start + CHUNK] for start in range(0, len(values), CHUNK)]
-        chunks = [
-            json.dumps(each).encode() if isinstance(each, list) else each.tobytes()
-            for each in slices
-        ]
+        data = json.dumps(values).encode() if isinstance(values, list) else values.tobytes()
         variables[str(name)] = {
             "dims": list(variable.dims),
             "shape": list(variable.shape),
             "dtype": dtype,
             "attributes": _attribute_hashes(variable),
-            "sha256": hashlib.sha256(b"".join(chunks)).hexdigest(),
-            "blocks": " ".join(_short_hash(chunk) for chunk in chunks),
+            "sha256": hashlib.sha256(data).hexdigest(),
         }
     return {"attributes": _attribute_hashes(dataset), "variables": variables}
 
