@@ -44,6 +44,7 @@ def make(tree, monkeypatch, capsys):
     """
     for module in (publishing, running):
         monkeypatch.setattr(module, "ROOT", tree.path)
+    monkeypatch.setenv("COLUMNS", "1000")
 
     def run(*names, ran=None, options=(), **how):
         with monkeypatch.context() as patch:

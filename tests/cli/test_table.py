@@ -11,7 +11,8 @@ from pipeline.records.sources import ROOT
 WHY = "not made: no such orbit"
 
 
-def test_files_that_say_the_same_share_a_row_and_reasons_stand_below(capsys):
+def test_files_that_say_the_same_share_a_row_and_reasons_stand_below(monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "1000")
     rows = [
         ("a/fig1.png", "12 kB", ("current", "differs")),
         ("a/fig1.svg", "3 kB", ("current", "differs")),

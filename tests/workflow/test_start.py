@@ -192,6 +192,11 @@ class SetUp:
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
         )
 
+    def with_its_packages(self):
+        """Let the base Python have its packages, of which pip saves the installation of one."""
+        python = self.folder / "bin/python3"
+        python.write_text(python.read_text().replace(" -S", ""))
+
     def shell(self, command, shell="sh"):
         """Return what a command prints in a shell, in the folder of the tree."""
         environment = {"PATH": "/usr/bin:/bin", "HOME": str(self.folder)}
@@ -223,8 +228,7 @@ def with_either(request):
     """A SetUp with uv, or with pip alone, that of the base Python if it has one."""
     set_up = request.getfixturevalue("with_uv" if request.param == "uv" else "set_up")
     if request.param == "pip":
-        python = set_up.folder / "bin/python3"
-        python.write_text(python.read_text().replace(" -S", ""))
+        set_up.with_its_packages()
     set_up.installer = request.param
     return set_up
 
@@ -269,6 +273,7 @@ def start_slowly(set_up):
     (set_up.folder / "bin" / "uv").write_text(SLOW_UV % version)
     (set_up.folder / "bin" / "uv").chmod(0o755)
     set_up.slow.touch()
+    set_up.with_its_packages()
     process = set_up.start()
     pid = set_up.folder / "slow.pid"
     wait_for(lambda: pid.exists() and pid.read_text().strip())
