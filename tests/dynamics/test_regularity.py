@@ -66,7 +66,7 @@ def test_each_orbit_is_judged_by_its_own_numbers():
 @pytest.mark.parametrize(("k", "g", "energy"), SETTINGS)
 def test_scenes_and_classify_orbits_give_the_same_words(k, g, energy):
     ball = Ball(k, g)
-    states = random_states(ball, energy, 60, 5)
+    states = random_states(ball, energy, 12, 5)
     found = pseudorigid.classify_orbits(ball, states)
     assert orbit_types(ball, states) == found["type"].values.tolist()
     assert {"regular", "chaotic"} <= {*found["type"].values.tolist()}
@@ -110,27 +110,25 @@ def test_words_are_those_of_600_000_impacts(k, g, energy):
     assert 10 < chaotic.sum() < 75
 
 
-@pytest.mark.parametrize("impacts", [1, 300, 8000])
+@pytest.mark.parametrize("impacts", [1, 3000])
 def test_the_word_of_an_orbit_does_not_depend_on_its_run(impacts):
-    starts = np.linspace(-0.97, 0.97, 20)
+    starts = np.linspace(-0.97, 0.97, 6)
     words = pseudorigid.classify_orbits(BALL, BALL.start(starts, 0.01))["type"].values
     orbits = scene_orbits(BALL, 0.01, starts.tolist(), impacts)
     assert orbits["type"].values.tolist() == words.tolist()
-    exponents = scene_exponents(BALL, 0.01, starts[:4].tolist(), impacts, 1)
-    assert exponents["type"].values.tolist() == words[:4].tolist()
+    exponents = scene_exponents(BALL, 0.01, starts[:3].tolist(), impacts, 1)
+    assert exponents["type"].values.tolist() == words[:3].tolist()
     assert {"regular", "chaotic"} <= {*words.tolist()}
 
 
 def test_a_limit_of_impacts_changes_no_word_but_leaves_orbits_undecided():
-    states = random_states(BALL, 0.001, 200, 8)
+    states = random_states(BALL, 0.001, 40, 8)
     whole = pseudorigid.classify_orbits(BALL, states)
-    for impacts in (500, 5000, 40_000):
+    for impacts in (100, 500, 5000, 40_000):
         some = pseudorigid.classify_orbits(BALL, states, impacts)
-        decided = whole["followed"] <= impacts
-        decided &= whole["type"] != "undecided"
-        assert np.array_equal(some["type"] == whole["type"], decided | (some["type"] == "undecided") & (whole["type"] == "undecided"))
-        assert np.all(some["type"].values[~decided.values] == "undecided")
-        assert some["followed"].max() == max(n for n in LENGTHS if n <= impacts)
+        expected = np.where(whole["followed"] <= impacts, whole["type"], "undecided")
+        assert np.array_equal(some["type"], expected)
+        assert some["followed"].max() == max([n for n in LENGTHS if n <= impacts], default=impacts)
     regular = whole["type"] == "regular"
     assert whole["followed"].values[regular].min() == 32_000
     assert np.array_equal(np.isfinite(whole["rotation_number"]), regular)
@@ -178,7 +176,7 @@ def test_the_elliptic_fixed_point_is_regular(energy):
     assert scene_orbits(BALL, energy, [start], 5)["type"].item() == "regular"
     found = pseudorigid.classify_orbits(BALL, BALL.state_xy(x * BALL.g, 0.0, energy))
     assert found["type"].item() == "regular"
-    assert found["rotation_number"].item() == rotation
+    assert found["rotation_number"].item() == pytest.approx(rotation, rel=1e-14)
 
 
 def test_the_numbers_of_an_orbit_are_those_of_single_jacobians():
@@ -205,11 +203,11 @@ def test_the_numbers_of_an_orbit_are_those_of_single_jacobians():
 
 
 def test_one_threshold_finds_the_same_edges_along_the_symmetry_line():
-    starts = np.linspace(-0.97, 0.97, 120)
+    starts = np.linspace(-0.97, 0.97, 50)
     words = pseudorigid.classify_orbits(BALL, BALL.start(starts, 0.01))["type"].values
     by_growth = regular(winding(BALL, 0.01, starts, 20_000)[1], 20_000)
     assert np.array_equal(by_growth, words == "regular")
-    assert 5 < by_growth.sum() < 115
+    assert 3 < by_growth.sum() < 47
 
 
 # The short form. Halves of the winding number, growth, log of the vector's length -> regular,

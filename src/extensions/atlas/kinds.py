@@ -126,7 +126,7 @@ class Atlas(Picture):
 
 
 class Verdicts(Picture):
-    """the share of wrong verdicts on orbits against the impacts that they take"""
+    """the share of wrong verdicts on orbits against impacts and time"""
 
     stages = ("verdicts",)
 

