@@ -69,7 +69,7 @@ class WebKit(Driven):
         folder.mkdir(parents=True, exist_ok=True)
         reading, writing = os.pipe()
         self._screen = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1200x24"],
             pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         os.close(writing)
@@ -90,13 +90,15 @@ class WebKit(Driven):
     def open(self, address):
         super().open(address)
         self.run(
-            "globalThis.failures ??= []; const keep = e => failures.push(String(e.message ?? e.reason));"
-            "for (const kind of ['error', 'unhandledrejection']) addEventListener(kind, keep)"
+            "globalThis.failures ??= []; const keep = e => failures.push("
+            "String(e.message ?? e.reason ?? e.violatedDirective));"
+            "for (const kind of ['error', 'unhandledrejection', 'securitypolicyviolation'])"
+            " addEventListener(kind, keep)"
         )
 
     def errors(self):
         """Return exceptions in the page since it was opened or since the last call."""
-        return self.run("return globalThis.failures.splice(0)")
+        return self.run("return (globalThis.failures ?? []).splice(0)")
 
     def close(self):
         super().close()

@@ -1,6 +1,7 @@
 """How smooth the explorer is, and how often the short form of its verdicts is wrong.
 
-    PYTHONPATH=src:tests:tests/extensions/explorer .venv/bin/python tests/extensions/explorer/measure.py
+    export PYTHONPATH=src:tests:tests/extensions/explorer
+    .venv/bin/python tests/extensions/explorer/measure.py
 
 On an idle machine, in Chromium: seconds until the section in colour is complete, energies a second
 of "Play E", and pictures a second of a drag of E, also with a processor that is four times slower.
@@ -13,6 +14,7 @@ import time
 from pathlib import Path
 
 import browsers
+import numpy as np
 from project import SHIPPED, wait_for
 from test_pixels import WORKER
 
@@ -47,8 +49,9 @@ const [k, g, energy, starts] = args, found = {{ wrong: 0, undecided: 0, regular:
 const index = Uint32Array.from({{ length: starts.length / 2 }}, (_, i) => i);
 let part = crowd.begin({{ k, g, energy, places: starts, index }});
 const verdicts = [...part.verdict];
-for (; part.rest.index.length; part.index.forEach((cell, i) => (verdicts[cell] = part.verdict[i]))) {{
+while (part.rest.index.length) {{
   part = crowd.further({{ k, g, energy, rest: part.rest, done: part.done }});
+  part.index.forEach((cell, i) => (verdicts[cell] = part.verdict[i]));
 }}
 for (const i of index) {{
   const state = geometry.stateAt(k, g, energy, {{ p: starts[2 * i], q: starts[2 * i + 1] }});
@@ -90,13 +93,15 @@ def measure(browser, file):
 def verdicts(browser):
     """Print how many of 600 random starts of each setting are judged wrongly."""
     for k, g, energy in SETTINGS:
-        browser.run("globalThis.places = []; for (let i = 0; i < 600; ) {"
-                    "const [p, q] = [2 * Math.random() - 1, 2 * Math.random() - 1];"
-                    "if (p * p + q * q < 1) { places.push(p, q); i += 1; } }")  # fmt: skip
-        found = [browser.run(f"{RATES}", k, g, energy, browser.run(f"return places.slice({i}, {i + 100})"))
-                 for i in range(0, 1200, 100)]  # fmt: skip
-        print(f"k = {k:.3g}, g = {g}, E = {energy}: called regular, chaotic, undecided:",
-              *map(sum, zip(*found, strict=True)))  # fmt: skip
+        radius, angle = np.random.default_rng(1).uniform(size=(2, 600))
+        places = np.sqrt(radius) * np.exp(2j * np.pi * angle)
+        found = np.zeros(3, int)
+        for part in np.split(places, 12):
+            starts = np.stack([part.real, part.imag], axis=1).ravel().tolist()
+            found += browser.run(RATES, k, g, energy, starts)
+        print(
+            f"k = {k:.3g}, E/g² = {energy / g**2:.4g}: called regular, chaotic, undecided: {found}"
+        )
 
 
 if __name__ == "__main__":

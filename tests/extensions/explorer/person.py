@@ -237,6 +237,12 @@ class Person(Visitor):
         picture = self.find("section").screenshot_as_png
         return np.array(Image.open(io.BytesIO(picture)).convert("RGBA"))
 
+    def still(self):
+        """What the section shows once branches have grown."""
+        shown = [self.pixels()]
+        wait_for(lambda: shown.append(self.pixels()) or np.array_equal(*shown[-2:]))
+        return shown[-1]
+
     def place(self):
         """The coordinates that are shown at the pointer."""
         numbers = re.findall(r"[−\d.]+", self.text("where"))[:2]

@@ -87,17 +87,17 @@ def test_impacts_that_are_not_kept_are_drawn_and_saved_again(person):
 
 def test_the_section_in_colour_follows_the_energy_and_has_the_share_of_the_map(person):
     person.open(f"{DISK}&map=verdict")
-    share = float(re.search(r"regular ([\d.]+) %", note(person, "200 × 200 orbits:"))[1])
+    share = float(re.search(r"regular ([\d.]+) %", note(person, "200 × 200 cells"))[1])
     assert 15 < share < 20  # the atlas has 17 %
-    assert "not decided" not in person.text("map-note")
+    assert "100.0 % decided" in person.text("map-note")
     before = person.pixels()
     person.set("E-slide", 0.2)
     wait_for(lambda: f"regular {share} %" not in person.text("map-note"))
-    assert float(re.search(r"regular ([\d.]+) %", note(person, "200 × 200 orbits:"))[1]) > 30
+    assert float(re.search(r"regular ([\d.]+) %", note(person, "200 × 200 cells"))[1]) > 30
     assert differing(person.pixels(), before) > 0.05
     for by in ("exponent", "rotation"):
         person.set("map", by)
-        note(person, "300 × 300 orbits, 200 impacts each")
+        note(person, "300 × 300 cells, 200 impacts each")
         assert person.state()["map"] == by
     person.set("map", "none")
     assert "map" not in person.state() and person.text("map-note") == ""

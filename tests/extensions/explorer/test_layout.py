@@ -1,4 +1,4 @@
-"""The page fits into one window: boxes of what one turns and sees, also in the tour and a lesson."""
+"""The page fits into one window: boxes of what one turns and sees, also in tour and questions."""
 
 import json
 
@@ -43,7 +43,7 @@ def boxes(person, names):
     assert whole <= tall
     for name, (left, top, right, bottom) in found.items():
         assert right > left and bottom > top, f"{name} is not shown"
-        assert 0 <= left and 0 <= top and right <= wide and bottom <= tall, name
+        assert left >= 0 and top >= 0 and right <= wide and bottom <= tall, name
     return found
 
 
@@ -54,7 +54,9 @@ def test_one_window_has_the_section_the_ball_and_what_one_turns(window, width, h
     values = [f"{name}{part}" for name in ("E", "k", "g") for part in ("", "-slide")]
     tabs = ["time", "chart", "orbits", "periodic", "atlas", "export", "help"]
     found = boxes(person, [*names, *values, "curves", *(f"tab-{name}" for name in tabs)])
-    size = {name: (right - left, bottom - top) for name, (left, top, right, bottom) in found.items()}
+    size = {
+        name: (right - left, bottom - top) for name, (left, top, right, bottom) in found.items()
+    }
     assert size["section"][1] >= least and size["section"][0] >= least
     assert min(size["ball"]) >= 120
     assert size["E-slide"][0] >= 160

@@ -78,7 +78,7 @@ def test_lines_and_orbits_have_no_colour_of_a_verdict(theme):
         apart = ciede2000(lab(colour[verdict], vision), lab(colour[line], vision))
         assert apart >= 15, (vision, verdict, line)
     for vision in ("normal", "deuteranopia"):
-        fills = [lab(colour[name], vision) for name in ("regular", "chaotic", "undecided", "surface")]
+        fills = [lab(colour[name], vision) for name in (*VERDICTS[:3], "surface")]
         for i, one in enumerate(fills):
             assert all(ciede2000(one, other) >= 10 for other in fills[i + 1 :])
     for line in {*LINES, *VERDICTS[3:]} - {"sea"}:  # lines are seen on any fill
@@ -90,17 +90,14 @@ def test_lines_and_orbits_have_no_colour_of_a_verdict(theme):
 def test_the_answers_of_the_questions_are_true():
     """By Python; what pictures show is tested where they are drawn."""
     growing, islands, apart, repeats, energies = LESSON
-    fractions = [float(part.split("*")[0]) for part in re.findall(r"[-\d.]+\*12", growing["address"])]
+    parts = re.findall(r"([-\d.]+)\*12", growing["address"])
+    fractions = [*map(float, parts)]
     assert len(fractions) == len(growing["choices"]) == 3
     wide = []
     for fraction in fractions:
         x, *_ = BALL.history(BALL.start(fraction, ENERGY), 20000)[0].T
         wide.append(len(np.unique(np.round(x, 2))))
     assert np.argmax(wide) == growing["answer"] and "Start 3" in growing["why"]
-    low, high = islands["answer"]["from"], islands["answer"]["to"]
-    for _ in range(60):  # where the rotation number falls to 1/6
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if symmetric_fixed_point(BALL, middle)[1] > 1 / 6 else (low, middle)
     turns = [symmetric_fixed_point(BALL, islands["answer"][end])[1] for end in ("from", "to")]
     assert min(turns) < 1 / 6 < max(turns)
     assert f"{0.0073785:.7f}" in islands["why"]
@@ -127,7 +124,8 @@ def test_questions_are_tried_and_revealed_and_have_links(person):
             assert person.text("guide-text").startswith("No, that is not it.")
             person.run(press, step["answer"])
         else:
-            for guess, words in (("", "Type a number."), ("9", "No, that"), (step["answer"]["to"], "")):
+            right = step["answer"]["to"]
+            for guess, words in (("", "Type a number."), ("9", "No, that"), (right, "Right.")):
                 person.run("document.getElementById('guess').value = args[0]", guess)
                 person.press("answer")
                 assert person.text("guide-text").startswith(words)
@@ -169,7 +167,8 @@ def test_shares_are_of_what_is_decided(person):
     wait_for(complete, 120)
     assert not any("regular 0.0 %" in text and "100.0 % decided" in text for text in notes)
     assert all("decided" in text or "preview" in text for text in notes if text)
-    regular, chaotic, undecided = map(float, re.findall(r"(?:regular|chaotic|undecided) ([\d.]+) %", notes[-1]))
+    shares = re.findall(r"(?:regular|chaotic|undecided) ([\d.]+) %", notes[-1])
+    regular, chaotic, undecided = map(float, shares)
     assert regular + chaotic + undecided == pytest.approx(100, abs=0.2)
     assert regular > 50
 
