@@ -14,8 +14,7 @@ from programs import run
 from sections import sea
 
 from pseudorigid.kernel import arithmetic, impact, lanes, spectrum, tangents
-from pseudorigid.kernel.compiled import folder as machine_code
-from pseudorigid.kernel.compiled import jit
+from pseudorigid.kernel.compiled import folders, jit
 
 # Flags with which the compiler may change the arithmetic.
 LOOSE = re.compile(r"\bf(?:mul|add|sub|div) (?:fast|reassoc|contract)")
@@ -88,7 +87,7 @@ def test_machine_code_is_kept_in_a_folder_of_the_functions_module():
     arithmetic.log(2.0)
     folder = Path(arithmetic.log.stats.cache_path)  # none if nothing is kept
     name = f"{arithmetic.__name__}-"
-    assert folder.parent == Path(machine_code()) and folder.name.startswith(name)
+    assert folder.parent == Path(folders()[0]) and folder.name.startswith(name)
     assert [*folder.glob("*log*.nbi")]
 
 
