@@ -32,7 +32,7 @@ def energy(k: float, theta: float) -> float:
 
 def half_time(k: float, e: float) -> float:
     """Return theta = tau/2, to the last bit, at the energy e > -1/(2k)."""
-    return _root(lambda theta: energy(k, theta) < e, math.pi)
+    return _root(_is_below_energy, math.pi, k, e)
 
 
 def place(k: float, theta: float) -> float:
@@ -51,7 +51,7 @@ def rotation(trace: float) -> float:
     """Return the rotation number, from 0 to 1/2; NaN where |trace| > 2."""
     if not -2.0 <= trace <= 2.0:
         return math.nan
-    return _root(lambda rho: 2.0 * sincos(2.0 * math.pi * rho)[1] > trace, 0.5)
+    return _root(_is_above_trace, 0.5, trace)
 
 
 def numbers(k: float, e: float) -> tuple[float, float, float]:
@@ -64,17 +64,30 @@ def numbers(k: float, e: float) -> tuple[float, float, float]:
 def resonance(k: float, turns: int, impacts: int) -> float:
     """Return the E/g^2 at which the rotation number is turns/impacts <= 1/2."""
     resonant_trace = 2.0 * sincos(2.0 * math.pi * turns / impacts)[1]
-    return energy(k, _root(lambda theta: trace(k, theta) > resonant_trace, math.pi))
+    return energy(k, _root(_has_larger_trace, math.pi, k, resonant_trace))
 
 
-def _root(is_below: Callable[[float], bool], upper: float) -> float:
+# Numba, which compiles all of this for cells of the atlas, takes no closures as arguments.
+def _is_below_energy(theta: float, k: float, e: float) -> bool:
+    return energy(k, theta) < e
+
+
+def _is_above_trace(rho: float, trace: float) -> bool:
+    return 2.0 * sincos(2.0 * math.pi * rho)[1] > trace
+
+
+def _has_larger_trace(theta: float, k: float, other: float) -> bool:
+    return trace(k, theta) > other
+
+
+def _root(is_below: Callable[..., bool], upper: float, *others: float) -> float:
     """Return the last double in (0, upper) at which `is_below` holds, by bisection."""
     low, high = 0.0, upper
     while True:
         middle = 0.5 * (low + high)
         if middle in (low, high):
             return low if low > 0.0 else high
-        if is_below(middle):
+        if is_below(middle, *others):
             low = middle
         else:
             high = middle
