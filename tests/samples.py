@@ -20,7 +20,7 @@ FLAT = {
     "udot": {"limits": [-0.1, 0.25], "ticks": [-0.05, 0.05, 0.15]},
 }
 SCENES = {
-    "portrait": {"axes": SPACE, "view": VIEW, "sea": [2]},
+    "portrait": {"axes": SPACE, "view": VIEW},
     "tangle": {"axes": SPACE, "view": VIEW, "type": "hyperbolic"},
     "motion": {
         "axes": {

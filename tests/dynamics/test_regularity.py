@@ -184,10 +184,10 @@ def test_the_numbers_of_an_orbit_are_those_of_single_jacobians():
     state, impacts = np.array(BALL.start([-0.2], 0.01)), 1000
     orbits, centre, expected = regularity.around_fixed_point(BALL, state)
     pieces = *orbits, centre, expected
-    x, v, w = np.hstack([orbits, Ball(0.2, 1.0).history(orbits, impacts)[0, :, :3].T])
+    x, v, w = np.hstack([orbits, Ball.dimensionless(0.2).history(orbits, impacts)[0, :, :3].T])
     vector, size = np.array([1.0, 0.0, 0.0]), np.empty(impacts)
     for i in range(impacts):
-        vector = Ball(0.2, 1.0).jacobian(x[i], v[i], w[i]) @ vector
+        vector = Ball.dimensionless(0.2).jacobian(x[i], v[i], w[i]) @ vector
         size[i] = np.log(np.abs(vector).sum())
     growth = size[750:].mean() - size[250:500].mean()
     turns = -np.diff(np.unwrap(np.arctan2((v - 0.2 * w) / 0.24**0.5, x - centre))) / (2.0 * np.pi)

@@ -96,7 +96,7 @@ def test_a_line_between_samples_and_flat_data_are_drawn(t, y, joined, message):
 
 def test_a_view_from_which_the_surface_hides_all_is_refused():
     data = DATA["portrait"]()[0]
-    scene = SCENES["portrait"] | {"sea": []}
+    scene = SCENES["portrait"]
     seen = Box(scene).seen(states_of(data))
     assert 0 < seen.sum() < seen.size
     one = data.isel(orbit=[0]).assign(row_size=("orbit", [1]))

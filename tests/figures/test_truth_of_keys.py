@@ -14,24 +14,23 @@ VIEW = {"elevation": 40, "azimuth": 115}
 REGULAR, CHAOTIC = [0.1, -0.2], 0.6  # starts at SCENE
 
 
-@pytest.mark.parametrize("sea", [[], [0], [2]])
-def test_an_orbit_is_called_chaotic_by_its_growth_and_not_by_the_config(sea):
+def test_an_orbit_is_called_chaotic_by_its_growth():
     data = scene_orbits(BALL, 0.01, [*REGULAR, CHAOTIC], [200, 200, 900])
     assert data["type"].values.tolist() == ["regular", "regular", "chaotic"]
-    portrait = module("portrait").draw(SCENE | {"view": VIEW, "sea": sea}, data)
+    portrait = module("portrait").draw(SCENE | {"view": VIEW}, data)
     assert "chaotic orbit" in texts(portrait)
     sizes = [len(line.get_xdata()) for line in portrait.artists if line.get_color() == style.SEA]
     assert max(sizes) > 400
-    _, regular, chaotic = section.over_orbits(SCENE | {"sea": sea}, data)
+    _, regular, chaotic = section.over_orbits(SCENE, data)
     assert (regular[0], chaotic[0]) == ("regular orbits", "chaotic orbit")
 
 
 def test_a_key_has_no_orbits_that_are_not_there():
     data = scene_orbits(BALL, 0.01, REGULAR, 200)
-    portrait = module("portrait").draw(SCENE | {"view": VIEW, "sea": [0, 1]}, data)
+    portrait = module("portrait").draw(SCENE | {"view": VIEW}, data)
     assert not any("chaotic" in text for text in texts(portrait))
     curve = scene_orbits(BALL, 0.001, [0.5], 1000)  # of the example of `curves`
-    _, regular, chaotic = section.over_orbits(SCENE | {"energy": 0.001, "sea": [0]}, curve)
+    _, regular, chaotic = section.over_orbits(SCENE | {"energy": 0.001}, curve)
     assert regular[0] == "regular orbit" and chaotic is None
     slow = scene_orbits(BALL, 0.01, [0.9999999999, CHAOTIC], 9)  # the first on the far side
     assert "chaotic orbit" in texts(module("portrait").draw(SCENE | {"view": VIEW}, slow))
@@ -39,7 +38,7 @@ def test_a_key_has_no_orbits_that_are_not_there():
     both = texts(module("portrait").draw(SCENE | {"view": behind}, slow))
     assert "chaotic and undecided orbits" in both
     few = scene_orbits(BALL, 0.01, [CHAOTIC], 5)
-    _, regular, chaotic = section.over_orbits(SCENE | {"sea": []}, few)
+    _, regular, chaotic = section.over_orbits(SCENE, few)
     assert chaotic[0] == "chaotic orbit" and regular is None
 
 

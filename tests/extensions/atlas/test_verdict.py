@@ -132,7 +132,7 @@ def test_the_truth_is_that_of_the_rule_on_a_small_piece():
     """The quantities of the sections' orbits agree with `classify_orbits`."""
     states = np.array(starts.sunflower_points(K, E, 6))
     found = verdicts._quantities(K, states, E)
-    words = pseudorigid.classify_orbits(Ball(K, 1.0), states)["type"].values
+    words = pseudorigid.classify_orbits(Ball.dimensionless(K), states)["type"].values
     assert np.array_equal(found["rule, regular"][-1], words == "regular")
     assert np.array_equal(found["rule, chaotic"][-1], words == "chaotic")
     assert np.array_equal(found["truth"], words == "regular")
