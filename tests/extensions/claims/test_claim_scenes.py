@@ -59,7 +59,7 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     document = shipped()
     document["scenes"] = {name: document["claims"][name] for name in ("rotation", "jumps")}
     document["scenes"]["along_energy"] = document["families"]["energy"]
-    against_k = {"parameter": "k", "span": [0.1, 0.3], "step": 0.01}
+    against_k = {"parameter": "k", "span": [0.15, 0.3], "step": 0.01}
     document["scenes"]["against_k"] = document["scenes"]["along_energy"] | against_k
     document |= {"variants": {"v": {"scale": 2}}, "claims": {}, "families": {}}
     scenes = config.check(document).variants["v"]
@@ -67,4 +67,4 @@ def test_a_scale_multiplies_every_energy_and_no_number_of_starts():
     assert scenes["jumps"].energies == [0.004, 0.0072, 0.01, 0.02]
     families = scenes["along_energy"]
     assert (families.span, families.step) == ([-0.0156, 0.2396], 0.002)
-    assert (scenes["against_k"].span, scenes["against_k"].step) == ([0.1, 0.3], 0.01)
+    assert (scenes["against_k"].span, scenes["against_k"].step) == ([0.15, 0.3], 0.01)
