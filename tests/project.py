@@ -115,7 +115,7 @@ class Tree:
     def warm(self):
         """Copy the machine code of modules that mean the same, and the hashes of meanings."""
         self.cold = False
-        here, there = Path(compiled.folder()), self.path / "src/pseudorigid/kernel/__pycache__"
+        here, there = Path(compiled.folders()[0]), self.path / "src/pseudorigid/kernel/__pycache__"
         there.mkdir(exist_ok=True)
         for kept in (ROOT / MEANINGS).glob("meanings-*.json"):
             (self.path / MEANINGS).mkdir(exist_ok=True)

@@ -71,7 +71,7 @@ def test_orbits_of_a_little_more_energy_and_of_a_scaled_copy_are_kept():
     assert [(i, j) for i, j, _ in pairs] == [(0, 0), (1, 1), (2, 2)]
     assert all(0.0 < distance < 0.02 for _, _, distance in pairs)
     assert lost == gained == []
-    pairs, _, _ = datasets.match(periodic(0.01), periodic(0.04, g=0.08))
+    pairs, _, _ = datasets.match(periodic(0.01), periodic(0.0025, g=0.02))
     assert [distance for _, _, distance in pairs] == [0.0, 0.0, 0.0]
 
 
