@@ -13,7 +13,7 @@ CHAINS = {"picture": "chains", "over": "a", "chains": [6]}
 @pytest.mark.parametrize(("beyond", "line"), [
     ({"step": 0.03}, "step: 0.03 ... two multiples or more in the span"),
     ({"span": [-0.004, 0.01]}, "span[0]: -0.004 ... above -g^2/(2k)"),
-    ({"parameter": "k", "span": [0, 0.3]}, "span: [0, 0.3] ... 0 < k <= 1"),
+    ({"parameter": "k", "span": [0, 0.3]}, "span: [0, 0.3] ... g < k <= 1"),
     ({"step": 1e-6}, "step: 1e-06 ... 2000 values in the span"),
     ({"drawn": 7}, "drawn: 7 ... at most period = 6"),
 ])  # fmt: skip

@@ -102,7 +102,7 @@ def test_a_curve_whose_coefficients_fall_slower_than_they_begin_gets_more_modes(
     (float("nan"), 0.17, "energy = nan is not allowed: a finite number"),
     ("x", 0.17, "energy = 'x' is not an exact number"),
     (-1.0, 0.17, "energy = -1 is not allowed: above -0.004"),
-    (5.0, 0.17, "no elliptic orbit of period 1"),
+    (5.0, 0.17, "energy = 5.0 is not allowed: a number below k/2 - g = 0.06"),
     *slowly(
         (0.01, 0.1301, "no curve with the rotation number 0.130118 was found on y = 0; nearest s"),
         # in the sea, in islands, and above the fixed point's number
@@ -116,4 +116,10 @@ def test_a_curve_whose_coefficients_fall_slower_than_they_begin_gets_more_modes(
 def test_a_curve_that_cannot_be_proved_is_refused_in_one_line(energy, rotation, reason):
     with pytest.raises(ValueError, match=re.escape(reason)) as error:
         prove_curve(BALL, energy, rotation)
+    assert "\n" not in str(error.value)
+
+
+def test_a_curve_around_no_elliptic_point_is_refused():
+    with pytest.raises(ValueError, match="no elliptic orbit of period 1") as error:
+        prove_curve(Ball(0.2, 0.01), 0.08, 0.17)
     assert "\n" not in str(error.value)
