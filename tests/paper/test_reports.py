@@ -149,7 +149,7 @@ def test_a_mean_is_reported_of_orbits_of_one_type_only():
     data = {kind: scene_exponents(BALL, 0.01, each, 500, 5) for kind, each in starts.items()}
     numbers = {kind: reports.exponents(BLOCK, each) for kind, each in data.items()}
     assert all(each["their mean"] for each in numbers.values())
-    every = [start for each in starts.values() for start in each]
+    every = [start for each in reversed(starts.values()) for start in each]
     mixed = reports.exponents(BLOCK, scene_exponents(BALL, 0.01, every, 500, 5))
     assert mixed["mean of the chaotic ones"] == numbers["chaotic"]["their mean"]
     assert "their mean" not in mixed
