@@ -113,7 +113,7 @@ def test_a_command_of_a_part_that_is_not_there_says_which(capsys, monkeypatch):
 
 
 def test_the_help_of_a_command_has_its_arguments_and_a_required_name_no_brackets(capsys):
-    for word, usage in (("verify", "[--strict]"), ("variant", "NAME [figure ...]")):
+    for word, usage in (("verify", "[--strict]"), ("variant", "N] variant [variant ...]")):
         _, out, _ = answer(capsys, "help", word)
         assert out == answer(capsys, word, "--help")[1]
         assert out.startswith(f"usage: ./reproduce {word} ") and usage in " ".join(out.split())

@@ -13,17 +13,18 @@ from pipeline.declaration import ONLY_SET, parts
 
 @pytest.fixture
 def selected(monkeypatch):
-    """Return a function from words to the exit status and the figures of each set in turn.
+    """Return a function from words to the exit status and the figures of each set.
 
-    `statuses` are those with which the sets end.
+    All sets are made in one run, which ends with `status`.
     """
 
-    def run(*words, statuses=(), start=ROOT):
-        made, ends = {}, iter(statuses)
+    def run(*words, status=0, start=ROOT):
+        made = {}
 
-        def make(config, group, drawings, args):
-            made[group] = [*drawings]
-            return next(ends, 0)
+        def make(config, targets, args):
+            assert not made
+            made.update({group: [*drawings] for group, drawings in targets.items()})
+            return status
 
         monkeypatch.setattr(figures.publishing, "make", make)
         monkeypatch.setattr(figures, "locked", nullcontext)
@@ -49,9 +50,7 @@ def test_names_and_paths_select_figures_of_their_sets(selected):
 
 
 @pytest.mark.skipif("study" not in parts(), reason="by the part study")
-def test_the_first_failure_of_several_sets_stays_and_an_interrupt_ends(selected):
-    words = "fig3", "study/edges"
-    assert [*selected(*words)[1]] == ["paper", "study"]
-    assert selected(*words, statuses=(1, 0))[0] == 1
-    interrupted, made = selected(*words, statuses=(running.INTERRUPTED, 0))
-    assert interrupted == running.INTERRUPTED and [*made] == ["paper"]
+def test_several_sets_are_made_in_one_run_whose_status_is_returned(selected):
+    for status in (0, 1, running.INTERRUPTED):
+        ended, made = selected("fig3", "study/edges", status=status)
+        assert ended == status and [*made] == ["paper", "study"]

@@ -52,7 +52,7 @@ def make(tree, monkeypatch, capsys):
                 patch.setattr(running, "make", lambda *given: ran)
             config, args = load(tree.config), Arguments(options=[*options])
             drawings = publishing.drawings_of(config, "paper", names)
-            status = publishing.make(config, "paper", drawings, args, **how)
+            status = publishing.make(config, {"paper": drawings}, args, **how)
         return status, *capsys.readouterr()
 
     return run

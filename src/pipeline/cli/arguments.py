@@ -11,6 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+import pseudorigid
+
 from ..command_list import DEFAULT_COMMAND, REQUIRED, all_commands
 from ..declaration import files, lacking
 from ..records.files import read_text
@@ -173,6 +175,6 @@ def _parser(name: str | None) -> _Parser:
 
 def _versions() -> str:
     """Return the versions of this project and of snakemake."""
-    pins = {"pyproject.toml": '^version = "(.+)"', "requirements/lock.txt": "^snakemake==([^ ;]+)"}
-    ours, snakemake = (re.findall(p, read_text(ROOT / file), re.M)[0] for file, p in pins.items())
-    return f"pseudorigid {ours}, snakemake {snakemake}"
+    lock = read_text(ROOT / "requirements/lock.txt")
+    (snakemake,) = re.findall("^snakemake==([^ ;]+)", lock, re.MULTILINE)
+    return f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}"
