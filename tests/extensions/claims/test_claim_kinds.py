@@ -22,7 +22,7 @@ from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.render import pixels
 
-SCENE = {"sea": [8], "energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
+SCENE = {"energy": 0.01, "ball": {"k": 0.2, "g": 0.04}}
 FAMILIES = SCENE | {
     "picture": "families", "parameter": "energy", "span": [0.004, 0.02], "period": 6, "levels": 8,
     "drawn": 6, "step": 0.002, "starts": 40, "impacts": 1000,
@@ -30,7 +30,7 @@ FAMILIES = SCENE | {
 AXES = {name: {"limits": [-1.4, 1.4], "ticks": [-1, 0, 1]} for name in "xypq"}
 SCENES = {
     "families": FAMILIES, "residues": FAMILIES, "twist": SCENE | {"marks": [0.001, 0.01]},
-    "curves": SCENE | {"sea": [1]},
+    "curves": SCENE,
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
     "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
     "exclusion": SCENE | {"followed": 30},

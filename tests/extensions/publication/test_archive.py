@@ -158,7 +158,9 @@ def test_a_damaged_archive_is_refused_in_one_line(packed, tmp_path):
 def test_what_is_no_archive_is_refused_in_one_line(accepted, tmp_path, argument, status, words):
     (tmp_path / "text.tar").write_text("text")
     (tmp_path / "empty").mkdir()
-    args = Arguments(against=argument, start=tmp_path, config=config.load(accepted.config))
+    args = Arguments(
+        against=argument, start=tmp_path, config=config.load(accepted.config), json=False
+    )
     with pytest.raises(UsageError) as raised:
         command.run(args)
     line = str(raised.value)
