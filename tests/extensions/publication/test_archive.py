@@ -166,3 +166,8 @@ def test_what_is_no_archive_is_refused_in_one_line(accepted, tmp_path, argument,
     line = str(raised.value)
     assert (raised.value.status, line.count("\n")) == (status, 0)
     assert line.startswith("verify: ") and argument in line and words in line
+
+
+def test_a_comparison_is_not_printed_as_json():
+    with pytest.raises(UsageError, match="^verify: --json is not used with --against$"):
+        command.run(Arguments(against="an archive", json=True))
