@@ -169,5 +169,5 @@ def test_what_is_no_archive_is_refused_in_one_line(accepted, tmp_path, argument,
 
 
 def test_a_comparison_is_not_printed_as_json():
-    with pytest.raises(UsageError, match="^verify: --json is not used with --against$"):
+    with pytest.raises(UsageError, match=r"^verify: --json is not used with --against$"):
         command.run(Arguments(against="an archive", json=True))
