@@ -97,6 +97,7 @@ class Ball:
         Its map is that of every ball with this k and E/g^2, apart from scale. Without R, eq. (31)
         does not bound the energy; it has to be above -1/(2k).
 
+        >>> from pseudorigid import Ball
         >>> Ball.dimensionless(0.2).section(300.0)[0]
         5.0
         """
@@ -317,6 +318,10 @@ class Ball:
         """Read states of a ball that eq. (31) keeps from becoming flat, as arrays of one shape.
 
         Raises ValueError off the section, and for energies above the bound by more than roundings.
+
+        Parameters
+        ----------
+        state : (x, xdot, udot), array_like in R, omega R and omega
         """
         states = self.on_section(*state_of(state))
         energy, highest = np.asarray(self.energy(*states)), self.energy_bounds()[1]

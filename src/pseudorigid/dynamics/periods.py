@@ -41,7 +41,7 @@ def count_orbits(ball: Ball, energy: SupportsFloat, longest: int) -> xr.Dataset:
 
     Examples
     --------
-    >>> from pseudorigid import Ball
+    >>> from pseudorigid import Ball, count_orbits
     >>> counts = count_orbits(Ball(k=0.2, g=0.04), 0.01, 7)["count"]
     >>> counts.sum("type").values.tolist()
     [1, 0, 0, 0, 0, 3, 2]
