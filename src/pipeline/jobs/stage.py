@@ -52,9 +52,10 @@ def make(spec: BuildSpec, **known: Any) -> dict[str, Any] | None:
         dataset = function(*inputs, **fields, **energies)
         artifacts.save(dataset, spec.result, block, **(attributes | dataset.attrs))
         return None
-    method, ball = block.get("method", {}), Ball(**block["ball"])
-    if "scan" in method:
-        ball = Ball(ball.k, ball.g, map=ImpactMap((method["scan"], method["tolerance"])))
+    method = block.get("method", {})
+    scan = ImpactMap((method["scan"], method["tolerance"])) if "scan" in method else None
+    # config.yaml was checked before a variant's scale changed its unit of length.
+    ball = Ball.unbounded(**block["ball"], map=scan)
     dataset = function(ball, block["energy"], *inputs, **fields)
     notes = [f"{spec.step} by the method {name}; all else in doubles" for name in method]
     if "scan" in method:

@@ -73,6 +73,7 @@ class Ball:
     k: float
     g: float
     map: ImpactMap = field(default_factory=ImpactMap)
+    _bounded: bool = field(default=True, init=False, repr=False, compare=False)  # by eq. (31)
 
     if TYPE_CHECKING:  # other numbers become floats
 
@@ -101,9 +102,21 @@ class Ball:
         >>> Ball.dimensionless(0.2).section(300.0)[0]
         5.0
         """
-        k = number("k", k, bounds.K_ALLOWED, lambda v: 0.0 < v <= 1.0)
+        return cls.unbounded(k, 1.0)
+
+    @classmethod
+    def unbounded(cls, k: SupportsFloat, g: SupportsFloat, map: ImpactMap | None = None) -> Self:
+        """Return a ball whose lengths are in another unit than R, so that eq. (31) is no bound.
+
+        Parameters
+        ----------
+        k, g : float, 0 < k <= 1 and g > 0
+        map : ImpactMap, optional
+        """
         ball = object.__new__(cls)
-        for name, value in {"k": k, "g": 1.0, "map": ImpactMap()}.items():
+        k = number("k", k, bounds.K_ALLOWED, lambda v: 0.0 < v <= 1.0)
+        g = number("g", g, "a number above 0", lambda v: v > 0.0)
+        for name, value in {"k": k, "g": g, "map": map or ImpactMap(), "_bounded": False}.items():
             object.__setattr__(ball, name, value)
         return ball
 
@@ -128,7 +141,7 @@ class Ball:
         """
         exact = energy_bounds(bounds.as_decimal(self.k), bounds.as_decimal(self.g))
         lowest, highest = map(float, exact)
-        return lowest, highest if self.g < self.k else math.inf
+        return lowest, highest if self._bounded else math.inf
 
     def section(self, energy: Reals) -> tuple[float, Any]:
         """Return the section's centre and radius (R); ValueError outside `energy_bounds`.
@@ -353,11 +366,12 @@ class Ball:
 
     def _require_energy(self, energy: np.ndarray) -> None:
         """Raise ValueError for an energy that config.yaml refuses too; NaN is allowed."""
-        least, largest = bounds.energy_range(self.k, self.g)
+        least, largest = bounds.energy_range(self.k, self.g, self._bounded)
         outside = (energy < least) | (energy > largest)
         if np.any(outside):
             value = float(energy[outside][0])
-            raise not_allowed("energy", value, bounds.energy_mistake(self.k, self.g, value))
+            words = bounds.energy_mistake(self.k, self.g, value, self._bounded)
+            raise not_allowed("energy", value, words)
 
     def _advanced(
         self, states: Iterable[Reals], impacts: int, kept: int

@@ -1,8 +1,8 @@
 """Bounds of a ball's k, g and energy, which Python and config.yaml refuse by the same words.
 
 k is the Euler inertia, eq. (5), g gravity in R omega^2; energies are in m omega^2 R^2. Numbers are
-compared as the decimals that were written: as floats, 0.2 / 2 - 0.04 exceeds 0.06. A ball with g >=
-k is one in lengths of g R (`Ball.dimensionless`), to which eq. (31) does not apply.
+compared as the decimals that were written: as floats, 0.2 / 2 - 0.04 exceeds 0.06. Eq. (31) bounds
+the energies of balls whose lengths are in R, and of no others (`Ball.unbounded`).
 """
 
 import math
@@ -28,12 +28,12 @@ def g_mistake(k: float, g: float) -> str:
     return "" if g < k else f"0 < g < k = {k}"
 
 
-def energy_mistake(k: float, g: float, energy: float) -> str:
+def energy_mistake(k: float, g: float, energy: float, bounded: bool = True) -> str:
     """Return which energies are allowed, for one that is not, or an empty text."""
     lowest, highest, long = _bounds(k, g)
     if not as_decimal(energy) > lowest:
         return f"a number above -g^2/(2k) = {float(lowest)}, where the ball rests on the floor"
-    if g < k and not as_decimal(energy) < highest:
+    if bounded and not as_decimal(energy) < highest:
         return f"a number below k/2 - g = {float(highest)}, where the ball could flatten to nothing"
     if not as_decimal(energy) <= long:
         return f"at most {float(long)}, with flights up to {LONGEST_FLIGHT}/omega"
@@ -41,7 +41,7 @@ def energy_mistake(k: float, g: float, energy: float) -> str:
 
 
 @lru_cache
-def energy_range(k: float, g: float) -> tuple[float, float]:
+def energy_range(k: float, g: float, bounded: bool = True) -> tuple[float, float]:
     """Return the least and the largest double that `energy_mistake` allows."""
     lowest, highest, long = _bounds(k, g)
     # A double beside float(bound) is on the same side of the bound as its shortest decimal.
@@ -50,7 +50,7 @@ def energy_range(k: float, g: float) -> tuple[float, float]:
         least = math.nextafter(least, math.inf)
     if not as_decimal(largest) <= long:
         largest = math.nextafter(largest, -math.inf)
-    if g < k and highest <= long:
+    if bounded and highest <= long:
         largest = float(highest)
         if not as_decimal(largest) < highest:
             largest = math.nextafter(largest, -math.inf)

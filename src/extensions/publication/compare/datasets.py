@@ -65,7 +65,7 @@ def orbits(first: xr.Dataset, second: xr.Dataset) -> list[str]:
     """Say in one line how many orbits differ visibly; [] if starts or lengths differ."""
     if any(not np.array_equal(first[n], second[n], equal_nan=True) for n in ("start", "row_size")):
         return []
-    radius = Ball(first.attrs["k"], first.attrs["g"]).section(first.attrs["energy"])[1]
+    radius = Ball.unbounded(first.attrs["k"], first.attrs["g"]).section(first.attrs["energy"])[1]
     apart = np.max(np.abs(states_of(first) - states_of(second)), axis=0) / radius
     gaps = np.split(apart, np.cumsum(first["row_size"].values)[:-1])
     impacts = [int(np.argmax(each > VISIBLE)) + 1 for each in gaps if each.max() > VISIBLE]
@@ -138,7 +138,7 @@ def match(
 
 def _in_disk(data: xr.Dataset) -> np.ndarray:
     """Return the points of all orbits in the unit disk, an array of shape (orbits, points, 2)."""
-    ball = Ball(data.attrs["k"], data.attrs["g"])
+    ball = Ball.unbounded(data.attrs["k"], data.attrs["g"])
     centre, radius = ball.section(data.attrs["energy"])
     x, y = chart(ball.k, *states_of(data))
     return np.stack([(x - centre) / radius, y / (radius * np.sqrt(ball.k * (1.0 + ball.k)))], -1)
