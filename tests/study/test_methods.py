@@ -113,7 +113,8 @@ def test_the_page_has_the_numbers_of_the_study():
     missed = dict(zip(flights["long_name"].values, flights["long_missed"].values, strict=True))
     assert f"misses {missed[BEST_SCAN.name][-1]}." in page
     searched = search["searched_name"].values.tolist()
-    for method, name in ((OURS, "certified march"), (INFLECTIONS, "inflections")):
+    rivals = (ROTATED_SCAN, "scan by rotation"), (ROTATED_MARCH, "march by table")
+    for method, name in ((OURS, "certified march"), (INFLECTIONS, "inflections"), *rivals):
         count = int(search["passed"].values[searched.index(method.name), 2])
         assert re.search(rf"\| {name} \| {count:,} \|", page)
     for method in BEST_METHODS:
