@@ -4,7 +4,7 @@ from matplotlib import colormaps
 
 from pseudorigid import Ball, Picture, classify_orbits, orbit
 
-ball, hues = Ball(k=1 / 3, g=0.04), colormaps["inferno"](np.linspace(0.15, 0.69, 64))
+ball, hues = Ball(k=1 / 3, g=0.04), colormaps["inferno"](np.linspace(0.15, 0.67, 64))
 starts = ball.start(np.linspace(-0.95, 0.95, 58), energy=0.004)
 data, kinds = orbit(ball, starts, impacts=1500), classify_orbits(ball, starts)
 x, y = data["x"], data["xdot"] - ball.k * data["udot"]

@@ -28,7 +28,8 @@ def selected(monkeypatch):
 
         monkeypatch.setattr(figures.publishing, "make", make)
         monkeypatch.setattr(figures, "locked", nullcontext)
-        monkeypatch.delenv(ONLY_SET, raising=False)
+        monkeypatch.setenv(ONLY_SET, "")  # so that it is removed again
+        monkeypatch.delenv(ONLY_SET)
         args = arguments.read([*words])
         args.start, args.config = start, load(SHIPPED)
         return figures.run(args), made

@@ -16,7 +16,7 @@ _METHODS = {
     "SALI (two vectors)": (style.GREEN, "D"),
     "MEGNO": (style.BLUE, "v"),
     "weighted Birkhoff average": ("#a66f00", "^"),
-    "short form": ("#6a6a6a", "o"),
+    "short form": ("#6a6a6a", "p"),
     "rule": (style.VERMILION, "o"),
 }
 _UNDECIDED = "rule: undecided"
