@@ -129,8 +129,8 @@ def _regular(sheet: Sheet, frame: Frame, spread: xr.Dataset) -> None:
     panel = Panel(sheet, frame, across, up)
     for island in range(spread.sizes["island"]):
         positive = np.where(largest[:, island] > 0.0, largest[:, island], np.nan)
-        hue, wide = (style.SEA, 1.1) if chaotic[island] else (style.BLUE, 0.8)
-        panel.line(n, positive, color=hue, lw=wide)
+        hue, dashes = (style.SEA, "-.") if chaotic[island] else (style.BLUE, "-")
+        panel.line(n, positive, color=hue, lw=0.8, ls=dashes)
     panel.line(n, _LN10 * log10(n) / n, color=style.BLACK, lw=1.0, ls="--")
     grey = f"grey: {' and '.join(sorted({*types[chaotic]}))}; " if chaotic.any() else ""
     corner(sheet, frame, f"{grey}dashes: $\\ln\\,n/n$")
