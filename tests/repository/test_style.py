@@ -84,6 +84,7 @@ def test_the_locks_hold_the_requested_packages(name):
 
 def test_a_package_has_the_same_version_in_all_lists():
     known = {}
-    for file in sorted((ROOT / "requirements").glob("*.txt")):
+    own = {ROOT / "requirements" / "wheel.txt"}  # an environment apart, whose tools must be newer
+    for file in sorted({*(ROOT / "requirements").glob("*.txt")} - own):
         for package, version in pins(file).items():
             assert known.setdefault(package, version) == version, (file, package)
