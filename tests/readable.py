@@ -33,7 +33,6 @@ KNOWN = {
     "atlas/plane_chains": "size",
     "claims/control_low_shares.svg": "contrast",
     "claims/control_shares.svg": "contrast",
-    "claims/flux.svg": "key",
     "claims/last_curve.svg": "key",
     "families/energy.svg": "contrast key",
     "families/energy_residues.svg": "key",

@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas.sheet import Sheet
 
 from . import Figure, Frame, Scene
 
-_SIDES = (1, style.SKY, 1.5), (0, style.VERMILION, 2.2)  # index of the side, colour, points
+_SIDES = (1, style.SKY, 1.4), (0, style.VERMILION, 2.2)  # index of the side, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
