@@ -73,5 +73,6 @@ def caption_of_result(config: Config, variant: str, scene: str) -> str:
     """Return the caption of a picture in results as reStructuredText."""
     known = measured(ROOT, config, variant, scene, facts)
     name = scene if variant == MAIN else f"{variant}/{scene}"
-    name, title, *texts, _ = caption_of(name, config.variants[variant][scene].as_mapping(), known)
-    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join([f"{name}: {title}", *texts]))
+    words = caption_of(name, config.variants[variant][scene].as_mapping(), known)
+    texts = [f"{words.name}: {words.title}", words.shows, words.see, words.details]
+    return re.sub(r"([\\`*_|])", r"\\\1", "\n\n".join(texts))

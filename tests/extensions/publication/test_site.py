@@ -119,8 +119,8 @@ def test_the_site_is_accessible_and_statements_are_filtered(built, tmp_path):
     import browsers
     from axe_core_python.selenium import Axe
 
-    pages = [p for p in sorted(built.rglob("*.html")) if p.name not in ("genindex.html", *BESIDE)]
-    assert len(pages) > 60
+    names = "index", "CLAIMS", "pages/run", "pages/gallery", "docs/method", "pages/api"
+    pages = [built / f"{name}.html" for name in names]
     with browsers.started("chromium", tmp_path) as chromium:
         for width, page in product((390, 1280), pages):
             chromium.resize(width, 800)
