@@ -31,6 +31,7 @@ html_js_files = [("filter.js", {"defer": "defer"})]
 html_copy_source = html_show_sourcelink = html_show_sphinx = False
 html_permalinks_icon = "#"
 html_math_renderer = "mathml"
+html_scaled_image_link = False  # a picture of README leads to its caption
 html_sidebars = {
     "**": [
         *(f"sidebar/{name}.html" for name in ("brand", "search", "scroll-start", "navigation")),
