@@ -18,7 +18,7 @@ def run(args: Arguments) -> int:
     with locked(), interruptible(), one_line("article: "):
         left_out = archive.refuse_unpublished(ROOT, args.config)  # before the download
         print(*left_out, sep="\n", end="\n" * bool(left_out))
-    add_packages("article")
+    add_packages("algebra", "article")  # it tells of claims and theorems
     from ..article import numbers, typesetting
 
     with locked(), interruptible(), one_line("article: "):

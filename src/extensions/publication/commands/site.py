@@ -33,8 +33,7 @@ def run(args: Arguments) -> int:
         with one_line("site: "):
             archive.refuse_unpublished(ROOT, args.config)  # before packages are downloaded
             _refuse_others(ROOT / SITE)
-    add_packages("article")
-    add_packages("site")
+    add_packages("algebra", "article", "site")  # it tells of claims and theorems
     scratch = TemporaryDirectory(prefix=".site.", dir=ROOT / "results")
     with (
         locked(),
