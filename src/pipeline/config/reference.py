@@ -19,6 +19,7 @@ from .schema.scene import Scene, Variant
 from .validation.document import Document, with_shipped
 from .validation.mistakes import allowed_at
 
+EVERY = "every scene"  # the section of the fields that all kinds of picture share
 _KEYS = r" \*Allowed:\* a mapping with the keys? [\w, ]+\.$"
 
 
@@ -82,7 +83,7 @@ def _of_part(part: str, seen: dict[tuple[str, str], tuple[str, str]]) -> str:
     shipped: Any = with_shipped({})
     scenes = ((each, shipped.get(each.key, {}).values()) for each in SETS.values())
     keys = {block.get("picture", each.kind): each.key for each, of in scenes for block in of}
-    models: dict[str, Any] = {**SETTINGS, "every scene": Scene, "a variant": Variant, **KINDS}
+    models: dict[str, Any] = {**SETTINGS, EVERY: Scene, "a variant": Variant, **KINDS}
     for title, model in models.items():
         of_all = model in (Scene, Variant)
         if not of_all and model.__module__.split(".")[-2] != part:
@@ -91,7 +92,9 @@ def _of_part(part: str, seen: dict[tuple[str, str], tuple[str, str]]) -> str:
         lines = [f"### {title}\n", *_listed(schema, schema.get("$defs", {}), title, seen)]
         if title in KINDS:
             about = f"{model.__doc__[0].upper()}{model.__doc__[1:]}.\n\nStages: "
-            about += f"{_quoted(upstream(model.stages))}; under `{keys.get(title, 'scenes')}:`.\n"
+            about += f"{_quoted(upstream(model.stages))}; under `{keys.get(title, 'scenes')}:`"
+            lacking = [key for key in Scene.model_fields if key not in schema["properties"]]
+            about += f"; without {_quoted(lacking)}.\n" if lacking else ".\n"
             lines[:1] = [f"### picture: {title}\n", about]
         if not of_all or MAIN in declared.sets:
             texts.append("\n".join(lines))
@@ -112,15 +115,18 @@ def _listed(block: Any, blocks: Any, where: str, seen: Any, indent: str = "") ->
         blocks_of = re.findall(r"#/\$defs/(\w+)", json.dumps(field))
         words = field["description"].replace("Allowed:", "*Allowed:*")
         words = re.sub(_KEYS, "", words) if blocks_of else words  # their list follows
-        item = f"{indent}- `{key}` ({default}): "
+        mark = "" if default == "required" else f" ({default})"
         if (key, words) not in seen:
             seen[key, words] = where, default
             below = f"{indent}  "
-            yield fill(f"{item}{words}", 100, subsequent_indent=below, break_on_hyphens=False)
+            item = f"{indent}- `{key}`{mark}: {words}"
+            yield fill(item, 100, subsequent_indent=below, break_on_hyphens=False)
             for name in blocks_of:
                 yield from _listed(blocks[name], blocks, where, seen, below)
         else:
             first, of_first = seen[key, words]
+            if (first, of_first) == (EVERY, default) and where in KINDS:
+                continue  # the page says once that each kind has them
             place = "above" if first == where else f"of {first}"
             own = "" if of_first == default else f" ({default})"
             named.setdefault((place, own), []).append(key)
