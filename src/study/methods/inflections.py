@@ -1,8 +1,18 @@
 """The method of inflections: between two zeros of f'' the gap is convex or concave.
 
-The zeros are known in closed form, and there P = -g and Q = +-sqrt(x^2 + c^2 - g^2), so that the
-gap and its speed need no sine. docs/method.md has the rest of the argument, and what rounding does
-to it. Angles are computed from + - * / alone, as sine and cosine are.
+The zeros are known in closed form, and there P = -g and Q = +-r = +-sqrt(x^2 + c^2 - g^2), so that
+f = x + b t + g t^2/2 + g and f' = b + g t + Q need no sine. Let f < 0 or t = 0 at a piece's start.
+
+- A convex piece with f < 0 at its end has no root, since f lies below the chord. With f >= 0 there
+  it has one, since f rises from where it first meets zero.
+- A concave piece with f >= 0 at its end has one root, for the same reason backwards.
+- On a concave piece with f < 0 at its end, f lies below the tangents at both ends. It has no root
+  if f' <= 0 at its beginning, f' >= 0 at its end, or the tangents meet below zero. Otherwise
+  Newton's method from the left cannot pass the first root, since each tangent lies above f.
+
+First step, first condition for the end, landing and impact-free time are those of the march. A
+wrong sign of f can only make the method pass or report a touch within rounding errors. Angles are
+computed from + - * / alone, as sine and cosine are.
 """
 
 import math
