@@ -28,7 +28,8 @@ html_title = "pseudorigid"
 html_static_path = ["site.css", "filter.js"]
 html_css_files = ["site.css"]
 html_js_files = [("filter.js", {"defer": "defer"})]
-html_copy_source = html_show_sourcelink = html_show_sphinx = False
+html_copy_source = html_show_sourcelink = html_show_sphinx = html_show_copyright = False
+smartquotes = False  # it takes f'' for a quotation mark
 html_permalinks_icon = "#"
 html_math_renderer = "mathml"
 html_scaled_image_link = False  # a picture of README leads to its caption
