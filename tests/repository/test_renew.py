@@ -8,6 +8,8 @@ from project import ROOT, check_jsonschema, fresh_tree, shipped, small
 
 from pipeline import renew
 from pipeline.config import reference
+from pipeline.config.schema.kinds import KINDS
+from pipeline.config.schema.scene import Scene
 from pipeline.declaration import RENEW, parts
 
 # The study, and the parts that need it: name -> folder.
@@ -26,6 +28,14 @@ def test_every_field_is_explained_once():
     items = [re.sub(r"\(.*?\)", "", each, count=1) for each in text.split("- `")]
     long = [" ".join(item.split()) for item in items if len(item.split()) > 12]
     assert len(long) > 60 and len(set(long)) == len(long)
+
+
+def test_a_kind_names_the_common_fields_that_it_lacks():
+    sections = reference.fields().split("\n### picture: ")[1:]
+    for name, _, section in (each.partition("\n") for each in sections):
+        without = re.search(r"; without (.*)\.\n", section)
+        named = re.findall(r"`(\w+)`", without[1]) if without else []
+        assert {*named} == {*Scene.model_fields} - {*KINDS[name].model_fields}, name
 
 
 def test_only_the_marked_section_of_a_page_is_written():
