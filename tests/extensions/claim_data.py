@@ -13,12 +13,13 @@ from extensions.claims.analyses.flux import flux
 from extensions.claims.analyses.jumps import jumps
 from extensions.claims.analyses.rotation import rotation
 from extensions.claims.analyses.spread import spread
-from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, paper
+from paper import values
+from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.periodic import symmetric_orbits
 
-BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
+BALL, HIGH, LOW = Ball(**values.BALL), 0.01, 0.001
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
 CONTROL = {
     "strengths": [0.05], "orbits": 120, "impacts": 8000, "period": 6, "starts": STARTS_2,

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from extensions.atlas.symmetry_line import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
-from pseudorigid.dynamics.rotation import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from pseudorigid.kernel import formulas
 from pseudorigid.kernel import impact as kernel

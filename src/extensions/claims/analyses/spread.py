@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics import paper
+from paper import values
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.regularity import judged
@@ -72,8 +72,8 @@ def spread(
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
     data |= spread_of_runs(block[:, chaotic], length // blocks)
     attributes: dict[str, Any] = {"block_impacts": length // blocks}
-    if (energy, {"k": ball.k, "g": ball.g}) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
-        attributes["printed_exponent"] = paper.EXPONENT
+    if (energy, {"k": ball.k, "g": ball.g}) == (values.FIGURES["fig7"]["energy"], values.BALL):
+        attributes["printed_exponent"] = values.EXPONENT
     return xr.Dataset(described(data), attrs=attributes)
 
 
