@@ -123,11 +123,11 @@ def analyses():
     for name, function, *given in (
         ("spread", spread.spread, 13, 2000, 4, [-0.44], 256, 8, 256),
         ("clusters", clusters.clusters, 16, 400, [4.0, 6.0], 2, 20, 1),
-        ("control", control.control, [0.03], 20, 400, 6, [0.1], 0.03, 20, 20, 1),
+        ("control", control.control, [0.03], 20, 400, [0.1], 0.03, 20),
         ("rotation", rotation.rotation, [0.026], 15, 600, (-0.8344, -0.8341), 600),
-        ("jumps", jumps.jumps, [0.0018], 60), ("flux", flux.flux, 6, 5e-3, 60, 16, 300),
+        ("jumps", jumps.jumps, [0.0018], 60), ("flux", flux.flux, 6, 5e-3, 16, 300),
         ("exclusion", exclusion.exclusion, 20, 50),
-        ("last", last_curve.last_curve, 3, (-0.2, -0.0325639), 300, 60, [[0, 5, 1, 15]]),
+        ("last", last_curve.last_curve, 3, (-0.2, -0.0325639), 60, [[0, 5, 1, 15]]),
     ):  # fmt: skip
         yield name, content_hash(function(BALL, ENERGY, *given))
     yield "cells", content_hash(cell.block_of_cells_of_a_sweep([[0.2, 6.25], [0.1, 0.3]], 20, 2000))

@@ -13,12 +13,12 @@ from pathlib import Path
 import yaml
 from programs import run
 
+from paper.values import FIGURES
 from pipeline.config import MAIN
 from pipeline.config.schema.parts import SETS
 from pipeline.records import sources
 from pipeline.records.files import write_whole
 from pipeline.records.provenance import git
-from pseudorigid.dynamics.paper import FIGURES
 from pseudorigid.kernel import compiled
 
 ROOT = Path(__file__).parents[1]

@@ -3,7 +3,7 @@
 import tomllib
 from pathlib import Path
 
-from pseudorigid.dynamics.paper import FIGURES, WINDOW
+from paper.values import FIGURES, WINDOW
 
 # scene -> quantity -> the paper's value
 PAPER_NUMBERS: dict[str, dict[str, str]] = {

@@ -186,4 +186,4 @@ def _three_sincos(t: float, count: int) -> float:
 def _store(start: State, out: np.ndarray) -> None:
     """Advance an ensemble by as many impacts as `out` has room for, and store each of them."""
     x, v, w = (np.array(column) for column in start)
-    BALL.map.steps([x, v, w, np.empty(x.size)], BALL.k, BALL.g, out.shape[1], out)
+    BALL.map.iterate([x, v, w, np.empty(x.size)], BALL.k, BALL.g, out.shape[1], out)

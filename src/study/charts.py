@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.figures.axes.labels import label
 from pseudorigid.figures.axes.limits import decades
 from pseudorigid.figures.axes.panel import Axis, Panel, corner, key, letters, title
-from pseudorigid.figures.axes.zero import PanelWithZeros, axis_with_zero
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet
+from study.labels import label
+from study.zero import PanelWithZeros, axis_with_zero
 
 # Colour and mark of each family of methods. A method has one mark in all charts, open where it is
 # as commonly written.

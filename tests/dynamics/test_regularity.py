@@ -9,7 +9,6 @@ from pseudorigid.dynamics import fixed_point, regularity
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.dynamics.regularity import LENGTHS, judge, judged, orbit_types
-from pseudorigid.dynamics.rotation import regular, winding
 from pseudorigid.kernel import verdict
 
 BALL = Ball(0.2, 0.04)
@@ -200,14 +199,6 @@ def test_the_numbers_of_an_orbit_are_those_of_single_jacobians():
     assert alone[0] == pytest.approx(growth, abs=0.1)
     assert alone[1] == pytest.approx(mean, abs=1e-8)
     assert in_lanes == pytest.approx(growth, abs=1e-9)
-
-
-def test_one_threshold_finds_the_same_edges_along_the_symmetry_line():
-    starts = np.linspace(-0.97, 0.97, 50)
-    words = pseudorigid.classify_orbits(BALL, BALL.start(starts, 0.01))["type"].values
-    by_growth = regular(winding(BALL, 0.01, starts, 20_000)[1], 20_000)
-    assert np.array_equal(by_growth, words == "regular")
-    assert 3 < by_growth.sum() < 47
 
 
 # The short form. Halves of the winding number, growth, log of the vector's length -> regular,

@@ -13,16 +13,17 @@ from extensions.claims.analyses.flux import flux
 from extensions.claims.analyses.jumps import jumps
 from extensions.claims.analyses.rotation import rotation
 from extensions.claims.analyses.spread import spread
-from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits, paper
+from paper import values
+from pseudorigid.dynamics import lyapunov, manifolds, motion, orbits
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 from pseudorigid.dynamics.periodic import symmetric_orbits
 
-BALL, HIGH, LOW = Ball(**paper.BALL), 0.01, 0.001
+BALL, HIGH, LOW = Ball(**values.BALL), 0.01, 0.001
 STARTS_2 = [-0.440981, -0.338085, -0.23519, -0.132294, -0.063608, 0.142183, 0.165702, 0.534522]
 CONTROL = {
-    "strengths": [0.05], "orbits": 120, "impacts": 8000, "period": 6, "starts": STARTS_2,
-    "shown": 0.05, "drawn": 300, "resamples": 40, "seed": 1,
+    "strengths": [0.05], "orbits": 120, "impacts": 8000, "starts": STARTS_2,
+    "shown": 0.05, "drawn": 300,
 }  # fmt: skip
 STARTS_8 = [-0.20706, 0.155183, 0.426642, 0.66769, 0.894427, 0.999522]
 
@@ -51,7 +52,7 @@ def flux_of_the_paper():
     """
     few = {"_BITS": (1200, 900), "_PERIODS_EARLIER": (6, 9)}
     with patch.multiple("extensions.claims.analyses.flux", **few):
-        return made(flux, period=6, distance=3e-4, grid=400, orbits=29, impacts=6000)
+        return made(flux, period=6, distance=3e-4, orbits=29, impacts=6000)
 
 
 def datasets(derived, flowing):
@@ -114,6 +115,6 @@ def datasets(derived, flowing):
         "flux/flux": flowing,
         "last_curve/last_curve": made(
             last_curve, nobles=[[0, 5, 1, 15], [0, 5, 1, 17]], convergents=6,
-            between=(-0.2, -0.0325639), impacts=4000, drawn=10,
+            between=(-0.2, -0.0325639), drawn=10,
         ),
     }  # fmt: skip

@@ -16,7 +16,7 @@ K, G, ENERGY = BALL.k, BALL.g, np.linspace(-0.003, 0.05, 1000)
 @pytest.mark.parametrize("k", [0.02, 0.2, 1 / 3, 1.0])
 def test_the_fixed_point_has_the_bits_of_the_dynamics(k):
     for theta in np.linspace(0.01, 3.1, 200).tolist():
-        expected = fixed_point.energy(k, theta), fixed_point.trace(k, theta)
+        expected = fixed_point.energy(k, theta), fixed_point.trace_at(k, theta)
         assert closed_forms.fixed_point(k, theta, sincos) == expected
 
 

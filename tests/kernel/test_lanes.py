@@ -55,7 +55,7 @@ def assert_same_bits(states, ball, impacts):
     """Compare lanes and chunks with single orbits, and return the tangent vectors."""
     expected, expected_vectors = orbit_by_orbit(states, ball, impacts)
     ends, tau, out = np.array(states), np.empty(len(expected)), np.empty_like(expected)
-    lanes.steps(*ends, ball.k, ball.g, impacts, tau, out)
+    lanes.iterate(*ends, ball.k, ball.g, impacts, tau, out)
     assert np.array_equal(out, expected, equal_nan=True)
     assert np.array_equal([*ends, tau], expected[:, -1].T, equal_nan=True)
     ends, vectors = in_chunks(states, ball, impacts)

@@ -28,12 +28,12 @@ def compiled(function, *arguments):
 
 
 def test_machine_code_is_strict():
-    assert impact.steps.targetoptions["fastmath"] is False
-    assert not impact.steps.targetoptions.get("parallel")
+    assert impact.iterate.targetoptions["fastmath"] is False
+    assert not impact.iterate.targetoptions.get("parallel")
     state = sea(2)
     for kernel, arguments in (
-        (impact.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)), None)),
-        (lanes.steps, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
+        (impact.iterate, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)), None)),
+        (lanes.iterate, (*state, 0.2, 0.04, 1, np.empty(2), np.empty((2, 1, 4)))),
         (impact.jacobians, (*state, 0.2, 0.04, 1, np.empty((2, 3, 3)), None)),
         (arithmetic.log, (2.0,)),
     ):

@@ -20,7 +20,7 @@ MODULES = [
     if not info.ispkg and ">>> " in Path(SRC, *info.name.split(".")).with_suffix(".py").read_text()
 ]
 # Examples that take longest; the stages behind them have tests of their own.
-DEAR = {"extensions.families.families", "extensions.families.shares"}
+DEAR = {"extensions.families.dataset", "extensions.families.shares"}
 DEAR |= {"extensions.claims.analyses.control", "extensions.proofs.theorems.scenes"}
 DEAR &= {*MODULES}
 

@@ -50,9 +50,9 @@ def test_a_name_of_the_api_is_imported_when_it_is_used(printed):
 
 
 def test_a_stale_pyc_is_not_run(src, printed):
-    file = src / "pseudorigid/dynamics/paper.py"
+    file = src / "paper/values.py"
     file.write_text(f"{file.read_text()}\nPLANTED = 1\n")
-    show = "import pseudorigid.dynamics.paper as m; print(m.PLANTED)"
+    show = "import paper.values as m; print(m.PLANTED)"
     assert printed(show) == "1"
     edit_unseen(file, "PLANTED = 1", "PLANTED = 2")
     assert printed(show) == "2"

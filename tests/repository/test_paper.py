@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from project import shipped
 
+from paper.values import BALL as PAPER_BALL
+from paper.values import EXPONENT, FIGURES, WINDOW
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
-from pseudorigid.dynamics.paper import BALL as PAPER_BALL
-from pseudorigid.dynamics.paper import EXPONENT, FIGURES, WINDOW
 from pseudorigid.dynamics.variables import of_type
 
 DOCUMENT = shipped()

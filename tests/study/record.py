@@ -204,9 +204,8 @@ def _seconds(function: Callable[[], object], flights: int) -> float:
     return (time.process_time() - start) / flights if flights else math.nan
 
 
-def beside(old: xr.Dataset, new: xr.Dataset, dim: str) -> xr.Dataset:
-    """Return recorded methods, those that are recorded again replaced, on `dim`."""
-    names = f"{dim}_name"
+def beside(old: xr.Dataset, new: xr.Dataset, dim: str, names: str) -> xr.Dataset:
+    """Return recorded methods on `dim`, named by `names`; new ones replace old ones."""
     kept = old.isel({dim: ~old[names].isin(new[names])})
     return xr.concat([kept, new], dim, data_vars="minimal", combine_attrs="override")
 
@@ -214,8 +213,9 @@ def beside(old: xr.Dataset, new: xr.Dataset, dim: str) -> xr.Dataset:
 if __name__ == "__main__":
     part, *names = sys.argv[1:]
     chosen = [method for method in SEARCHED + LONG_METHODS if method.name in names]
-    start, dims = time.process_time(), {"flights": "long", "search": "searched"}
-    if part in dims:
+    start = time.process_time()
+    of_methods = {"flights": ("long_method", "long_name"), "search": ("searched", "searched_name")}
+    if part in of_methods:
         made = {"flights": flights, "search": search}[part](
             list({m.name: m for m in chosen}.values())
         )
@@ -225,7 +225,7 @@ if __name__ == "__main__":
     file = stages.RECORDED
     old = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
     if names:
-        made = {part: beside(xr.Dataset.from_dict(old[part]), made[part], dims[part])}
+        made = {part: beside(xr.Dataset.from_dict(old[part]), made[part], *of_methods[part])}
     new = {name: data.assign_attrs(done).to_dict() for name, data in made.items()}
     text = json.dumps(old | new, indent=None, separators=(",", ":")).replace('},"', '},\n"')
     file.write_text(text + "\n", encoding="utf-8")

@@ -94,7 +94,7 @@ def _follow(x: Any, v: Any, w: Any, k: float, impacts: int, vectors: int, turns:
             advance_chunk(x, v, w, k, 1.0, CHUNK, states, flights, None)
         else:
             states[X : X + n], states[V : V + n], states[W : W + n] = x, v, w
-            lanes.steps(x, v, w, k, 1.0, CHUNK, tau, out)
+            lanes.iterate(x, v, w, k, 1.0, CHUNK, tau, out)
         for row in range(0, CHUNK * GROUP, GROUP):
             for vector in range(0, 3 * vectors * GROUP, 3 * GROUP):
                 at = max(vector, 0), max(row, 0)

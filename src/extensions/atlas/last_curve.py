@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from extensions.atlas.symmetry_line import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.orbits import orbit
-from pseudorigid.dynamics.rotation import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, of_rows, states_of
 from pseudorigid.kernel import formulas
 from pseudorigid.kernel import impact as kernel
@@ -43,22 +43,20 @@ _VARIABLES = {
     "residue": (_CONVERGENT, "Greene's residue"),
     "closure": (_CONVERGENT, "by how much the orbit misses its start, in section radii", RADIUS),
     "rotation": ("noble", "noble rotation number"),
-    "orbit_rotation": ("noble", "rotation number of the orbit there"),
-    "orbit_exponent": ("noble", "Lyapunov exponent of the orbit there"),
     "x": (("noble", "impact"), "position at impact, downwards", LENGTH),
     "y": (("noble", "impact"), "xdot - k udot just before impact", SPEED),
 }
 
 
 def last_curve(
-    ball: Ball, energy: float, convergents: int, between: Interval, impacts: int, drawn: int,
+    ball: Ball, energy: float, convergents: int, between: Interval, drawn: int,
     nobles: Sequence[Sequence[int]] | None = None,
 ) -> xr.Dataset:  # fmt: skip
     """Compute residues of the convergents of noble rotation numbers, and orbits near these curves.
 
     `nobles` are continued fractions [0, a1, a2, ...], after which all quotients are 1; by default
     they are those of `edge_nobles`. The `convergents` of each begin with that of its given
-    quotients. The orbit that starts at the last one's point is followed for `impacts`. ValueError
+    quotients. The orbit that starts at the last one's point is kept for `drawn` impacts. ValueError
     is raised if there is no orbit of a convergent in `between`, or no edge of an island.
 
     >>> from pseudorigid import Ball
@@ -71,11 +69,11 @@ def last_curve(
     for i, noble in enumerate(edge_nobles(ball, energy, between) if nobles is None else nobles):
         try:
             search = OrbitSearch(ball, energy, between)
-            rows.append(_row(search, [int(a) for a in noble], convergents, impacts, drawn))
+            rows.append(_row(search, [int(a) for a in noble], convergents, drawn))
         except ValueError:
             if nobles is not None or i == 0:
                 raise
-    return xr.Dataset(of_rows(_VARIABLES, rows), attrs={"impacts": impacts})
+    return xr.Dataset(of_rows(_VARIABLES, rows))
 
 
 def edge_nobles(ball: Ball, energy: float, between: Interval) -> list[list[int]]:
@@ -133,16 +131,13 @@ def _simplest_between(low: float, high: float) -> list[int]:
     return [whole, *_simplest_between(1.0 / (high - whole), upper)]
 
 
-def _row(
-    search: "OrbitSearch", noble: list[int], convergents: int, impacts: int, drawn: int
-) -> tuple[Any, ...]:
+def _row(search: "OrbitSearch", noble: list[int], convergents: int, drawn: int) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one noble number."""
     ball, energy = search.ball, search.energy
     orbits = [(p, q, *search.orbit(p, q)) for p, q in fractions(noble, convergents)]
     start = orbits[-1][2]
-    (turns,), (exponent,) = winding(ball, energy, np.array([start]), impacts)
     path = chart(ball.k, *states_of(orbit(ball, ball.start(start, energy), drawn)))
-    return *np.array(orbits, dtype=float).T, value(noble), turns, exponent, *path
+    return *np.array(orbits, dtype=float).T, value(noble), *path
 
 
 def fractions(noble: Sequence[int], count: int) -> list[tuple[int, int]]:

@@ -130,9 +130,6 @@ class Flux(OfSea):
     """Period of the hyperbolic orbit whose branches enclose the regions."""
     distance: float = allowed("a number from 1e-5 to 1, in section radii", ge=1e-5, le=1)
     """Largest distance between neighbouring points of the traced branches."""
-    grid: int = whole(10, 3000)
-    """Number of points to a side, in the rectangle around the section, over which the flux is
-    counted beside that along the orbits."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that all impacts fit into memory."""
@@ -160,10 +157,8 @@ class LastCurve(Scene):
     between: Between
     """Part of the symmetry line y = 0 in which the orbits are sought, in section radii from the
     section's centre. The end nearer to the fixed point comes first."""
-    impacts: int = whole(100, LARGEST)
-    """Number of impacts of the orbit from the last convergent's periodic point."""
     drawn: int = whole(100, LARGEST)
-    """Number of these impacts that are drawn."""
+    """Number of impacts that are drawn of the orbit from the last convergent's periodic point."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the orbits can be computed and drawn."""
@@ -217,19 +212,12 @@ class Control(Scene):
     impacts: int = whole(64, 10_000_000)
     """Number of impacts of each orbit. A spiral that changes areas by a factor of 1 - eps an impact
     is told from a curve after about 4.4/eps impacts."""
-    period: int = whole(2, 12)
-    """Period of the elliptic orbit whose islands are followed beside the fixed point."""
     starts: list[Fraction] = allowed("a list of 1 to 50 fractions", min_length=1, max_length=50)
     """Starts of the orbits that are drawn, as fractions of the section's radius along y = 0."""
     shown: float = allowed("one of strengths", gt=0)
     """Strength at which these orbits are drawn."""
     drawn: int = whole(1, LARGEST)
     """Number of impacts of each orbit that are drawn."""
-    resamples: int = whole(10, 100_000)
-    """Bootstrap samples of whole orbits for each 95 % confidence interval; a few hundred do."""
-    seed: int = whole(0, 2**31)
-    """Random seed of the bootstrap, which decides the ends of the confidence intervals and nothing
-    else."""
 
     def cross_field_errors(self) -> Iterator[CrossFieldError]:
         """Check that the strength shown is computed, and that all impacts fit into memory."""
@@ -239,7 +227,6 @@ class Control(Scene):
             yield ("shown",), self.shown, words
         if self.drawn > self.impacts:
             yield ("drawn",), self.drawn, f"at most impacts = {self.impacts}"
-        yield from bounded(self, "orbits", "resamples", "orbits drawn")
         points = self.impacts * len(self.starts)
         if points > LARGEST:
             words = f"at most {LARGEST} impacts, counted over all starts"

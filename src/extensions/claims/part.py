@@ -17,14 +17,14 @@ PART = Part(
             f"{_ANALYSES}.rotation.rotation", "energies starts impacts detail detail_impacts"
         ),
         "jumps": Stage(f"{_ANALYSES}.jumps.jumps", "energies sides"),
-        "flux": Stage(f"{_ANALYSES}.flux.flux", "period distance grid orbits impacts"),
+        "flux": Stage(f"{_ANALYSES}.flux.flux", "period distance orbits impacts"),
         "exclusion": Stage(f"{_ANALYSES}.exclusion.exclusion", "grid followed"),
         "control": Stage(
             f"{_ANALYSES}.control.control",
-            "strengths orbits impacts period starts shown drawn resamples seed",
+            "strengths orbits impacts starts shown drawn",
         ),
         "last_curve": Stage(  # computed by the atlas, drawn here
-            "extensions.atlas.last_curve.last_curve", "nobles convergents between impacts drawn"
+            "extensions.atlas.last_curve.last_curve", "nobles convergents between drawn"
         ),
     },
     sets={

@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable
 
 from extensions.atlas.last_curve import OrbitSearch
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 
 CRITICAL = 0.25  # size of a long convergent's residue at the breakup of a noble curve
 _PERIOD = 500  # least period of the two convergents whose residues decide

@@ -19,7 +19,7 @@ from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import described
 
 from .continuation.curve import Place, Point, continue_both_ways, correct, solve_at
-from .continuation.families import Event, Family
+from .continuation.family import Event, Family
 from .continuation.half_orbit import ENERGY, FIX_R, scan
 from .continuation.search import Search
 from .continuation.symmetric import COLLAPSED, Parameter, PeriodicOrbits, SymmetricOrbits

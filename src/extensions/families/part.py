@@ -5,7 +5,7 @@ from pipeline.declaration import Part, SceneSet, SnakemakeCommand, Stage
 PART = Part(
     needs=("atlas",),
     stages={
-        "families": Stage("extensions.families.families.families", "parameter span period levels"),
+        "families": Stage("extensions.families.dataset.families", "parameter span period levels"),
         "shares": Stage(
             "extensions.families.shares.shares",
             "parameter span step starts impacts",

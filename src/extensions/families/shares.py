@@ -197,7 +197,7 @@ def shares(
     Examples
     --------
     >>> from pseudorigid import Ball
-    >>> from extensions.families.families import families
+    >>> from extensions.families.dataset import families
     >>> ball, span = Ball(k=0.2, g=0.04), [0.01, 0.012]
     >>> held = families(ball, 0.01, "energy", span, 6, 2)
     >>> shares(ball, 0.01, held, "energy", span, 0.001, 10, 1000)["energy"].values.tolist()

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from annotated_types import Predicate
 
+from paper import values
 from paper.groups import OfBranches, OfOrbits, bounded, not_elliptic
 from pipeline.config.schema.fields import (
     ABSENT,
@@ -20,7 +21,6 @@ from pipeline.config.schema.fields import (
     whole,
 )
 from pipeline.config.schema.scene import CrossFieldError, Picture, Scene
-from pseudorigid.dynamics import paper
 from pseudorigid.dynamics.bounds import as_decimal
 
 from .search.rotation_numbers import quotients_near
@@ -164,5 +164,5 @@ def theorems() -> dict[str, YamlMapping]:
     files = sorted((Path(__file__).parent / "certificates").iterdir())
     scenes: dict[str, YamlMapping]
     scenes = {file.stem: {"picture": "theorem", "theorem": file.stem} for file in files}
-    of_paper = {"ball": paper.BALL, "energy": paper.FIGURES["fig2"]["energy"]}
+    of_paper = {"ball": values.BALL, "energy": values.FIGURES["fig2"]["energy"]}
     return scenes | {"derivations": {"picture": "derivations"} | of_paper}

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from pseudorigid.dynamics import paper
+from paper import values
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.figures.axes import panel
 from pseudorigid.figures.axes.limits import complete, hides, inside, of_data, refuse_empty, ticks
@@ -153,9 +153,9 @@ def _upper_panel(
     up = panel.Axis(**scene["axes"]["largest"], name="Largest exponents")
     left, _, right, top = picture.frame
     upper = panel.Window(picture.sheet, (left, top + _UPPER[0], right, top + _UPPER[1]), across, up)
-    if (scene["energy"], scene["ball"]) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
+    if (scene["energy"], scene["ball"]) == (values.FIGURES["fig7"]["energy"], values.BALL):
         shown = (
-            ("the paper", paper.EXPONENT, window[0] + 0.4 * (window[1] - window[0]), "center"),
+            ("the paper", values.EXPONENT, window[0] + 0.4 * (window[1] - window[0]), "center"),
             ("largest at the end", float(np.nanmax(largest[-1])), window[1], "right"),
         )
         for name, value, at, side in shown:  # names are apart however near the lines

@@ -380,7 +380,7 @@ class Ball:
         columns = [a.flatten() for a in self.on_section(*state_of(states))]
         columns.append(np.empty(columns[0].size))
         out = np.empty((columns[0].size, kept, 4))
-        self.map.steps(columns, self.k, self.g, impacts, out)
+        self.map.iterate(columns, self.k, self.g, impacts, out)
         return columns, out
 
 

@@ -73,18 +73,18 @@ class ImpactMap:
         self.impacts += impacts
         self.missed += missed
 
-    def steps(
+    def iterate(
         self, columns: list[np.ndarray], k: float, g: float, impacts: int, out: np.ndarray
     ) -> None:
-        """Advance columns x, v, w, tau in place, as `kernel.impact.steps`, in lanes and threads."""
+        """Advance columns x, v, w, tau in place, as `impact.iterate`, in lanes and threads."""
         compiled = not getattr(numba.config, "DISABLE_JIT", False)
         fits_lanes = self.certified and impacts > 0 and compiled
 
         def advance_piece(*arrays: np.ndarray) -> int:
             x, v, w, tau, out = arrays
             if fits_lanes and x.size >= lanes.MIN_ORBITS_FOR_LANES:
-                lanes.steps(x, v, w, k, g, impacts, tau, out)
+                lanes.iterate(x, v, w, k, g, impacts, tau, out)
                 return 0
-            return impact.steps(x, v, w, k, g, impacts, tau, out, self.scan)
+            return impact.iterate(x, v, w, k, g, impacts, tau, out, self.scan)
 
         self.count(impacts * len(out), in_threads(advance_piece, impacts, *columns, out))

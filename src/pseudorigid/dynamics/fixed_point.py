@@ -40,7 +40,7 @@ def place(k: float, theta: float) -> float:
     return (1.0 - _one_minus_theta_cot(theta)) / k
 
 
-def trace(k: float, theta: float) -> float:
+def trace_at(k: float, theta: float) -> float:
     """Return the trace, which falls with theta from 2; the point is elliptic above -2."""
     sine, cosine = sincos(2.0 * theta)
     shear = _one_minus_theta_cot(theta) * (2.0 * theta - sine) / (theta * (1.0 + k))
@@ -57,7 +57,7 @@ def rotation(trace: float) -> float:
 def numbers(k: float, e: float) -> tuple[float, float, float]:
     """Return x, trace and rotation number of the fixed point at the energy e."""
     theta = half_time(k, e)
-    trace_of_point = trace(k, theta)
+    trace_of_point = trace_at(k, theta)
     return place(k, theta), trace_of_point, rotation(trace_of_point)
 
 
@@ -77,7 +77,7 @@ def _is_above_trace(rho: float, trace: float) -> bool:
 
 
 def _has_larger_trace(theta: float, k: float, other: float) -> bool:
-    return trace(k, theta) > other
+    return trace_at(k, theta) > other
 
 
 def _root(is_below: Callable[..., bool], upper: float, *others: float) -> float:

@@ -144,7 +144,7 @@ def step_with_flight(x, v, w, k, g, coefficients, root_finder):
 
 
 @jit
-def steps(x, v, w, k, g, impacts, tau, out, root_finder):
+def iterate(x, v, w, k, g, impacts, tau, out, root_finder):
     """Advance states by `impacts` in place.
 
     `tau` (n,) receives the times of the last flights, and `out` (n, impacts, 4), unless it is

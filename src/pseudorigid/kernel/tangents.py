@@ -13,7 +13,7 @@ import numpy as np
 from . import lanes
 from .arithmetic import log, narrow_log, narrow_quadrant
 from .compiled import jit
-from .impact import flight_derivatives, impact_coefficients, rebound, steps, tangent
+from .impact import flight_derivatives, impact_coefficients, iterate, rebound, tangent
 
 # Impacts in a chunk and orbits in a group; the buffers then fit into the processor's cache.
 CHUNK = 32
@@ -64,9 +64,9 @@ def advance_chunk(x, v, w, k, g, impacts, states, flights, root_finder):
     out = rows[:, 1 : impacts + 1, :n].transpose(2, 1, 0)
     missed = 0
     if root_finder is None and n >= lanes.MIN_ORBITS_FOR_LANES:
-        lanes.steps(x, v, w, k, g, impacts, np.empty(n), out)
+        lanes.iterate(x, v, w, k, g, impacts, np.empty(n), out)
     else:
-        missed = steps(x, v, w, k, g, impacts, np.empty(n), out, root_finder)
+        missed = iterate(x, v, w, k, g, impacts, np.empty(n), out, root_finder)
     coefficients = impact_coefficients(k)
     for j in range(impacts):
         _derive(states, flights, j * GROUP, n, k, g, coefficients)

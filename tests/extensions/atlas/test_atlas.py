@@ -8,11 +8,12 @@ from legible import assert_legible
 from readable import assert_as_known
 
 from extensions.atlas import cell
-from extensions.atlas.figures import atlas, raster
+from extensions.atlas.figures import atlas
 from extensions.atlas.sweep import resonances
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point
+from pseudorigid.figures.axes import raster
 from pseudorigid.figures.canvas import render, style
 
 PLANE = {"k": [0.1, 0.2, 0.3], "energy": [0.1, 1.0, 10.0, 100.0]}

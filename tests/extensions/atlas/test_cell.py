@@ -25,7 +25,7 @@ def test_the_closed_forms_are_those_of_the_map(k, e):
     ball = Ball.dimensionless(k)
     assert ball.impact(*state) == pytest.approx((*state, 2 * theta), rel=1e-9, abs=1e-9)
     (a, _), (_, d) = ball.chart_jacobian(*state)
-    assert fixed_point.trace(k, theta) == pytest.approx(a + d, rel=1e-8, abs=1e-8)
+    assert fixed_point.trace_at(k, theta) == pytest.approx(a + d, rel=1e-8, abs=1e-8)
 
 
 def test_the_rotation_number_and_its_resonances():
@@ -34,7 +34,9 @@ def test_the_rotation_number_and_its_resonances():
     assert math.isnan(fixed_point.rotation(-2.1))
     for k, q in ((0.05, 8), (0.2, 6), (0.3, 3)):
         theta = fixed_point.half_time(k, fixed_point.resonance(k, 1, q))
-        assert fixed_point.rotation(fixed_point.trace(k, theta)) == pytest.approx(1 / q, rel=1e-9)
+        assert fixed_point.rotation(fixed_point.trace_at(k, theta)) == pytest.approx(
+            1 / q, rel=1e-9
+        )
 
 
 def test_the_angle_is_that_of_atan2():

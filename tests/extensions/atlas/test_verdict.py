@@ -5,6 +5,7 @@ import pytest
 
 import pseudorigid
 from extensions.atlas import cell, starts, verdicts
+from extensions.atlas.symmetry_line import regular, winding
 from pseudorigid import Ball
 from pseudorigid.dynamics import fixed_point, verdict
 
@@ -137,3 +138,11 @@ def test_the_truth_is_that_of_the_rule_on_a_small_piece():
     assert np.array_equal(found["rule, chaotic"][-1], words == "chaotic")
     assert np.array_equal(found["truth"], words == "regular")
     assert not found["rule, regular"][:-2].any()
+
+
+def test_one_threshold_finds_the_same_edges_along_the_symmetry_line():
+    ball, places = Ball(0.2, 0.04), np.linspace(-0.97, 0.97, 50)
+    words = pseudorigid.classify_orbits(ball, ball.start(places, 0.01))["type"].values
+    by_growth = regular(winding(ball, 0.01, places, 20_000)[1], 20_000)
+    assert np.array_equal(by_growth, words == "regular")
+    assert 3 < by_growth.sum() < 47

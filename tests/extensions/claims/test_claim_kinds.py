@@ -11,7 +11,7 @@ from sections import BALL
 from small_curve import SMALL
 
 from extensions.claims.analyses.exclusion import exclusion
-from extensions.families.families import families
+from extensions.families.dataset import families
 from extensions.families.shares import shares
 from extensions.proofs.escape import escape
 from extensions.proofs.theorems import scenes

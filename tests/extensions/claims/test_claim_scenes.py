@@ -9,11 +9,11 @@ from pipeline import config
 
 CLUSTERS = ("clusters", {"orbits": 100, "impacts": 1_000_000, "resamples": 100_000})
 FLUX = ("flux", {"orbits": 1000, "impacts": 10_000})
-CONTROL = ("control", {"orbits": 100_000, "resamples": 100, "impacts": 3_333_333})
+CONTROL = ("control", {"orbits": 100_000, "impacts": 3_333_333})
 JUMPS, SPREAD = ("jumps", {}), ("spread", {})
 LAST_CURVE = (
     "last_curve",
-    {"nobles": [[0, 5, 1, 15], [0, 5, 1, 17]], "impacts": 10_000_000, "drawn": 5_000_000},
+    {"nobles": [[0, 5, 1, 15], [0, 5, 1, 17]], "drawn": 5_000_000},
 )
 LONG_CUT = ("clusters", {"ball": PAPER, "energy": 0.01, "cuts": [4, 8]})
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from sections import BALL
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.claims.analyses.exclusion import exclusion
 from pseudorigid import orbit
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 
 ENERGY = 0.01
 

@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 from sections import BALL
 
+from extensions.atlas.symmetry_line import regular
 from extensions.claims.analyses import rotation
 from extensions.claims.ledger.chaos import discontinuous
 from pseudorigid import symmetric_orbits
-from pseudorigid.dynamics.rotation import regular
 
 ENERGY = 0.01
 

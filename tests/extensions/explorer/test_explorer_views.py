@@ -9,9 +9,9 @@ from person import DISK
 from project import wait_for
 from selenium.webdriver import Keys
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.dynamics.variables import of_type
 
 pytestmark = pytest.mark.slow  # they see no figure

@@ -11,9 +11,9 @@ from colours import lab
 from person import DISK
 from project import wait_for
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
 from pseudorigid import Ball, symmetric_orbits
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.dynamics.variables import of_type
 
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01

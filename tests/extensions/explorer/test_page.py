@@ -12,12 +12,12 @@ from project import shipped, wait_for
 from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
-from extensions.atlas.figures import raster
+from extensions.atlas.symmetry_line import winding
 from extensions.claims.analyses.jumps import jumps
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import orbit_types
-from pseudorigid.dynamics.rotation import winding
 from pseudorigid.dynamics.variables import of_type
+from pseudorigid.figures.axes import raster
 
 pytestmark = pytest.mark.slow  # it sees no figure, and takes minutes
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01

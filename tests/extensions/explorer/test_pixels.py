@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics.regularity import orbit_types
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.kernel.tangents import turns_and_growth
 
 WORKER = ";\n" + "\n".join(map(page.script, page.WORKER[:-1]))  # a directive would be refused

@@ -8,10 +8,10 @@ import pytest
 from slowly import slowly
 
 from extensions.atlas.last_curve import OrbitSearch
+from extensions.atlas.symmetry_line import regular, symmetric_fixed_point, winding
 from extensions.claims.analyses.jumps import jumps
 from extensions.families.breakup import breakup, neighbour, noble_residue
 from pseudorigid import Ball, orbit
-from pseudorigid.dynamics.rotation import regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import states_of
 
 BALL = Ball(0.2, 0.04)

@@ -5,7 +5,7 @@ import xarray as xr
 from legible import assert_legible, frames_of
 from readable import assert_as_known
 
-from extensions.atlas.figures import raster
+from extensions.atlas.grid import edges
 from extensions.families.figures import chains
 from pseudorigid.figures.canvas import style
 
@@ -49,8 +49,8 @@ def test_each_curve_is_drawn_where_its_data_are():
         for artist in figure.artists
         if len(artist.get_xdata()) == 2 and artist.get_zorder() == 2.0
     ]
-    left, right = raster.edges(np.log10(SWEEP["energy"]))[[0, -1]]
-    low, high = raster.edges(np.array(SWEEP["k"]))[0], 1 / 3  # a shell: the last edge is beyond
+    left, right = edges(np.log10(SWEEP["energy"]))[[0, -1]]
+    low, high = edges(np.array(SWEEP["k"]))[0], 1 / 3  # a shell: the last edge is beyond
     looks = {}
     for (order, kind), (k, energy) in lines.items():
         frame = frames_of(figure)[max(order - 3, 0)]  # a panel for each order, from 3

@@ -15,7 +15,7 @@ from extensions.families.continuation.curve import (
     locate,
     solve_at,
 )
-from extensions.families.continuation.families import Family, _find_events
+from extensions.families.continuation.family import Family, _find_events
 
 
 class Plane:

@@ -9,7 +9,7 @@ from family_search import PAPER, crossings, energy_of, rho, up_to_period_six
 from extensions.families.continuation import search
 from extensions.families.continuation.half_orbit import ENERGY, INERTIA
 from extensions.families.continuation.symmetric import Parameter
-from extensions.families.families import families
+from extensions.families.dataset import families
 from pseudorigid import symmetric_orbits
 
 

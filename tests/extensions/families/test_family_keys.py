@@ -5,7 +5,7 @@ import pytest
 from keys import SCENE, texts
 from sections import BALL
 
-from extensions.families.families import families
+from extensions.families.dataset import families
 from extensions.families.figures.families import draw
 from extensions.families.shares import shares
 from pseudorigid.figures.canvas import style

@@ -8,7 +8,7 @@ from extensions.atlas.cell import cell
 from extensions.families import causes as causes_module
 from extensions.families import shares as shares_module
 from extensions.families.causes import causes, extrema
-from extensions.families.families import families
+from extensions.families.dataset import families
 from extensions.families.shares import shares
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import chart, states_of

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 from sections import BALL
 
-from extensions.proofs.derivations import forms, model, motion, symbols
+from extensions.proofs.derivations import forms, impacts, model, symbols
 from extensions.proofs.derivations.symbols import b, c, energy, flight, g, k, rebound, tau, v, w, x
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
@@ -21,7 +21,7 @@ MISPRINTED = {
     "impulsive_forces",  # (9): a delta
     "scaled_impulse",  # (24): m omega R
     "impact_map",  # (28): a sign
-    "bound",  # (31): needs g < k
+    "energy_bound",  # (31): needs g < k
     "contact_speed",  # (8), (22): not negative; a grazing impact has none
     "exponents",  # (32): 1/i
 }
@@ -42,7 +42,7 @@ def test_numbers_that_come_with_formulas(derived):
     assert value["euler_tensor"] == 0.2  # a solid sphere
     assert value["shell"] == pytest.approx(1 / 3, rel=1e-15) and value["modes"] == 2.0
     assert value["softness"] == 5.0  # Young's modulus is 5 rho g R
-    assert value["bound"] == pytest.approx(BALL.energy_bounds()[1], abs=1e-16)
+    assert value["energy_bound"] == pytest.approx(BALL.energy_bounds()[1], abs=1e-16)
     assert value["smooth"] == pytest.approx(0.00176, rel=1e-14)
 
 
@@ -53,8 +53,8 @@ def test_numbers_that_come_with_formulas(derived):
                                     x * sp.cos(tau) - c * sp.sin(tau)])  # fmt: skip
 def test_a_wrong_flight_is_noticed(monkeypatch, strain):
     wrong = sp.Lambda((x, b, c, tau), (x + b * tau + g * tau**2 / 2, strain))
-    monkeypatch.setattr(motion, "flight", wrong)
-    assert not motion.flights().printed and not motion.impact_map().corrected
+    monkeypatch.setattr(impacts, "flight", wrong)
+    assert not impacts.flights().printed and not impacts.impact_map().corrected
 
 
 def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
@@ -65,8 +65,8 @@ def test_a_wrong_impact_law_action_or_energy_is_noticed(monkeypatch):
     assert not model.momentum_balances().printed
     monkeypatch.setattr(forms, "action", lambda x, b, c, t: symbols.action(x, b, c, t) + x * t)
     assert not forms.area().printed
-    monkeypatch.setattr(motion, "energy", lambda x, v, w: symbols.energy(x, v, w) + v * w)
-    assert not motion.conserved_energy().printed and not motion.bound_in_flight().printed
+    monkeypatch.setattr(impacts, "energy", lambda x, v, w: symbols.energy(x, v, w) + v * w)
+    assert not impacts.conserved_energy().printed and not impacts.bound_in_flight().printed
 
 
 # ---- formulas of the code
@@ -126,4 +126,4 @@ def test_trace_of_the_fixed_point():
         half = values[tau] / 2
         values |= {v: half, w: half / values[k], x: half / sp.tan(half) / values[k]}
         trace = float(matrix.subs(values).evalf(30).trace()) - 1.0
-        assert fixed_point.trace(inertia, theta) == pytest.approx(trace, rel=1e-12)
+        assert fixed_point.trace_at(inertia, theta) == pytest.approx(trace, rel=1e-12)

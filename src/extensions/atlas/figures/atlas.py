@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from pseudorigid.figures.axes import raster
 from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import (
     Axis,
@@ -24,7 +25,6 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import POINT, Sheet, pieces
 
 from ..grid import edges, inertias
-from . import raster
 
 PAPER_K = 0.2
 PAPER_ENERGIES = {"Figure 8": 0.625, "Figure 2": 6.25}  # E/g^2
@@ -100,7 +100,7 @@ def cells(
     panel = Window(sheet, frame, energy_axis(sweep), up, grid=False)
     panel.minor()
     shades = values / most
-    raster.cells(panel, sweep, np.sqrt(np.maximum(shades, 0.0)) if root else shades, table)
+    colour(panel, sweep, np.sqrt(np.maximum(shades, 0.0)) if root else shades, table)
     raster.scale(sheet, frame, most, table, root)
     corner(sheet, frame, text, rise=13)
     return panel
@@ -231,6 +231,12 @@ def _stroke(sheet: Sheet, points: Sequence[Any], dashed: bool = False) -> None:
     dashes = {"ls": (0, _DASHES)} if dashed else {}
     sheet.draw(*points, color=style.BLACK, lw=1.5, zorder=2.0)
     sheet.draw(*points, color="white", lw=0.7, zorder=2.1, **dashes)
+
+
+def colour(panel: Panel, sweep: Sweep, shades: np.ndarray, table: str) -> None:
+    """Draw a rectangle for each cell of a sweep, coloured by shades (k, energy) from 0 to 1."""
+    energy = log10(sweep["energy"]) if panel.across.decades else sweep["energy"]
+    raster.cells(panel, edges(energy), edges(sweep["k"]), shades, table)
 
 
 def energy_axis(sweep: Sweep) -> Axis:

@@ -37,7 +37,6 @@ _INTERVAL = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval t
 _OF_CUTS = {
     "count": ("cut", "clusters"),
     "cluster_impacts": ("cut", "mean number of impacts in a cluster"),
-    "cluster_time": ("cut", "mean time from a cluster's first impact to its last", TIME),
     "period": ("cut", "mean time from a cluster's first impact to the next one's", TIME),
     "period_error": ("cut", "standard error of that mean, between orbits", TIME),
     **{
@@ -95,7 +94,7 @@ def clusters(
                 "impacts"
             )
     last = int(np.flatnonzero(flights)[-1]) + 1
-    time, depth, strain_energy, least, most, compression, strained = np.concatenate(strains, 1)
+    time, depth, strain_energy, least, compression, strained = np.concatenate(strains, 1)
     kinetic_energy = (energy + ball.g * depth) - strain_energy
     data = {
         "bin_edge": ("edge", edges[: last + 1], "flight time", TIME),
@@ -104,7 +103,6 @@ def clusters(
         "strain_energy": ("orbit", strain_energy, "mean in time of the strain energy", ENERGY),
         "kinetic_energy": ("orbit", kinetic_energy, _KINETIC, ENERGY),
         "least_strain": ("orbit", least, "largest compression, as a negative strain"),
-        "largest_strain": ("orbit", most, "largest stretch"),
         "compression": ("orbit", compression, "mean over flights of the largest compression"),
         "strained": ("orbit", strained, f"share of flights in which |u| exceeds {STRAIN}"),
         "energy_error": ("orbit", np.concatenate(errors), _DRIFT, ENERGY),
@@ -118,17 +116,17 @@ def clusters(
 
 @jit
 def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
-    """Return rows of numbers of each orbit: (7, orbits).
+    """Return rows of numbers of each orbit: (6, orbits).
 
-    They are the time, the means in time of x and of the strain energy, the least and the largest
-    strain, the mean over flights of the compression, and the share of flights beyond STRAIN.
+    They are the time, the means in time of x and of the strain energy, the least strain, the mean
+    over flights of the compression, and the share of flights beyond STRAIN.
     """
     coefficients = kernel.impact_coefficients(k)
     flights = out.shape[1] - 1
-    result = np.empty((7, out.shape[0]))
+    result = np.empty((6, out.shape[0]))
     for i in range(out.shape[0]):
-        time, depth, square, least, most = 0.0, 0.0, 0.0, 0.0, 0.0
-        compression, strained = 0.0, 0.0
+        time, depth, square = 0.0, 0.0, 0.0
+        least, compression, strained = 0.0, 0.0, 0.0
         for j in range(flights):
             x, tau = out[i, j, 0], out[i, j + 1, 3]
             b, c, _ = kernel.rebound(out[i, j, 1], out[i, j, 2], k, coefficients)
@@ -141,24 +139,24 @@ def _strains(out: np.ndarray, k: float, g: float) -> np.ndarray:
             time += tau
             depth += tau * (x + tau * (0.5 * b + tau * g / 6.0))
             low, high = flight_strains(x, c, tau)
-            least, most = min(least, low), max(most, high)
+            least = min(least, low)
             compression -= low
             strained += 1.0 if max(-low, high) > STRAIN else 0.0
         result[0, i], result[1, i], result[2, i] = time, depth / time, 0.5 * k * square / time
-        result[3, i], result[4, i] = least, most
-        result[5, i], result[6, i] = compression / flights, strained / flights
+        result[3, i] = least
+        result[4, i], result[5, i] = compression / flights, strained / flights
     return result
 
 
 def _clusters(out: np.ndarray, k: float, cut: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the first states (2, n) of an orbit's clusters, and sums over the orbit.
 
-    The sums are those of clusters, impacts, times within clusters, and times.
+    The sums are those of clusters, impacts and times.
     """
     tau = out[1:, 3]
     between = tau > cut
     first = np.array(chart(k, *out[1:][between, :3].T))
-    return first, np.array([between.sum(), tau.size, tau[~between].sum(), tau.sum()])
+    return first, np.array([between.sum(), tau.size, tau.sum()])
 
 
 def _row(
@@ -167,9 +165,9 @@ def _row(
     """Return the values of _OF_CUTS for one cut, from `_clusters` of each orbit."""
     first, sums = zip(*begun, strict=True)
     count, *others = np.transpose(sums)
-    size, length, period = (ratio(values, count) for values in others)
+    size, period = (ratio(values, count) for values in others)
     correlation, dependence = _memory(first, lags, resampled)
-    return count.sum(), size[0], length[0], *period, *correlation, *dependence
+    return count.sum(), size[0], *period, *correlation, *dependence
 
 
 def _memory(

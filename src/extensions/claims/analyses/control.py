@@ -16,7 +16,6 @@ shares are kept for four numbers of them.
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -24,16 +23,11 @@ import xarray as xr
 
 from extensions.atlas.cell import NORMAL_95
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.periodic import symmetric_orbits
 from pseudorigid.dynamics.variables import (
     RADIUS,
-    NoOrbitError,
-    chart,
     described,
-    of_type,
-    states_of,
 )
-from pseudorigid.kernel.arithmetic import log, sincos
+from pseudorigid.kernel.arithmetic import sincos
 from pseudorigid.kernel.compiled import jit
 from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
@@ -52,9 +46,6 @@ from .sea import half_axes, section_points
 _LENGTHS = 4  # numbers of impacts at which orbits are classified, each twice the one before
 # Orbits that start on a small circle around a periodic point measure its spiral: their number,
 # their distance from it in section radii, and their impacts.
-_CIRCLE_ORBITS, _CIRCLE_RADIUS, _CIRCLE_IMPACTS = 32, 1e-4, 120
-_CONTINUATION_STEPS = 8  # from one strength to the next
-_NEWTON_STEPS, _CLOSED, _LARGEST_STEP = 30, 1e-13, 0.05  # of Newton's method, in section radii
 _PROBES, _MIRRORS = 200, 36  # points and mirror lines for which reversors are tried
 _MIRRORED = 0.02  # section radii from its start's mirror image, which a symmetric orbit enters
 _ORBITS_PER_MEMBER = 50  # a class with fewer than one in so many orbits has no mean
@@ -64,12 +55,6 @@ CLASSES = ("regular", "spiral", "chaotic")
 Growths = tuple[np.ndarray, np.ndarray, np.ndarray]
 _CELLS = "map", "strength"
 _BY_CLASS = (*_CELLS, "length", "class")
-_INTERVAL = {"": "", "_low": ", 95 % interval from", "_high": ", 95 % interval to"}
-_MEANS = {
-    "exponent": "mean exponent of the chaotic orbits",
-    "contraction": "mean logarithm of the determinant an impact, on chaotic orbits",
-    "attraction": "mean logarithm of the determinant an impact, on spirals",
-}
 _OF_MAPS = {
     "class_share": (_BY_CLASS, "share of starts of a class"),
     "class_low": (_BY_CLASS, "share of starts of a class, 95 % interval from"),
@@ -80,44 +65,28 @@ _OF_MAPS = {
         "standard deviation over chaotic orbits of an area's growth, a logarithm",
     ),
     "defect": (_CELLS, "median of |S F S F z - z|, least over the reversors S tried", RADIUS),
-    **{
-        name + end: (_CELLS, meaning + text)
-        for name, meaning in _MEANS.items()
-        for end, text in _INTERVAL.items()
-    },
-}
-_OF_ISLANDS = {
-    "island_a": ("a of a point of the orbit", RADIUS),
-    "island_b": ("b of that point", RADIUS),
-    "island_determinant": ("determinant of the Jacobian over one period",),
-    "island_trace": ("trace of the Jacobian over one period",),
-    "rate": ("growth rate an impact of the distance from it",),
-    "rate_low": ("growth rate of the distance, 95 % interval from",),
-    "rate_high": ("growth rate of the distance, 95 % interval to",),
 }
 
 
 def control(
-    ball: Ball, energy: float, strengths: Sequence[float], orbits: int, impacts: int, period: int,
-    starts: Sequence[float], shown: float, drawn: int, resamples: int, seed: int, *,
+    ball: Ball, energy: float, strengths: Sequence[float], orbits: int, impacts: int,
+    starts: Sequence[float], shown: float, drawn: int, *,
     progress: Callable[[float, str], None] | None = None,
 ) -> xr.Dataset:  # fmt: skip
     """Compute shares of regular, spiral and chaotic orbits for maps with and without properties.
 
     The maps are those of `perturbed_map.MAPS`, at strength 0, which is the impact map, and at each
-    of `strengths`. Shares have Wilson's 95 % intervals, means over orbits those of a bootstrap. The
-    fixed point and the elliptic orbit of `period` are continued in the strength. `progress` is
-    called with the share of maps done and a text.
+    of `strengths`. Shares have Wilson's 95 % intervals. `progress` is called with the share of maps
+    done and a text.
 
     >>> from pseudorigid import Ball
     >>> ball = Ball(k=0.2, g=0.04)
-    >>> data = control(ball, 0.01, [0.02], 20, 200, 6, [0.1], 0.02, 10, 20, 1)
+    >>> data = control(ball, 0.01, [0.02], 20, 200, [0.1], 0.02, 10)
     >>> data["class_share"].values[0, 0, -1].sum().item()
     1.0
     """
     levels = [0.0, *map(float, strengths)]
     points = _in_disk(ball, energy, *section_points(ball, energy, orbits))
-    resampled = np.random.default_rng(seed).integers(0, orbits, (resamples, orbits))
     lengths = [impacts >> i for i in reversed(range(_LENGTHS))]
     statistics: dict[tuple[str, float], dict[str, Any]] = {}
     for name, (*_, reversible) in MAPS.items():
@@ -129,7 +98,7 @@ def control(
                 done = len(statistics) / (len(MAPS) * len(levels))
                 progress(done, f"{name}, strength {level}")
             perturbed = perturbed_map(ball, energy, name, level)
-            of_map = _statistics(_growths(perturbed, points, lengths), lengths[-1], resampled)
+            of_map = _statistics(_growths(perturbed, points, lengths))
             if level > 0.0 and not reversible:  # orbits have no mirror images
                 of_map["symmetric"] = math.nan
             statistics[name, level] = of_map | {"defect": _reversor_defect(perturbed)}
@@ -142,8 +111,6 @@ def control(
     for variable, (dims, *text) in _OF_MAPS.items():
         values = [[statistics[name, level][variable] for level in levels] for name in MAPS]
         data[variable] = dims, values, *text
-    circles = np.random.default_rng(seed).integers(0, _CIRCLE_ORBITS, (resamples, _CIRCLE_ORBITS))
-    data |= _islands(ball, energy, levels, period, circles)
     data |= _portraits(ball, energy, np.asarray(starts, dtype=float), shown, impacts, drawn)
     return xr.Dataset(described(data), attrs={"shown": float(shown)})
 
@@ -173,34 +140,28 @@ def classes(grown: np.ndarray, area: np.ndarray) -> np.ndarray:
     return np.where(grown < GROWTH_THRESHOLD, spiral, 2)
 
 
-def _statistics(growths: Growths, impacts: int, resampled: np.ndarray) -> dict[str, Any]:
+def _statistics(growths: Growths) -> dict[str, Any]:
     """Return the values of _OF_MAPS, all but the defect, for orbits of one map.
 
     If a map keeps any smooth area, the growth of an area along an orbit is bounded, and so is its
-    standard deviation, the wander. Means are over orbits of `impacts`, the longest.
+    standard deviation, the wander.
     """
     tangent, area, symmetric = growths
     kinds = classes(tangent, area)
     counts = np.stack([np.sum(kinds == i, axis=1) for i in range(len(CLASSES))], axis=1)
     total = kinds.shape[1]
     intervals = np.array([[_wilson(int(n), total) for n in row] for row in counts])
-    regular, spiral, chaotic = (kinds[-1] == i for i in range(len(CLASSES)))
+    regular, _, chaotic = (kinds[-1] == i for i in range(len(CLASSES)))
     wander = np.full(len(kinds), math.nan)
     if np.sum(chaotic) >= max(total // _ORBITS_PER_MEMBER, 1):
         wander = np.std(area[:, chaotic], axis=1)
-    statistics = {
+    return {
         "class_share": counts / total,
         "class_low": intervals[..., 0],
         "class_high": intervals[..., 1],
         "symmetric": np.mean(symmetric & regular),
         "wander": wander,
     }
-    growth, contraction = (sums[-1] / (impacts - impacts // 2) for sums in (tangent, area))
-    rates = (growth, chaotic), (contraction, chaotic), (contraction, spiral)
-    for name, (rate, chosen) in zip(_MEANS, rates, strict=True):
-        estimate = _mean_with_interval(rate, chosen, resampled)
-        statistics |= {name + end: each for end, each in zip(_INTERVAL, estimate, strict=True)}
-    return statistics
 
 
 def _wilson(count: int, total: int) -> tuple[float, float]:
@@ -212,21 +173,6 @@ def _wilson(count: int, total: int) -> tuple[float, float]:
     middle, scale = count + 0.5 * square, total + square
     reach = NORMAL_95 * math.sqrt(count * (total - count) / total + 0.25 * square)
     return max(0.0, (middle - reach) / scale), min(1.0, (middle + reach) / scale)
-
-
-def _mean_with_interval(
-    values: np.ndarray, chosen: np.ndarray, resampled: np.ndarray
-) -> tuple[float, float, float]:
-    """Return the mean of the chosen values, and its bootstrap interval; NaN if they are few."""
-    chosen = chosen & np.isfinite(values)
-    if np.sum(chosen) < max(2, chosen.size // _ORBITS_PER_MEMBER):
-        return math.nan, math.nan, math.nan
-    picked = np.where(chosen, values, 0.0)
-    counts = np.maximum(np.sum(chosen[resampled], axis=1), 1)
-    drawn = np.sort(np.sum(picked[resampled], axis=1) / counts)
-    cut = len(drawn) // 40
-    mean = np.sum(picked) / np.sum(chosen)
-    return mean, drawn[cut], drawn[len(drawn) - 1 - cut]
 
 
 @jit
@@ -265,99 +211,6 @@ def _reversor_defect(perturbed: PerturbedMap) -> float:
 def _product(matrix: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Return a matrix (2, 2) times points (2, n), without BLAS."""
     return matrix[:, 0, None] * points[0] + matrix[:, 1, None] * points[1]
-
-
-def _islands(
-    ball: Ball, energy: float, levels: Sequence[float], period: int, circles: np.ndarray
-) -> dict[str, tuple[Any, ...]]:
-    """Return _OF_ISLANDS for the fixed point and the elliptic orbit of a period, as variables.
-
-    `circles` are the bootstrap samples of the orbits around a periodic point.
-    """
-    periods = (1, period)
-    values = np.full((len(MAPS), len(levels), 2, len(_OF_ISLANDS)), math.nan)
-    for column, steps in enumerate(periods):
-        try:
-            orbit = of_type(symmetric_orbits(ball, energy, steps), "elliptic")
-        except NoOrbitError:
-            continue
-        x, y = chart(ball.k, *states_of(orbit))
-        start = _in_disk(ball, energy, x[:1], y[:1])
-        for row, name in enumerate(MAPS):
-            map_at = partial(perturbed_map, ball, energy, name)
-            values[row, :, column] = _continued(map_at, levels, start, steps, circles)
-    dims = ("map", "strength", "island")
-    data = {
-        name: (dims, values[..., i], *text) for i, (name, text) in enumerate(_OF_ISLANDS.items())
-    }
-    return {"island": ("island", np.array(periods), "period of the continued orbit")} | data
-
-
-def _continued(
-    map_at: Callable[[float], PerturbedMap], levels: Sequence[float], point: np.ndarray,
-    steps: int, circles: np.ndarray,
-) -> np.ndarray:  # fmt: skip
-    """Return _OF_ISLANDS at each strength for the orbit at a point (2, 1); NaN once it is lost."""
-    values = np.full((len(levels), len(_OF_ISLANDS)), math.nan)
-    before = 0.0
-    for row, level in zip(values, levels, strict=True):
-        for i in range(1, _CONTINUATION_STEPS + 1):
-            perturbed = map_at(before + (level - before) * i / _CONTINUATION_STEPS)
-            point = _periodic_point(perturbed, point, steps)
-        before = level
-        if np.isnan(point).any():
-            break
-        jacobian = perturbed.jacobian(point, steps)[1]
-        determinant, trace = _determinant(jacobian), jacobian[0, 0] + jacobian[1, 1]
-        rate = math.nan, math.nan, math.nan
-        if trace * trace < 4.0 * determinant:  # elliptic, or a spiral
-            rates = _growth_rates(perturbed, point, jacobian, steps)
-            rate = _mean_with_interval(rates, np.ones(rates.size, bool), circles)
-        row[:] = *point[:, 0], determinant, trace, *rate
-    return values
-
-
-def _determinant(matrix: np.ndarray) -> float:
-    """Return the determinant of a matrix (2, 2)."""
-    return float(matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0])
-
-
-def _periodic_point(perturbed: PerturbedMap, point: np.ndarray, steps: int) -> np.ndarray:
-    """Return the periodic point next to a point (2, 1) by Newton's method; NaN if there is none."""
-    start = point
-    for _ in range(_NEWTON_STEPS):
-        image, jacobian = perturbed.jacobian(point, steps)
-        off = image - point
-        if not np.max(np.abs(off)) > _CLOSED:
-            return point
-        slope = jacobian - np.array([[1.0, 0.0], [0.0, 1.0]])
-        adjugate = np.array([[slope[1, 1], -slope[0, 1]], [-slope[1, 0], slope[0, 0]]])
-        point = point - _product(adjugate / _determinant(slope), off)
-        if not np.max(np.abs(point - start)) < _LARGEST_STEP:
-            break
-    return np.full((2, 1), math.nan)
-
-
-def _growth_rates(
-    perturbed: PerturbedMap, point: np.ndarray, jacobian: np.ndarray, steps: int
-) -> np.ndarray:
-    """Return growth rates of the distance from a periodic point of orbits on a circle around it.
-
-    The distance is the root of the quadratic form that a multiple of the Jacobian keeps.
-    """
-    count = _CIRCLE_ORBITS
-    sines = np.array([sincos(2.0 * math.pi * i / count) for i in range(count)]).T
-    out = np.empty((2, count, _CIRCLE_IMPACTS))
-    rows = orbit_rows(point + _CIRCLE_RADIUS * sines[::-1])
-    propagate(rows, *perturbed, _CIRCLE_IMPACTS, np.array([[0, 1]]), np.zeros((2, 1, count)), out)
-    a, b = out[:, :, steps - 1 :: steps] - point[:, :, None]
-    form = jacobian[1, 0] * a * a + (jacobian[1, 1] - jacobian[0, 0]) * a * b
-    squares = np.abs(form - jacobian[0, 1] * b * b)
-    size = 0.5 * np.reshape([log(square) for square in squares.flat], squares.shape)
-    quarter = size.shape[1] // 4
-    late, early = size[:, -quarter:], size[:, quarter : 2 * quarter]
-    between = steps * (size.shape[1] - 2 * quarter)  # impacts from the early to the late quarter
-    return np.asarray((late - early).sum(axis=1) / (quarter * between))
 
 
 def _portraits(

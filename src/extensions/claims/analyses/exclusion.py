@@ -12,8 +12,8 @@ circle passes through a point where they do not.
 import numpy as np
 import xarray as xr
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.dynamics.variables import LENGTH, SPEED, described
 from pseudorigid.kernel import impact as kernel
 from pseudorigid.kernel.compiled import jit
@@ -82,9 +82,9 @@ def _excluded_after(
         _begin(orbits[1], xi, vi, wi, k, g)
         for n in range(1, followed + 1):
             right, up = _carried_radius(orbits[0], centre, k, g, coefficients)
-            fits = _widened(cone, right, up)
+            fits = _widen_to_hold(cone, right, up)
             right, up = _carried_radius(orbits[1], centre, k, g, coefficients)
-            if not (fits and _widened(cone, right, -up)):
+            if not (fits and _widen_to_hold(cone, right, -up)):
                 result[i] = n
                 break
     return result
@@ -130,7 +130,7 @@ def _carried_radius(
 
 
 @jit
-def _widened(cone: np.ndarray, right: float, up: float) -> bool:
+def _widen_to_hold(cone: np.ndarray, right: float, up: float) -> bool:
     """Widen a cone, by its right and its left edge, to hold a vector; return if it still can.
 
     It cannot if the vector and the cone fit into no half plane. A vector that is NaN, after an

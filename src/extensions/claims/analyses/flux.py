@@ -40,10 +40,7 @@ _VARIABLES: dict[str, tuple[Any, ...]] = {
     "area": ("side", "area of a lobe, by differences of action", AREA),
     "area_error": ("side", "its error", AREA),
     "digits": ("side", "area of a lobe in omega R^2, in decimals"),
-    "lobe_polygon": ("side", "area of that lobe between the traced lines", AREA),
     "region": ("side", "area closed in", AREA),
-    "carried_out": ("side", "area that an impact carries out, counted", AREA),
-    "carried_in": ("side", "area that an impact carries in, counted", AREA),
     "sea_inside": ("side", "share of the sea's impacts that are inside"),
     "sea_out": ("side", "share of the sea's impacts that leave"),
     "sea_out_error": ("side", "standard error of that share, between orbits"),
@@ -59,7 +56,7 @@ _VARIABLES: dict[str, tuple[Any, ...]] = {
 
 
 def flux(
-    ball: Ball, energy: float, period: int, distance: float, grid: int,
+    ball: Ball, energy: float, period: int, distance: float,
     orbits: int, impacts: int, sides: Sequence[Side] = SIDES,
 ) -> xr.Dataset:  # fmt: skip
     """Compute crossings and lobes of both branches of the hyperbolic orbit, and their flux.
@@ -73,7 +70,7 @@ def flux(
     `orbits`.
 
     >>> from pseudorigid import Ball
-    >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 20, 2, 100)
+    >>> flux(Ball(k=0.2, g=0.04), 0.01, 5, 1e-2, 2, 100)
     Traceback (most recent call last):
     ...
     ValueError: period = 5 is not allowed: an even number
@@ -89,7 +86,7 @@ def flux(
     rows, missing = [], {}
     for side in sides:
         try:
-            rows.append(_row(branches, side, grid, path))
+            rows.append(_row(branches, side, path))
         except ValueError as error:
             missing[side] = str(error)
     if not rows:
@@ -114,9 +111,9 @@ class _Branches(NamedTuple):
     distance: float
 
 
-def _row(branches: _Branches, side: Side, grid: int, path: np.ndarray) -> tuple[Any, ...]:
+def _row(branches: _Branches, side: Side, path: np.ndarray) -> tuple[Any, ...]:
     """Return the values of _VARIABLES for one side."""
-    ball, energy, saddles, _ = branches
+    ball, _, saddles, _ = branches
     saddle, sign = _primary_branch(branches, side)
     (rough, _), (area, primary) = (
         _lobe(branches, saddle, sign, periods_earlier, bits)
@@ -126,21 +123,20 @@ def _row(branches: _Branches, side: Side, grid: int, path: np.ndarray) -> tuple[
     digits = max(1, min(25, math.floor(float(-(error / area).log() / _DECIMAL))))
     traced = _traced_lobe(branches, saddle, side, primary)
     region = _region(branches, traced)
-    counted, sea = (math.nan,) * 3, (math.nan,) * 3
+    closed_in, sea = math.nan, (math.nan,) * 3
     if not np.isnan(region[0, 0]):
         polygon = Polygon(region)
-        counted = polygon.area(), *_carried(ball, energy, polygon, grid)
-        inside = polygon.contains(*path)
+        closed_in, inside = polygon.area(), polygon.contains(*path)
         left = np.sum(inside[:, :-1] & ~inside[:, 1:], axis=1).astype(float)
         if left.size:
             steps = np.full(left.size, float(inside.shape[1] - 1))
             sea = inside.mean(), *ratio(left, steps)
     x, y = chart(ball.k, *states_of(saddles))
     target = int(np.argmin((x - x[saddle]) ** 2 + (y + y[saddle]) ** 2))
-    areas = float(area), float(error), area.str(digits, radius=False), traced.area()
+    areas = float(area), float(error), area.str(digits, radius=False), closed_in
     crossings = [(float(each.points[-1][0]), float(each.sine())) for each in primary]
     lines = *_thinned(region, _CORNERS), *_thinned(traced.branch(), _VERTICES)
-    return side, *areas, *counted, *sea, saddle, target, *np.transpose(crossings), *lines
+    return side, *areas, *sea, saddle, target, *np.transpose(crossings), *lines
 
 
 def _lobe(
@@ -195,12 +191,6 @@ class _TracedLobe(NamedTuple):
     states: np.ndarray
     ends: list[np.ndarray]
     at: list[int]
-
-    def area(self) -> float:
-        """Return the lobe's area between the traced lines."""
-        first, *others = zip(self.at, self.ends, strict=True)
-        # the stable arc is the mirror image of the unstable one from the first end to the last
-        return abs(sum(_integral(self.line, *first, *other) for other in others))
 
     def branch(self) -> np.ndarray:
         """Return the part of the branch between the outermost ends, (2, n)."""
@@ -265,14 +255,6 @@ def _region(branches: _Branches, lobe: _TracedLobe) -> np.ndarray:
     return np.full((2, _CORNERS), math.nan)
 
 
-def _integral(line: np.ndarray, start: int, first: np.ndarray, end: int, last: np.ndarray) -> float:
-    """Return the integral of y dx along a line (2, n) between points next to two vertices."""
-    if end < start:
-        return -_integral(line, end, last, start, first)
-    x, y = np.column_stack([first, line[:, start + 1 : end], last])
-    return float(np.sum(0.5 * (y[1:] + y[:-1]) * (x[1:] - x[:-1])))
-
-
 def _closed(arcs: list[np.ndarray]) -> np.ndarray:
     """Join arcs (2, n) from saddle to saddle to a closed line, each to the nearest end."""
     first, *rest = arcs
@@ -281,16 +263,3 @@ def _closed(arcs: list[np.ndarray]) -> np.ndarray:
         gaps = [np.max(np.abs(arc[:, 0] - loop[-1][:, -1])) for arc in rest]
         loop.append(rest.pop(int(np.argmin(gaps))))
     return np.concatenate(loop, axis=1)
-
-
-def _carried(ball: Ball, energy: float, polygon: Polygon, grid: int) -> tuple[float, float]:
-    """Return the areas that one impact carries out of a region and into it, counted on a grid."""
-    width, height = half_axes(ball, energy)
-    middle = (2.0 * np.arange(grid) + 1.0) / grid - 1.0
-    x, y = (a.ravel() for a in np.meshgrid(middle, middle))
-    inside = x * x + y * y < 1.0
-    x, y = ball.section(energy)[0] + width * x[inside], height * y[inside]
-    before = polygon.contains(x, y)
-    after = polygon.contains(*chart(ball.k, *ball.impact(*ball.state_xy(x, y, energy))[:3]))
-    cell = 4.0 * width * height / (grid * grid)
-    return cell * int(np.sum(before & ~after)), cell * int(np.sum(after & ~before))

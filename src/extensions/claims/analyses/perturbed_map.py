@@ -95,20 +95,10 @@ class PerturbedMap(NamedTuple):
 
     def images(self, points: np.ndarray, impacts: int = 1) -> np.ndarray:
         """Return the images of points (2, n) after some impacts."""
-        return self._after(orbit_rows(points), impacts)[:2]
-
-    def jacobian(self, point: np.ndarray, impacts: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the image (2, 1) of a point after some impacts, and the Jacobian (2, 2)."""
-        rows = orbit_rows(np.repeat(point, 2, axis=1))
-        rows[DA], rows[DB] = (1.0, 0.0), (0.0, 1.0)
-        self._after(rows, impacts)
-        return rows[:2, :1], rows[[DA, DB]]
-
-    def _after(self, rows: np.ndarray, impacts: int) -> np.ndarray:
-        """Propagate orbits in place without normalizing tangent vectors, and return them."""
-        no_windows = np.empty((0, 2), dtype=np.int64), np.empty((2, 0, rows.shape[1]))
+        rows = orbit_rows(points)
+        no_windows = np.empty((0, 2), dtype=np.int64), np.empty((2, 0, points.shape[1]))
         propagate(rows, *self, impacts, *no_windows, NO_POINTS)
-        return rows
+        return rows[:2]
 
 
 def orbit_rows(points: np.ndarray) -> np.ndarray:

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from extensions.atlas.symmetry_line import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.rotation import LOCKED, regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import ENERGY, RADIUS, Variables, described, variables
 
 _MAX_ISLANDS, _MIN_STARTS = 100, 3  # of a chain that `plateaus` reports

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics import paper
+from paper import values
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.lyapunov import lyapunov_spectrum
 from pseudorigid.dynamics.regularity import judged
-from pseudorigid.dynamics.variables import LENGTH, RADIUS, SPEED, chart, described
+from pseudorigid.dynamics.variables import LENGTH, SPEED, chart, described
 
 from .sea import as_array, half_axes, section_points
 from .stretches import spread_of_runs
@@ -56,8 +56,8 @@ def spread(
             f"orbits = {orbits} of {length} impacts is not allowed: none is chaotic: "
             "give more orbits, longer ones or another energy"
         )
-    lengths, starts = _halves(regular_impacts), np.asarray(regular, dtype=float)
-    islands = ball.start(starts, energy)
+    lengths = _halves(regular_impacts)
+    islands = ball.start(np.asarray(regular, dtype=float), energy)
     calm = [lyapunov_spectrum(ball, islands, n, 1)["exponent"].values[0] for n in lengths]
     data = {
         "exponent": (("block", "orbit", "index"), block, "mean exponent of a block"),
@@ -65,15 +65,14 @@ def spread(
         "start_x": ("orbit", x, "x of the start", LENGTH),
         "start_y": ("orbit", y, "y = xdot - k udot of the start", SPEED),
         "length": ("length", lengths, "number of impacts"),
-        "regular_start": ("island", starts, "start along y = 0, in section radii", RADIUS),
         "regular_exponent": (("length", "island", "index"), calm, "exponent of a regular orbit"),
         "regular_type": ("island", judged(ball, islands)[0], "regular or chaotic"),
     }
     data |= _entered_cells(ball, energy, states[:, chaotic], cells, visits)
     data |= spread_of_runs(block[:, chaotic], length // blocks)
     attributes: dict[str, Any] = {"block_impacts": length // blocks}
-    if (energy, {"k": ball.k, "g": ball.g}) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
-        attributes["printed_exponent"] = paper.EXPONENT
+    if (energy, {"k": ball.k, "g": ball.g}) == (values.FIGURES["fig7"]["energy"], values.BALL):
+        attributes["printed_exponent"] = values.EXPONENT
     return xr.Dataset(described(data), attrs=attributes)
 
 
@@ -102,11 +101,10 @@ def _entered_cells(
             for orbit, numbers in enumerate(up * cells + across):
                 entered[orbit, numbers] = True
         least = entered.sum(axis=1).min()
-        counts.append((entered.any(axis=0).sum(), entered.all(axis=0).sum(), least))
-    any_of, all_of, least = np.array(counts, dtype=np.int64).T
+        counts.append((entered.any(axis=0).sum(), least))
+    any_of, least = np.array(counts, dtype=np.int64).T
     return {
         "visit": ("visit", lengths, "number of impacts of each chaotic orbit"),
         "entered_any": ("visit", any_of, "cells entered by at least one chaotic orbit"),
-        "entered_all": ("visit", all_of, "cells entered by each chaotic orbit"),
         "entered_least": ("visit", least, "cells entered by the chaotic orbit that enters fewest"),
     }

@@ -52,7 +52,7 @@ def turnstile_flux(ball: Ball, energy: float, period: int, side: Side = "outer")
     period = int(number("period", period, "an even number", lambda v: v >= 2.0 and v % 2.0 == 0.0))
     one_of("side", side, SIDES[::-1])
     # The polygons and counts that `flux` adds to the areas are as small as it takes them.
-    lobes = flux(ball, energy, period, 0.1, grid=2, orbits=0, impacts=0, sides=(side,))
+    lobes = flux(ball, energy, period, 0.1, orbits=0, impacts=0, sides=(side,))
     names = ["area", "area_error", "digits", "saddle", "target", "crossing_x"]
     lobe: xr.Dataset = lobes[names].sel(side=side)
     return lobe.assign_attrs(k=ball.k, g=ball.g, energy=energy, period=period)

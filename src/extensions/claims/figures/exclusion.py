@@ -3,9 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from extensions.atlas.figures import raster
 from pseudorigid.dynamics.variables import chart, rows, states_of
-from pseudorigid.figures.axes import section
+from pseudorigid.figures.axes import raster, section
 from pseudorigid.figures.axes.limits import decades, linear
 from pseudorigid.figures.axes.panel import Panel, corner, key, letters, log10
 from pseudorigid.figures.canvas import style

@@ -14,7 +14,7 @@ from pseudorigid.figures.canvas.sheet import Sheet
 
 from . import Figure, Frame, Scene
 
-_SIDES = (1, style.SKY, 1.4), (0, style.VERMILION, 2.2)  # index of the side, colour, points
+_SIDES = (1, style.SKY, 1.5), (0, style.VERMILION, 2.3)  # index of the side, colour, points
 _LONGEST = 24  # characters of a line that fits into a small panel
 _RESOLVED = 2.0  # a difference is drawn if it is larger than this times the error of the lines
 
@@ -70,7 +70,7 @@ def _regions(sheet: Sheet, scene: Scene, flux: xr.Dataset) -> Frame:
         x, y = flux["outline_x"].values[side], flux["outline_y"].values[side]
         panel.line(x, y, color=hue, lw=wide)
         crossing = float(flux["crossing_x"].values[side].max())
-        panel.dots([crossing], [0.0], hue)
+        panel.dots([crossing], [0.0], style.FRAME)
         name, ha, shift = ("(b)", "left", 4.0) if side else ("(c)", "right", -4.0)
         panel.note(crossing, 0.0, name, ha=ha, shift=(shift, 0.0))
     if not any(_has_edge(flux, side) for side, *_ in _SIDES):

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pseudorigid.dynamics.paper import BALL, EXPONENT, FIGURES
-from pseudorigid.dynamics.rotation import regular
+from extensions.atlas.symmetry_line import regular
+from paper.values import BALL, EXPONENT, FIGURES
 from pseudorigid.dynamics.variables import final_exponents
 from pseudorigid.kernel.arithmetic import log
 

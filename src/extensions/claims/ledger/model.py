@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from paper.values import BALL, FIGURES
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
-from pseudorigid.dynamics.paper import BALL, FIGURES
 from pseudorigid.dynamics.variables import states_of
 
 from ..analyses.clusters import STRAIN

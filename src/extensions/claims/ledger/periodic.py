@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from extensions.atlas.symmetry_line import regular
 from extensions.claims.analyses.rotation import island, plateaus
+from paper.values import FIGURES, WINDOW
 from pseudorigid.dynamics.ball import Ball
-from pseudorigid.dynamics.paper import FIGURES, WINDOW
-from pseudorigid.dynamics.rotation import regular
 from pseudorigid.dynamics.variables import chart, states_of
 
 from ..analyses.branches import branch_stretching, half_turns, trace_by_differences

@@ -1,6 +1,6 @@
 /*
  * What the page finds out about orbits, in the worker. The formulas are those of the package
- * pseudorigid and of the claims: dynamics/regularity.py, dynamics/rotation.py and
+ * pseudorigid and of the claims: dynamics/regularity.py, atlas/symmetry_line.py and
  * kernel/tangents.py (verdict and numbers of an orbit), dynamics/periodic.py, dynamics/branch.py
  * with dynamics/tracing.py, and extensions/claims/analyses/jumps.py.
  * The impacts come from the kernel, bit for bit; sums here may differ in the last digits.

@@ -6,7 +6,7 @@ import numpy as np
 
 from .asymmetric import AsymmetricOrbits
 from .curve import Point, at_parameter, solve_at
-from .families import End, Event, Family, OrbitSystem, follow
+from .family import End, Event, Family, OrbitSystem, follow
 from .half_orbit import FIX_R, FIX_RP
 from .starts import beyond_rim, beyond_touch, starts_beside
 from .symmetric import CELLS, Parameter, SymmetricOrbits, lines, roots

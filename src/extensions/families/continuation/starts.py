@@ -10,7 +10,7 @@ from pseudorigid.kernel.impact import impact_coefficients, rebound
 
 from .asymmetric import AsymmetricOrbits, evaluate_orbit, state_at
 from .curve import Place, Point, correct, dot, newton_step, tangent
-from .families import FAR, Event, OrbitSystem
+from .family import FAR, Event, OrbitSystem
 from .half_orbit import gap
 from .symmetric import COLLAPSED, NO_GUESS, Parameter
 

@@ -5,9 +5,10 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
-from extensions.atlas.figures import atlas, raster
+from extensions.atlas.figures import atlas
 from extensions.atlas.grid import inertias
 from pseudorigid.dynamics.variables import rows
+from pseudorigid.figures.axes import raster
 from pseudorigid.figures.axes.limits import linear
 from pseudorigid.figures.axes.panel import Window, corner, letters
 from pseudorigid.figures.canvas import style
@@ -58,7 +59,7 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
         axes = across if below else across.blank(), up.blank() if column else up
         panel = Window(sheet, frames[-1], *axes, grid=False)
         panel.minor()
-        raster.cells(panel, sweep, data["regular"].values, raster.GREYS)
+        atlas.colour(panel, sweep, data["regular"].values, raster.GREYS)
         corner(sheet, frames[-1], f"chain 1/{order}")
         for kind, of, part in zip(kinds, orders, spans, strict=True):
             if of in (order, 0):

@@ -166,7 +166,7 @@ def _cosine_and_twist(field: list[Field], theta: arb) -> tuple[Jet, Jet, arb]:
         raise NotProvedError("the third power of the multiplier may be 1")
     cot_of_three = cot * (cot * cot - 3 * t * t) / third  # theta cot(3 omega/2)
     g11, g02, g21 = _quadratic_and_cubic(x, y, (push / sine).sqrt())
-    twist = (3 * cot * _square(g11) + cot_of_three * _square(g02)) / 2
+    twist = (3 * cot * _squared_modulus(g11) + cot_of_three * _squared_modulus(g02)) / 2
     return cosine, twist + cosine * g21[1] + t * sine * g21[0], third.constant
 
 
@@ -192,7 +192,7 @@ def _quadratic_and_cubic(x: Field, y: Field, beta: Jet) -> list[tuple[Jet, Jet]]
     return [g11, g02, g21]
 
 
-def _square(pair: tuple[Jet, Jet]) -> Jet:
+def _squared_modulus(pair: tuple[Jet, Jet]) -> Jet:
     """Return the square of a complex number's modulus."""
     return pair[0] * pair[0] + pair[1] * pair[1]
 

@@ -1,6 +1,6 @@
 """Derivations of the paper's formulas by computer algebra.
 
-Each formula in FORMULAS is derived by the function of that name in `model`, `motion` or `forms`.
+Each formula in FORMULAS is derived by the function of that name in `model`, `impacts` or `forms`.
 """
 
 import xarray as xr
@@ -15,9 +15,9 @@ FORMULAS = {
         "softness", "impulse", "impulse_without_stiffness", "jump_conditions", "impulsive_forces",
         "scaled_impulse", "scaling",
     ),
-    "motion": (
-        "flights", "flow", "impact_map", "conserved_energy", "bound", "bound_in_flight", "smooth",
-        "contact_speed",
+    "impacts": (
+        "flights", "flow", "impact_map", "conserved_energy", "energy_bound", "bound_in_flight",
+        "smooth", "contact_speed",
     ),
     "forms": ("jacobian", "exponents", "determinants", "one_form", "area", "reversible"),
 }  # fmt: skip
@@ -37,9 +37,9 @@ def derivations(ball: Ball, energy: float) -> xr.Dataset:
     is on formula, the name of the function that derives it: printed and corrected, 1 where it holds
     so, 0 where it does not, -1 where there is none; value, a number that comes with it, or NaN.
     """
-    from . import forms, model, motion
+    from . import forms, impacts, model
 
-    modules = {"model": model, "motion": motion, "forms": forms}
+    modules = {"model": model, "impacts": impacts, "forms": forms}
     rows = []
     for module, names in FORMULAS.items():
         for name in names:

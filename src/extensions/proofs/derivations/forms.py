@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from .motion import flight_after_impact, map_residuals
+from .impacts import flight_after_impact, map_residuals
 from .symbols import Formula, action, b, c, energy, flight, g, k, rebound, tau, v, w, x, zero
 
 DIRECTION = sp.symbols("dx dv dw", real=True)

@@ -141,7 +141,7 @@ def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
     begins, ends = changes[~inside[changes]], changes[inside[changes]] + 1
     # An end without a beginning is dropped, and so is a beginning without an end.
     pairs = zip(begins, ends[int(inside[0]) :], strict=False)
-    wide = [_widened(p, low, high) for low, high in pairs if high - low > _FEWEST_POINTS]
+    wide = [_crossing_range(p, low, high) for low, high in pairs if high - low > _FEWEST_POINTS]
     return [
         (low, high)
         for low, high in filter(None, wide)
@@ -149,7 +149,7 @@ def _runs(p: np.ndarray, q: np.ndarray) -> list[tuple[int, int]]:
     ]
 
 
-def _widened(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
+def _crossing_range(p: np.ndarray, low: int, high: int) -> tuple[int, int] | None:
     """Widen a part of lines until all of them begin and end beyond |p| = 1; None if that fails."""
     step, sign = max(1, (high - low) // 12), np.sign(p[1, high] - p[1, low])
     for _ in range(_WIDENINGS):
@@ -171,7 +171,7 @@ def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
     """
     low, high = 0.0, _HIGHEST
     weights = np.ones(count)
-    best, strips = Growth(low, weights, []), _strips(crossings, count)
+    best, strips = Growth(low, weights, []), _in_order(crossings, count)
     while high - low > _ENTROPY_ERROR:
         entropy = (low + high) / 2.0
         for _ in range(_ITERATIONS):
@@ -186,7 +186,7 @@ def _largest_growth(crossings: dict[int, Crossing], count: int) -> Growth:
     return best
 
 
-def _strips(crossings: dict[int, Crossing], count: int) -> list[list[tuple[int, int, Crossing]]]:
+def _in_order(crossings: dict[int, Crossing], count: int) -> list[list[tuple[int, int, Crossing]]]:
     """Return (number, strips wholly below, crossing) of each set's strips, by upper ends."""
     strips: list[list[tuple[int, int, Crossing]]] = [[] for _ in range(count)]
     for number, it in sorted(crossings.items(), key=lambda pair: (pair[1].high, pair[0])):

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
+from paper import values
 from pipeline.loading import note_loaded
-from pseudorigid.dynamics import paper
 from pseudorigid.verified.flight import NotProvedError
 
 from ..checkers import (
@@ -30,7 +30,7 @@ from ..checkers import (
 from ..checkers.certificate import Finding, Range, Window
 from ..enclosure.surface import Surface
 
-BALL = {name: Fraction(str(paper.BALL[name])) for name in "kg"}
+BALL = {name: Fraction(str(values.BALL[name])) for name in "kg"}
 
 
 def _surface(energy: str) -> Surface:
@@ -208,7 +208,7 @@ def _window(x_low: str, x_high: str, xdot_low: str, xdot_high: str) -> Window:
     return _between(x_low, x_high), _between(xdot_low, xdot_high)
 
 
-_FIG6_WINDOW = _window(*(str(edge) for axis in ("x", "xdot") for edge in paper.WINDOW[axis]))
+_FIG6_WINDOW = _window(*(str(edge) for axis in ("x", "xdot") for edge in values.WINDOW[axis]))
 _ORBITS: dict[str, dict[str, Any]] = {
     name: dict(surface=surface, period=period, type=kind, radius=Fraction(radius), window=window)
     for name, surface, period, kind, radius, window in (

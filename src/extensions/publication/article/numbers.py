@@ -15,13 +15,13 @@ from extensions.claims import ledger as claims
 from extensions.claims.ledger.outcomes import VERDICT_WORDS
 from extensions.proofs.theorems.statements import THEOREMS
 from paper.numbers import printed
+from paper.values import EXPONENT
 from pipeline.checks import manifest, published_sets
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import measured
 from pipeline.config import MAIN, PUBLISHED, Config
 from pipeline.records.files import read_text
 from pipeline.records.sources import ROOT
-from pseudorigid.dynamics.paper import EXPONENT
 
 from .. import figures_page
 

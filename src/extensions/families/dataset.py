@@ -18,7 +18,7 @@ from pseudorigid.dynamics.variables import ENERGY, LENGTH, SPEED, TIME, Variable
 
 from .continuation.asymmetric import NO_LINE
 from .continuation.curve import Point
-from .continuation.families import Family
+from .continuation.family import Family
 from .continuation.half_orbit import ENERGY as BY_ENERGY
 from .continuation.half_orbit import FIX_R, FIX_RP, INERTIA
 from .continuation.search import Search

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..canvas.sheet import width
-from .panel import Panel
+from pseudorigid.figures.axes.panel import Panel
+from pseudorigid.figures.canvas.sheet import width
 
 # Shifts of a label in pixels, the nearest first; those to the left count as farther away.
 _SHIFTS = sorted(

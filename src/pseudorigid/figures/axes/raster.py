@@ -2,17 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import matplotlib
 import numpy as np
 
-from pseudorigid.figures.axes.limits import ticks
-from pseudorigid.figures.axes.panel import Panel, log10
-from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import POINT, Sheet
-
-from ..grid import edges
+from ..canvas import style
+from ..canvas.sheet import POINT, Sheet
+from .limits import ticks
+from .panel import Panel
 
 _SIZE = 6.0  # points: text beside a colour scale
 _COLOURS = 64  # of a scale
@@ -21,19 +18,19 @@ GREYS = "greys"
 _LIGHTEST, _DARKEST = 252, 190  # of GREYS
 
 
-def cells(panel: Panel, sweep: dict[str, Any], shades: np.ndarray, table: str) -> None:
-    """Draw a rectangle for each cell, coloured by shades (k, energy) from 0 to 1, grey if NaN.
+def cells(panel: Panel, x: np.ndarray, y: np.ndarray, shades: np.ndarray, table: str) -> None:
+    """Draw a rectangle for each cell, coloured by shades (y, x) from 0 to 1, grey if NaN.
 
-    The cells are an image of whole pixels: a PNG has the exact colours, and vector files are small.
+    `x` and `y` are the cells' edges, in the numbers of the axes. The cells are an image of whole
+    pixels: a PNG has the exact colours, and vector files are small.
     """
     left, bottom, right, top = map(int, panel.frame)
-    energy = log10(sweep["energy"]) if panel.across.decades else sweep["energy"]
-    x = _pixels(edges(energy), panel.across.limits, right - left)
-    y = _pixels(edges(sweep["k"]), panel.up.limits, top - bottom)
+    columns = _pixels(x, panel.across.limits, right - left)
+    lines = _pixels(y, panel.up.limits, top - bottom)
     steps = np.clip((np.nan_to_num(shades) * _COLOURS).astype(np.int64), 0, _COLOURS - 1)
     colors = palette(table)[steps]
     colors[np.isnan(shades)] = list(bytes.fromhex(style.GRID[1:]))
-    image = np.repeat(np.repeat(colors, np.diff(y), axis=0), np.diff(x), axis=1)
+    image = np.repeat(np.repeat(colors, np.diff(lines), axis=0), np.diff(columns), axis=1)
     paste(panel.sheet, left, bottom, image)
 
 

@@ -83,7 +83,7 @@ def _end_of_section(sign: int) -> sp.Expr:
     return g / k + sign * sp.sqrt(2 * E / k + g**2 / k**2)
 
 
-def bound() -> Formula:
+def energy_bound() -> Formula:
     """Check that (31) keeps x below 1: as printed for every g, corrected for g < k.
 
     The value is k/2 - g at k = 0.2, g = 0.04. The product (30) is negative between x = 2 g/k - 1

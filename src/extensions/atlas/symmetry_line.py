@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ..kernel.tangents import turns_and_growth
-from ..kernel.verdict import GROWTH_THRESHOLD
-from . import fixed_point
-from .ball import Ball
+from pseudorigid.dynamics import fixed_point
+from pseudorigid.dynamics.ball import Ball
+from pseudorigid.kernel.tangents import turns_and_growth
+from pseudorigid.kernel.verdict import GROWTH_THRESHOLD
 
 LOCKED = 3e-9  # turns an impact; rotation numbers as near to a fraction are taken for it
 

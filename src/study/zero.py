@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..canvas import style
-from ..canvas.sheet import Sheet
-from .panel import Axis, Frame, Panel
+from pseudorigid.figures.axes.panel import Axis, Frame, Panel
+from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import Sheet
 
 _BREAK_STROKES = (-5, 9, style.FRAME, 0.6), (5, 9, style.FRAME, 0.6)  # of a break of an axis
 
