@@ -29,9 +29,6 @@ _MARK_TO_TEXT, _LINE_TO_TEXT = 7 - 6 / POINT, 7 - 20 / POINT  # points, in `pane
 # Pictures that still fail, and how. A picture that is redrawn leaves this list; none enters it.
 KNOWN = {
     "atlas/plane_chains": "size",
-    "claims/control_low_shares.svg": "contrast",
-    "claims/control_shares.svg": "contrast",
-    "claims/last_curve.svg": "key",
     "families/energy.svg": "contrast key",
     "families/energy_residues.svg": "key",
     "paper_figures/fig2.svg": "over",
