@@ -29,8 +29,6 @@ _MARK_TO_TEXT, _LINE_TO_TEXT = 7 - 6 / POINT, 7 - 20 / POINT  # points, in `pane
 # Pictures that still fail, and how. A picture that is redrawn leaves this list; none enters it.
 KNOWN = {
     "atlas/plane_chains": "size",
-    "families/energy.svg": "contrast key",
-    "families/energy_residues.svg": "key",
     "paper_figures/fig2.svg": "over",
     "paper_figures/fig7.svg": "over",
     "proofs/curves.svg": "contrast",
