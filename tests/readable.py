@@ -28,12 +28,8 @@ _MARK_TO_TEXT, _LINE_TO_TEXT = 7 - 6 / POINT, 7 - 20 / POINT  # points, in `pane
 
 # Pictures that still fail, and how. A picture that is redrawn leaves this list; none enters it.
 KNOWN = {
-    "atlas/plane_chains": "size",
     "paper_figures/fig2.svg": "over",
     "paper_figures/fig7.svg": "over",
-    "proofs/curves.svg": "contrast",
-    "proofs/graph.svg": "contrast",
-    "proofs/horseshoe.svg": "contrast",
     "study/work_grazing.svg": "over",
 }
 
