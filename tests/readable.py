@@ -30,7 +30,6 @@ _MARK_TO_TEXT, _LINE_TO_TEXT = 7 - 6 / POINT, 7 - 20 / POINT  # points, in `pane
 KNOWN = {
     "paper_figures/fig2.svg": "over",
     "paper_figures/fig7.svg": "over",
-    "study/work_grazing.svg": "over",
 }
 
 
