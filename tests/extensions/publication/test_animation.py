@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 from project import ROOT
-from readable import assert_as_known
+from readable import assert_readable
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
@@ -84,7 +84,7 @@ def test_it_says_what_is_seen_and_that_it_begins_again(data):
 
 
 def test_its_still_can_be_read(data):
-    assert_as_known("publication/bounce", draw(SCENE, *data))
+    assert_readable(draw(SCENE, *data))
 
 
 def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures():

@@ -86,5 +86,3 @@ def _places(values: Sequence[float]) -> Axis:
         (-1.0, float(_first(len(KEPT), count) - 1)), places,
         labels=[style.number(value) for value in values] * len(KEPT),
     )  # fmt: skip
-
-
