@@ -154,14 +154,14 @@ def _upper_panel(
     left, _, right, top = picture.frame
     upper = panel.Window(picture.sheet, (left, top + _UPPER[0], right, top + _UPPER[1]), across, up)
     if (scene["energy"], scene["ball"]) == (paper.FIGURES["fig7"]["energy"], paper.BALL):
-        middle, largest_at_end = window[0] + 0.4 * (window[1] - window[0]), np.nanmax(largest[-1])
+        middle, end = window[0] + 0.4 * (window[1] - window[0]), float(np.nanmax(largest[-1]))
         if _level(upper, paper.EXPONENT, "-"):
             text = f"the paper: {style.number(paper.EXPONENT)}"
             upper.note(middle, paper.EXPONENT, text, (-4, 1), "center", "bottom")
-        if _level(upper, float(largest_at_end), ":"):
-            text = f"largest at the end: {style.number(round(float(largest_at_end), 4))}"
-            left, up = right - width(text, 7.0) - 7 * POINT, upper.frame[3] + 8 * POINT
-            panel.key(picture.sheet, [(text, style.FRAME, "", ":")], up, 1, left, size=7.0)
+        if _level(upper, end, ":"):
+            text = f"largest at the end: {style.number(round(end, 4))}"
+            left, above = right - width(text, 7.0) - 7 * POINT, upper.frame[3] + 8 * POINT
+            panel.key(picture.sheet, [(text, style.FRAME, "", ":")], above, 1, left, size=7.0)
     panel.letters(picture.sheet, upper.frame, picture.frame)
     return upper
 
@@ -169,6 +169,7 @@ def _upper_panel(
 def _level(upper: panel.Window, value: float, dashes: str) -> bool:
     """Draw a level line if it lies within the limits, and return whether it does."""
     low, high = upper.up.limits
-    if low < value < high:
+    shown = low < value < high
+    if shown:
         upper.line(upper.across.limits, [value, value], color=style.FRAME, lw=0.7, ls=dashes)
-    return low < value < high
+    return shown

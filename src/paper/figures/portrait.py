@@ -39,10 +39,11 @@ def drawn(scene: dict[str, Any], orbits: xr.Dataset) -> tuple[Figure, np.ndarray
         numbers = [f"{index + 1}" for index in others.tolist() if seen[index]]
         name += f", {style.plural('start', len(numbers))} {', '.join(numbers)}"
     entries = [(name, style.SEA, "o")] if name else []
-    if numbered:
-        entries.append(("regular orbits, numbered by start", style.ordered(len(regular))[0], "o"))
-    box = Box(scene, entries)
     hues = dict(zip(regular.tolist(), style.ordered(len(regular)), strict=True))
+    if numbered:
+        first = next(hue for index, hue in hues.items() if seen[index])
+        entries.append(("regular orbits, numbered by start", first, "o"))
+    box = Box(scene, entries)
     for index in [*others.tolist(), *hues]:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
