@@ -123,8 +123,9 @@ def _stack(panel: Panel, points: dict[str, tuple[np.ndarray, np.ndarray]]) -> No
         (across,), (up,) = panel.place(x[-1], 1e16 * y[-1])
         _, (base,) = panel.place(x[-1], top)
         at = base + 38 + 34 * i
-        panel.sheet.draw([across, across], [up, at - 2], color=color, lw=0.5, zorder=3)
-        panel.sheet.text(across - 4, at + 12, _FAST[family], size=7.0, color=color)
+        # The name is right of its line, and so of the lines of the methods above it.
+        panel.sheet.draw([across, across], [up, at + 24], color=color, lw=0.5, zorder=3)
+        panel.sheet.text(across + 8, at + 12, _FAST[family], size=7.0, color=color)
 
 
 def _curves(

@@ -48,15 +48,20 @@ CASES = [
     (
         "exponents",
         {"starts": [SLOW, -0.2]},
-        ["the regular orbit tend", "1 undecided orbit to be neither regular"],
+        ["the regular orbit tend", "an undecided orbit to be neither regular"],
         [CHAOS, "regular orbits"],
     ),
-    ("exponents", {"starts": [SLOW]}, ["1 undecided orbit to be neither"], [CHAOS, "tend to zero"]),
+    (
+        "exponents",
+        {"starts": [SLOW]},
+        ["an undecided orbit to be neither"],
+        [CHAOS, "tend to zero"],
+    ),
     ("exponents", {"starts": [SLOW, 0.6]}, ["the chaotic orbit's largest"], ["regular orbit"]),
     (
         "portrait",
         {"starts": [SLOW, 0.6], "impacts": 9, "view": {"elevation": 20, "azimuth": 240}},
-        ["to 1 chaotic orbit", "Others belong to 1 undecided orbit"],
+        ["to a chaotic orbit", "Others belong to an undecided orbit"],
         ["losed curve", "seen"],
     ),
     (

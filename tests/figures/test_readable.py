@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import readable
 from project import ROOT
-from readable import KNOWN, assert_as_known, faults
+from readable import assert_readable, faults
 
 from pseudorigid.figures.axes.panel import Axis, Panel, key
 from pseudorigid.figures.canvas import style
@@ -23,11 +23,7 @@ SVGS = {
 
 @pytest.mark.parametrize("name", SVGS)
 def test_a_published_picture_can_be_read(name):
-    assert_as_known(name, SVGS[name].read_text(encoding="utf-8"))
-
-
-def test_pictures_that_fail_are_published_ones():
-    assert {name for name in KNOWN if name.endswith(".svg")} <= {*SVGS}
+    assert_readable(SVGS[name].read_text(encoding="utf-8"))
 
 
 def sheet():
@@ -137,7 +133,28 @@ def test_a_name_interrupts_its_own_curve_only():
         assert kinds(drawn) == (set() if own else {"over"})
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_name_is_off_the_ground_if_it_can_be(side):
+    angle, grid = np.linspace(0, 2 * np.pi, 2000), np.arange(-450.0, 451.0, 3.0)
+    curve = 450 + 200 * np.array([np.cos(angle), np.sin(angle)])
+    across, up = 450 + np.reshape(np.meshgrid(grid[side * grid > -60], grid), (2, -1))
+    drawn = sheet()
+    drawn.dots(across, up, style.SEA, 0.4)
+    drawn.draw(*curve, color=style.BLUE, lw=0.8)
+    curves, ground = [curve, np.empty((2, 0))], np.array([across, up])
+    name_curves(drawn, curves, ["1"], [style.BLUE], (0, 0, 900, 900), 10.0, ground)
+    (text,) = drawn.figure.texts
+    assert side * (text.get_position()[0] * style.DPI - 450) < -60 and kinds(drawn) == set()
+
+
 def test_the_ink_of_a_colour_is_the_colour_where_it_is_dark_enough():
     assert style.ink(style.BLUE) == style.BLUE and style.ink(style.BLACK) == style.BLACK
     for color in [style.VERMILION, style.SKY, style.ORANGE, style.PALE_SEA, *style.ordered(9)]:
         assert readable.contrast(style.ink(color), "#ffffff") >= readable.OF_TEXT
+
+
+def test_a_pale_colour_is_as_light_as_a_line_may_be():
+    for color in (style.BLUE, style.VERMILION, style.BLACK, style.GREEN, *style.ordered(9)):
+        pale = readable.contrast(style.pale(color), "#ffffff")
+        assert readable.OF_LINES <= pale <= readable.contrast(color, "#ffffff")
+    assert readable.contrast(style.pale(style.BLUE), "#ffffff") < 3.6

@@ -18,7 +18,7 @@ def test_an_orbit_is_called_chaotic_by_its_growth():
     data = scene_orbits(BALL, 0.01, [*REGULAR, CHAOTIC], [200, 200, 900])
     assert data["type"].values.tolist() == ["regular", "regular", "chaotic"]
     portrait = module("portrait").draw(SCENE | {"view": VIEW}, data)
-    assert "chaotic orbit" in texts(portrait)
+    assert {"chaotic orbit, start 3", "regular orbits, numbered by start"} <= {*texts(portrait)}
     sizes = [len(line.get_xdata()) for line in portrait.artists if line.get_color() == style.SEA]
     assert max(sizes) > 400
     _, regular, chaotic = section.over_orbits(SCENE, data)

@@ -154,14 +154,22 @@ def _upper_panel(
     left, _, right, top = picture.frame
     upper = panel.Window(picture.sheet, (left, top + _UPPER[0], right, top + _UPPER[1]), across, up)
     if (scene["energy"], scene["ball"]) == (values.FIGURES["fig7"]["energy"], values.BALL):
-        shown = (
-            ("the paper", values.EXPONENT, window[0] + 0.4 * (window[1] - window[0]), "center"),
-            ("largest at the end", float(np.nanmax(largest[-1])), window[1], "right"),
-        )
-        for name, value, at, side in shown:  # names are apart however near the lines
-            if up.limits[0] < value < up.limits[1]:
-                upper.line(window, [value, value], color=style.FRAME, lw=0.7)
-                text = f"{name}: {style.number(round(value, 4))}"
-                upper.note(at, value, text, (-4, 1), side, "bottom")
+        middle, end = window[0] + 0.4 * (window[1] - window[0]), float(np.nanmax(largest[-1]))
+        if _level(upper, values.EXPONENT, "-"):
+            text = f"the paper: {style.number(values.EXPONENT)}"
+            upper.note(middle, values.EXPONENT, text, (-4, 1), "center", "bottom")
+        if _level(upper, end, ":"):
+            text = f"largest at the end: {style.number(round(end, 4))}"
+            left, above = right - width(text, 7.0) - 7 * POINT, upper.frame[3] + 8 * POINT
+            panel.key(picture.sheet, [(text, style.FRAME, "", ":")], above, 1, left, size=7.0)
     panel.letters(picture.sheet, upper.frame, picture.frame)
     return upper
+
+
+def _level(upper: panel.Window, value: float, dashes: str) -> bool:
+    """Draw a level line if it lies within the limits, and return whether it does."""
+    low, high = upper.up.limits
+    shown = low < value < high
+    if shown:
+        upper.line(upper.across.limits, [value, value], color=style.FRAME, lw=0.7, ls=dashes)
+    return shown

@@ -13,6 +13,7 @@ from pseudorigid.figures.axes.limits import complete_box, cuts
 from pseudorigid.figures.canvas import style
 
 _CURVE, _SEA = 0.8, 0.4  # points
+_MOST = 4  # orbits that are not regular, whose starts the key has
 
 
 def draw(scene: dict[str, Any], orbits: xr.Dataset) -> Figure:
@@ -33,14 +34,23 @@ def drawn(scene: dict[str, Any], orbits: xr.Dataset) -> tuple[Figure, np.ndarray
     trial = Box(scene, shown=states)
     seen = np.array([trial.seen(states[:, span]).sum() for span in spans])
     name = style.irregular(types[seen > 0].tolist())
-    box = Box(scene, [(name, style.SEA, "o")] if name else [])
+    numbered = np.sum(seen[regular] > 0) > 1
+    if name and numbered and len(others) <= _MOST:
+        numbers = [f"{index + 1}" for index in others.tolist() if seen[index]]
+        name += f", {style.plural('start', len(numbers))} {', '.join(numbers)}"
+    entries = [(name, style.SEA, "o")] if name else []
     hues = dict(zip(regular.tolist(), style.ordered(len(regular)), strict=True))
+    if numbered:
+        first = next(hue for index, hue in hues.items() if seen[index])
+        entries.append(("regular orbits, numbered by start", first, "o"))
+    box = Box(scene, entries)
     for index in [*others.tolist(), *hues]:
         hue, size = (hues[index], _CURVE) if index in hues else (style.SEA, _SEA)
         box.points(states[:, spans[index]], hue, size)
-    if np.sum(seen[regular] > 0) > 1:
+    if numbered:
         curves = [states[:, spans[index]] for index in hues]
-        box.names(curves, [f"{index + 1}" for index in hues], [*hues.values()])
+        sea = np.hstack([np.empty((3, 0)), *(states[:, spans[index]] for index in others)])
+        box.names(curves, [f"{index + 1}" for index in hues], [*hues.values()], sea)
     return box.figure, seen
 
 

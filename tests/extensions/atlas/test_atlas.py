@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from examples import assert_decided
 from legible import assert_legible
-from readable import assert_as_known
+from readable import assert_readable
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas
@@ -118,7 +118,7 @@ def test_a_sweep_without_a_sea_can_be_drawn():
     for sweep in (wide, long):
         figure = atlas.draw(sweep, dataset(sweep, **nothing))
     assert_legible(figure)  # names of resonances that would touch are moved apart
-    assert_as_known("atlas/plane", atlas.draw(PLANE, dataset(PLANE)))
+    assert_readable(atlas.draw(PLANE, dataset(PLANE)))
 
 
 @pytest.mark.parametrize(("sweep", "k", "energy"), [

@@ -21,6 +21,7 @@ from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.figures.canvas import style
+from pseudorigid.figures.canvas.sheet import POINT
 
 
 def residues(values):
@@ -126,7 +127,7 @@ def test_marks_of_clusters_stand_at_their_ticks(datasets):
     assert {*marks} <= {x[0] for _, x, hue in artists if hue == style.GRID and np.ptp(x) == 0}
 
 
-def test_maps_of_a_control_are_on_the_section_and_their_shares_in_the_row_of_what_they_keep(
+def test_maps_of_a_control_are_on_the_section_and_their_shares_in_the_group_of_what_they_keep(
     datasets,
 ):
     data = datasets["control/control"]
@@ -136,10 +137,16 @@ def test_maps_of_a_control_are_on_the_section_and_their_shares_in_the_row_of_wha
     assert len(rims) == len(frames_of(figure)) == 9
     figure = control_shares_figure.draw(SCENE, data)
     assert_legible(figure)
-    regular, neither = data.sel({"class": "regular"}), frames_of(figure)[7]
+    regular, (above, below) = data.sel({"class": "regular"}), frames_of(figure)
     top = min(1.03, 1.1 * float(regular["class_high"].max()) + 0.02)
     share = regular["class_share"].sel(map=data["map"] == "stir neither").values[0, 1]
-    wanted = neither.y0 + (share + 0.01) / (top + 0.01) * neither.height
-    squares = [a.get_xydata() * style.DPI for a in figure.artists if a.get_marker() == "s"]
-    (marks,) = (at[:, 1] for at in squares if len(at) > 1 and neither.contains(*at[0]))
-    assert marks == pytest.approx(wanted, abs=0.1)
+    wanted = below.y0 + (share + 0.01) / (top + 0.01) * below.height
+    marks = {mark: [a.get_xydata() * style.DPI for a in figure.artists if a.get_marker() == mark]
+             for mark in "os^"}  # fmt: skip
+    last = below.x0 + 0.75 * below.width
+    (stirred,) = (at for at in marks["s"] if at[0, 0] > last and below.contains(*at[0]))
+    assert stirred[:, 1] == pytest.approx(wanted, abs=0.1)
+    for frame in (above, below):  # marks of two forms are nowhere on one another
+        places = np.sort([x for of_form in marks.values() for at in of_form for x, y in at
+                          if frame.contains(x, y)])  # fmt: skip
+        assert len(places) >= 10 and np.diff(places).min() > 3.0 * POINT - 1

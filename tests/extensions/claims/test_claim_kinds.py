@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from legible import assert_legible
-from readable import assert_as_known
+from readable import assert_readable
 from samples import module
 from sections import BALL
 from small_curve import SMALL
@@ -138,7 +138,7 @@ def test_text_of_families_is_whole_and_apart_along_energy_and_k(data):
 
 
 def test_the_parts_of_the_excluded_region_can_be_read(data):
-    assert_as_known("claims/exclusion", draw("exclusion", data("exclusion")))
+    assert_readable(draw("exclusion", data("exclusion")))
 
 
 def test_a_residue_beyond_its_axis_is_marked_where_it_leaves(data):

@@ -25,8 +25,8 @@ def test_families_without_an_event_are_drawn_with_their_rim_and_a_key_of_what_th
     figure = draw(scene, held, regular)
     assert not {"hyperbolic", "fold", "an impact grazes"} & set(texts(figure))
     assert {"elliptic", "rim of the section"} <= set(texts(figure))
-    pale = [line for line in figure.artists if line.get_color() == style.BACKDROP]
-    rims = [line for line in pale if len(line.get_xdata()) > 2]
+    grey = [line for line in figure.artists if line.get_color() == style.SEA]
+    rims = [line for line in grey if len(line.get_xdata()) > 2]
     assert len(rims) == 2
     low, high = 340 / style.DPI, 1345 / style.DPI
     assert all(low < y < high for line in rims for y in line.get_ydata())

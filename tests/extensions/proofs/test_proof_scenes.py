@@ -11,6 +11,8 @@ from sections import BALL
 
 from extensions.proofs import part
 from extensions.proofs.figures.escape import draw as draw_escape
+from extensions.proofs.figures.graph import draw as draw_graph
+from extensions.proofs.figures.horseshoe import draw as draw_horseshoe
 from extensions.proofs.figures.twist import draw
 from extensions.proofs.theorems.scenes import scene_horseshoe
 from pipeline.checks.quantities import hidden
@@ -108,7 +110,31 @@ def test_the_sets_of_the_committed_horseshoe_lie_on_branches_that_are_drawn():
     resolution = {"distance": 0.02, "bend": 20}
     manifolds = scene_manifolds(BALL, 0.01, *orbit, resolution, block["branches"])
     sets = scene_horseshoe(BALL, 0.01, *orbit, block["connection"])
+    figure = draw_horseshoe(SCENE | block, manifolds, sets)
+    above, (rim,) = frames_of(figure)[0], (a for a in figure.artists if len(a.get_xdata()) > 300)
+    assert all(above.contains(*at) for at in rim.get_xydata() * style.DPI)  # the whole section
     lines = np.stack(chart(0.2, *states_of(manifolds)))
     for x, y in zip(sets["x"].values, sets["y"].values, strict=True):
         off = np.abs(lines - np.array([[x], [y]])).max(axis=0)
         assert np.nanmin(off) < 0.004
+
+
+def test_a_mark_of_the_graph_is_a_connection_from_its_column_to_its_row():
+    corner_x = np.array([0.4, 0.1, 0.3, 0.3, 0.2])[:, None] + [-0.01, 0.01, 0.01, -0.01]
+    corner_y = np.array([0.0, 0.05, 0.1, -0.1, 0.0])[:, None] + [-0.01, -0.01, 0.01, 0.01]
+    graph = xr.Dataset({
+        "corner_x": (("set", "corner"), corner_x), "corner_y": (("set", "corner"), corner_y),
+        "source": ("connection", [0, 1, 3]), "target": ("connection", [1, 3, 3]),
+    }).assign_coords(connection=("set", [-1, -1, -1, -1, 0]))  # fmt: skip
+    orbits = xr.Dataset(
+        {name: ("point", [0.1]) for name in ("x", "xdot", "udot")}
+        | {"row_size": ("orbit", [1]), "type": ("orbit", ["chaotic"])}
+    )
+    figure = draw_graph(SCENE, graph, orbits)
+    section, matrix = frames_of(figure)
+    (marks,) = (a for a in figure.artists if a.get_color() == style.BLUE)
+    places = (marks.get_xydata() * style.DPI - matrix.p0) / matrix.size * 5
+    assert places == pytest.approx(np.array([[4, 1], [1, 2], [2, 2]]), abs=0.01)
+    texts = [(text.get_text(), np.array(text.get_position()) * style.DPI) for text in figure.texts]
+    at = {name: place for name, place in texts if section.contains(*place)}
+    assert at["1"][0] < at["2"][0] < at["4"][0] and at["2"][1] < at["3"][1]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 from project import ROOT
-from readable import assert_as_known
+from readable import assert_readable
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
@@ -64,16 +64,27 @@ def test_the_gif_repeats_on_white_and_has_the_same_bytes_twice(data, content):
     image = Image.open(BytesIO(content))
     shown = [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(image)]
     seconds = [frame.info["duration"] / 1000 for frame in ImageSequence.Iterator(image)]
-    assert image.info["loop"] == 0 and sum(seconds) == pytest.approx(0.08 * (9 + 10 + 6))
+    assert image.info["loop"] == 0 and sum(seconds) == pytest.approx(0.08 * (10 + 10 + 6))
     assert all((frame[:5] == 255).all() for frame in shown)
     still = pixels(draw(SCENE, *data)).astype(int)
-    assert np.abs(shown[-7].astype(int) - still).mean() < 1
+    assert np.abs(shown[8].astype(int) - still).mean() < 1
     last, first = shown[-1].astype(int), shown[0].astype(int)
     assert np.abs(last - first).mean() < 0.5 * np.abs(shown[-7].astype(int) - first).mean()
 
 
+def test_it_says_what_is_seen_and_that_it_begins_again(data):
+    orbits, frames = data
+    assert orbits["type"].values.tolist() == ["chaotic", "regular"]
+    said = [[text.get_text() for text in figure.texts] for figure in moving(SCENE, orbits, frames)]
+    assert all("one impact, one dot" in texts for texts in said)
+    assert all("Ball 1 of 2: chaotic, its dots fill a region" in texts for texts in said[:4])
+    regular = "New ball, 2 of 2: regular, its dots form closed curves"
+    assert all(regular in texts for texts in said[4:9])
+    assert len(said) == 10 and "It begins again." in said[9] and regular not in said[9]
+
+
 def test_its_still_can_be_read(data):
-    assert_as_known("publication/bounce", draw(SCENE, *data))
+    assert_readable(draw(SCENE, *data))
 
 
 def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures():

@@ -35,7 +35,7 @@ QUOTATION = (
 )
 # Pixels: the left of a plane's frame, and its largest size where cells have more than one.
 LEFT, WIDE, HIGH = 115, 800, 640
-_SIZE = 6.0  # points: text beside lines
+_SIZE, _KEY = 6.0, 7.0  # points: text beside lines, and in a key, where it has indices
 _NAME_WIDTH = 46  # pixels: the room that the name of a resonance needs
 _DASHES = 5.0, 4.0  # of the onset of jumps, in widths of the line
 Sweep = dict[str, Any]  # a block of the checked config
@@ -116,20 +116,20 @@ def _plane_key(
     dot = {"ls": "none", "marker": "o"}
     y = top
     if names:
-        sheet.text(LEFT + 70, y, f"rotation number of the fixed point, {ends}", size=_SIZE)
+        sheet.text(LEFT + 70, y, f"rotation number of the fixed point, {ends}", size=_KEY)
         _stroke(sheet, (across, [y] * 2))
         y -= 40
     if jumps:
-        sheet.text(LEFT + 70, y, "$E/g^2 = 1 + k/2$: above it the map jumps", size=_SIZE)
+        sheet.text(LEFT + 70, y, "$E/g^2 = 1 + k/2$: above it the map jumps", size=_KEY)
         _stroke(sheet, (across, [y] * 2), dashed=True)
         y -= 40
     if circles:
-        sheet.text(LEFT + 70, y, f"the paper's {paper}", size=_SIZE)
+        sheet.text(LEFT + 70, y, f"the paper's {paper}", size=_KEY)
         sheet.draw([LEFT + 25], [y], ms=5.0, mec=style.BACKDROP, mfc="white", mew=0.7, **dot)
         sheet.draw([LEFT + 25], [y], ms=2.5, color=style.BLACK, mew=0, **dot)
         y -= 40
     if grey:
-        sheet.text(LEFT + 70, y, "no chaotic orbit among those of the cell", size=_SIZE)
+        sheet.text(LEFT + 70, y, "no chaotic orbit among those of the cell", size=_KEY)
         sheet.draw(across, [y] * 2, lw=6.0, color=style.GRID)
 
 

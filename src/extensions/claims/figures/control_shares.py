@@ -1,64 +1,88 @@
-"""The regular share of maps that keep area, the reversor, both, or neither, a row for each."""
+"""The regular share of maps that keep area, the reversor, both, or neither, side by side."""
+
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
 from pseudorigid.figures.axes.limits import linear
-from pseudorigid.figures.axes.panel import Axis, Window, key, letters, log10, title
+from pseudorigid.figures.axes.panel import Axis, Window, key, letters
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import Sheet
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
 from . import Figure, Frame, Scene
 from .control import FORMS, KEPT, UNCHANGED
 
-_SPANS = (120, 535), (605, 1020)  # pixels: left and right of the columns
-_HIGH, _APART = 210, 275  # pixels: the height of a panel, and from one to the next below
+_LEFT, _RIGHT = 105, 1030  # pixels
+_BOTTOMS, _HIGH = (655, 175), 335  # pixels: of the panels
+_BESIDE = 0.28  # from a form of change to the next one, in places of an axis
 _HUES = dict(zip(FORMS, (style.BLACK, style.GREEN, style.ORANGE), strict=True))
+
+
+class _Groups(Window):
+    """A panel with a group of places for each property that maps keep."""
+
+    size = 7.0  # three values have room for their labels
+
+    def separate(self, count: int) -> None:
+        """Draw a line between groups of `count` places, and write above each what is kept."""
+        _, bottom, _, top = self.frame
+        for group, text in enumerate(KEPT.values()):
+            first = _first(group, count)
+            (middle, end), _ = self.place([first + 0.5 * (count - 1), first - 1.0], [0.0, 0.0])
+            self.sheet.text(middle, top + 5 * POINT, text, ha="center", size=self.size)
+            if group:
+                self._frame_line([end, end], [bottom, top])
 
 
 @style.pinned()
 def draw(scene: Scene, control: xr.Dataset) -> Figure:
-    """Draw the regular share against the strength, and against the number of impacts."""
-    sheet = Sheet(style.COLUMN, 1350)
-    sheet.text(1020, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
-    sheet.text(120, sheet.high - 32, "Regular share of maps that keep", size=8.0)
+    """Draw the regular share by what maps keep, for strengths of the change and run lengths.
+
+    Marks of the three forms of change are side by side, so that none hides another.
+    """
+    sheet = Sheet(style.COLUMN, 1125)
     regular = control.sel({"class": "regular"})
     shares = np.stack([regular[f"class_{name}"].values for name in ("share", "low", "high")])
-    at = int(np.argmin(np.abs(control["strength"].values - control.attrs["shown"])))
-    strengths, lengths = control["strength"].values[1:], control["length"].values.astype(float)
+    shown = control.attrs["shown"]
+    at = int(np.argmin(np.abs(control["strength"].values - shown)))
     up = linear(-0.01, min(1.03, 1.1 * float(shares.max()) + 0.02), 4)
-    text = rf"Impacts, $\epsilon$ = {style.number(control.attrs['shown'])}"
-    columns = (
-        (strengths, shares[:, :, 1:, -1], _logarithmic(strengths, r"Strength $\epsilon$")),
-        (lengths, shares[:, :, at], _logarithmic(lengths, text)),
-    )
-    unchanged = float(shares[0, 0, 0, -1])
-    frames: list[Frame] = []
-    for row, (kept, text) in enumerate(KEPT.items()):
-        for (left, right), (values, estimates, axis) in zip(_SPANS, columns, strict=True):
-            top = sheet.high - 105 - row * _APART
-            frames.append((left, top - _HIGH, right, top))
-            across = axis if row == len(KEPT) - 1 else axis.blank()
-            height = up if left == _SPANS[0][0] else up.blank()
-            panel = Window(sheet, frames[-1], across, height)
-            panel.line([1e-9, 1e9], [unchanged] * 2, color=style.BACKDROP, lw=1.2, ls="--")
-            for i, name in enumerate(control["map"].values.tolist()):
-                form, _, own = name.partition(" ")
-                if own == kept:
-                    value, low, high = estimates[:, i]
-                    panel.line(values, value, color=_HUES[form], lw=0.5)
-                    panel.bars(values, low, high, color=_HUES[form], lw=0.7)
-                    panel.dots(values, value, _HUES[form], 3.0, marker=FORMS[form])
-            title(sheet, frames[-1], text)
-    letters(sheet, *frames)
+    panels = (
+        (r"Regular share of maps that keep ..., by strength $\epsilon$",
+         control["strength"].values[1:].tolist(), shares[:, :, 1:, -1]),
+        (rf"..., by the number of impacts, at $\epsilon$ = {style.number(shown)}",
+         control["length"].values.tolist(), shares[:, :, at]),
+    )  # fmt: skip
+    frames: list[Frame] = [(_LEFT, low, _RIGHT, low + _HIGH) for low in _BOTTOMS]
+    maps = [name.partition(" ")[::2] for name in control["map"].values.tolist()]
+    for frame, (text, values, estimates) in zip(frames, panels, strict=True):
+        panel = _Groups(sheet, frame, _places(values), up)
+        sheet.text(_LEFT, frame[3] + 15 * POINT, text, size=8.0)
+        unchanged = [float(shares[0, 0, 0, -1])] * 2
+        panel.line(panel.across.limits, unchanged, color=style.SEA, lw=0.8, ls="--")
+        for (form, kept), (share, low, high) in zip(maps, estimates.swapaxes(0, 1), strict=True):
+            aside = _BESIDE * ([*FORMS].index(form) - 1)
+            places = _first([*KEPT].index(kept), len(values)) + np.arange(len(values)) + aside
+            panel.bars(places, low, high, color=_HUES[form], lw=0.8)
+            panel.dots(places, share, _HUES[form], 3.0, marker=FORMS[form])
+        panel.separate(len(values))
+    letters(sheet, *((left, low, right, high + 11 * POINT) for left, low, right, high in frames))
+    sheet.text(_RIGHT, sheet.high - 32, style.setting(scene), ha="right", va="center", size=7.0)
     entries = [(form, _HUES[form], mark, False, 3.4) for form, mark in FORMS.items()]
-    key(sheet, [*entries, (UNCHANGED, style.BACKDROP, "", True, 1.2)], 65, 4, 120, 900, 7.0)
+    key(sheet, [*entries, (UNCHANGED, style.SEA, "", True, 0.8)], 50, 4, _LEFT + 10, 900, 7.0)
     return sheet.figure
 
 
-def _logarithmic(values: np.ndarray, name: str) -> Axis:
-    """Return a logarithmic axis with a tick at each value."""
-    logs = log10(values)
-    room = max(0.08 * float(logs[-1] - logs[0]), 0.1)
-    texts = [style.number(value) for value in values]
-    return Axis((logs[0] - room, logs[-1] + room), logs.tolist(), name, True, texts)
+def _first(group: int, count: int) -> int:
+    """Return the first place of a group of `count` values, with one empty place between groups."""
+    return group * (count + 1)
+
+
+def _places(values: Sequence[float]) -> Axis:
+    """Return an axis with a place for each value in each group."""
+    count, groups = len(values), range(len(KEPT))
+    places = [_first(group, count) + i for group in groups for i in range(count)]
+    return Axis(
+        (-1.0, float(_first(len(KEPT), count) - 1)), places,
+        labels=[style.number(value) for value in values] * len(KEPT),
+    )  # fmt: skip

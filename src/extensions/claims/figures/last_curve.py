@@ -36,14 +36,14 @@ def draw(scene: Scene, last_curve: xr.Dataset) -> Figure:
     _residues(sheet, above, last_curve, full)
     _orbits(panel, last_curve, hues, numbers)
     corner(sheet, panel.frame, style.setting(scene))
-    _key(sheet, [f"convergents of {number}" for number in numbers], sheet.high - 29, full)
-    _key(sheet, [f"orbit at {number}" for number in numbers], 1025 + 48 * (rows - 1), hues)
+    _key(sheet, [f"convergents of {number}" for number in numbers], sheet.high - 29, full, "")
+    _key(sheet, [f"orbit at {number}" for number in numbers], 1025 + 48 * (rows - 1), hues, "o")
     return sheet.figure
 
 
-def _key(sheet: Sheet, names: list[str], top: float, hues: Sequence[str]) -> None:
-    """Draw a key of dots in two columns from `top` down."""
-    entries = [(name, hue, "o") for name, hue in zip(names, hues, strict=True)]
+def _key(sheet: Sheet, names: list[str], top: float, hues: Sequence[str], mark: str) -> None:
+    """Draw a key of lines, or of marks, in two columns from `top` down."""
+    entries = [(name, hue, mark) for name, hue in zip(names, hues, strict=True)]
     key(sheet, entries, top, 2, LEFT, SIDE)
 
 

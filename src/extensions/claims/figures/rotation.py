@@ -19,7 +19,9 @@ _FAR = 4.0  # a curve longer than this times the median does not set the lowest 
 @style.pinned()
 def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     """Draw rotation numbers and exponents, a detail with plateaus, and the departure by energy."""
-    sheet = Sheet(style.COLUMN, 2025)
+    rows = -(-rotation.sizes["energy"] // 4)  # of the lowest key
+    room = 75 * -(-42 * rows // 75)
+    sheet = Sheet(style.COLUMN, 1950 + room)
     good = rotation["type"].values[0] == "regular"
     detail = _regular_detail(rotation)
     entries: list[Entry] = []
@@ -31,8 +33,8 @@ def draw(scene: Scene, rotation: xr.Dataset) -> Figure:
     if rotation.sizes["plateau"]:
         entries.append(("islands", style.BLACK, "", False, 1.6))
     key(sheet, entries, sheet.high - 34, 4, _LEFT + 10, _RIGHT - _LEFT)
-    spans = (1545, 1875), (1265, 1465), (715, 1065), (112, 515)
-    frames: list[Frame] = [(_LEFT, low, _RIGHT, high) for low, high in spans]
+    spans = (1470, 1800), (1190, 1390), (640, 990), (110, 440)
+    frames: list[Frame] = [(_LEFT, low + room, _RIGHT, high + room) for low, high in spans]
     letters(sheet, *frames)
     _first_energy(sheet, frames[:2], scene, rotation)
     _detail(sheet, frames[2], rotation)
@@ -117,7 +119,7 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
     far = 0.1 * (int(far / 0.1) + 1) + 0.05
     across = linear(0.0, far, 6, "Start, section radii from the fixed point")
     panel = Panel(sheet, frame, across, up)
-    entries, drawn = [], []
+    entries = []
     hues = style.ordered(len(curves))
     for number, ((energy, start, change), shown) in enumerate(zip(curves, within, strict=True)):
         hue, dashes = hues[number], _DASHES[number % len(_DASHES)]
@@ -126,22 +128,11 @@ def _energies(sheet: Sheet, frame: Frame, rotation: xr.Dataset) -> None:
         if 0 < last < start.size:
             marker = "v" if change[last] < up.limits[0] else "^"
             panel.dots(start[last - 1], change[last - 1], hue, marker=marker)
-        drawn.append(np.array(panel.place(start[:last], change[:last])))
         if last > 1:
             entries.append((f"$E$ = {style.number(energy)}", hue, "", dashes))
     if not np.concatenate(within).all():
         corner(sheet, frame, "triangles: beyond the axis")
-    high = 39 * -(-len(entries) // 2)
-    x, y = np.hstack(drawn)
-    left, right, low, top = _LEFT + 20, _RIGHT - 350, frame[1] + high - 21, frame[3] - 60
-    corners = [(left, low), (right, low), (right, top), (left, top)]
-    left, top = min(corners, key=lambda at: _points_behind(x - at[0], at[1] - y, high))
-    key(sheet, entries, top, 2, left, 370, 6.5)
-
-
-def _points_behind(x: np.ndarray, down: np.ndarray, high: float) -> int:
-    """Return the number of points, from the first line of a key, that lie behind the key."""
-    return int(np.sum((x > -20) & (x < 330) & (down > -15) & (down < high)))
+    key(sheet, entries, frame[1] - 137, 4, _LEFT, _RIGHT - _LEFT, 7.0)
 
 
 def _departure_axis(curves: list[np.ndarray]) -> Axis:

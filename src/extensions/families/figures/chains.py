@@ -10,13 +10,13 @@ from extensions.atlas.grid import inertias
 from pseudorigid.dynamics.variables import rows
 from pseudorigid.figures.axes import raster
 from pseudorigid.figures.axes.limits import linear
-from pseudorigid.figures.axes.panel import Window, corner, letters
+from pseudorigid.figures.axes.panel import Window, letters
 from pseudorigid.figures.canvas import style
-from pseudorigid.figures.canvas.sheet import Sheet
+from pseudorigid.figures.canvas.sheet import POINT, Sheet
 
-COLUMNS, WIDE, HIGH = (115, 550), 370, 300  # pixels: lefts and size of panels
-BOTTOM, APART = 395, 380  # pixels: below the lowest panels, and from one row to the next
-_SIZE = 6.0  # points: text of the key
+COLUMNS, WIDE, HIGH = (105, 590), 445, 400  # pixels: lefts and size of panels
+BOTTOM, APART = 395, 475  # pixels: below the lowest panels, and from one row to the next
+_SIZE = 7.0  # points: text of the key
 _DASHES, _DOTS = (4.0, 1.6), (1.2, 1.6)  # in widths of a line
 # The kinds of curve: their style and meaning.
 _KINDS: dict[str, tuple[dict[str, Any], str]] = {
@@ -60,7 +60,8 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
         panel = Window(sheet, frames[-1], *axes, grid=False)
         panel.minor()
         atlas.colour(panel, sweep, data["regular"].values, raster.GREYS)
-        corner(sheet, frames[-1], f"chain 1/{order}")
+        above = left + WIDE / 2, bottom + HIGH + 4 * POINT  # apart from the letters
+        sheet.text(*above, f"chain 1/{order}", size=7.0, ha="center", va="bottom")
         for kind, of, part in zip(kinds, orders, spans, strict=True):
             if of in (order, 0):
                 energy, k = (curves[name].values[part] for name in ("energy", "k"))
@@ -69,7 +70,6 @@ def draw(sweep: dict[str, Any], data: xr.Dataset, curves: xr.Dataset) -> Figure:
             panel.dots([at], [atlas.PAPER_K], "white", size=4.0)
             panel.dots([at], [atlas.PAPER_K], style.BLACK, size=2.0)
     letters(sheet, *frames)
-    raster.scale(sheet, frames[:2][-1], 1.0, raster.GREYS)
     _key(sheet)
     return sheet.figure
 
@@ -81,8 +81,8 @@ def _key(sheet: Sheet) -> None:
         sheet.draw([left, left + 90], [y, y], **line_style)
         sheet.text(left + 108, y, text, size=_SIZE)
         y -= 38
-    sheet.text(left, y, "grey: regular share of the section", size=_SIZE)
-    x = left + 560
+    sheet.text(left, y, "grey: regular share, darker where larger", size=_SIZE)
+    x = left + 640
     sheet.dots([x], [y], "white", 4.0, mec=style.BLACK, mew=0.4)
     sheet.dots([x], [y], style.BLACK, 2.0)
     sheet.text(x + 25, y, "Figures 8 and 2", size=_SIZE)

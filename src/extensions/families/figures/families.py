@@ -1,7 +1,7 @@
 """Positions of periodic orbits against the energy or the inertia, below the regular share."""
 
 from collections.abc import Sequence
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 from typing import Any
 
 import numpy as np
@@ -18,21 +18,27 @@ from pseudorigid.figures.canvas.sheet import POINT, Sheet
 from pseudorigid.kernel.closed_forms import twice_energy_above_rest
 
 LEFT, RIGHT = 125, 1000  # pixels
-_WIDTHS = {"elliptic": 1.7, "hyperbolic": 0.45, "inverse hyperbolic": 0.6}
+_STYLES: dict[str, dict[str, Any]] = {
+    "elliptic": {"color": style.BLUE, "lw": 1.7},
+    "hyperbolic": {"color": style.BLACK, "lw": 0.5},
+    "inverse hyperbolic": {"color": style.VERMILION, "lw": 0.8, "ls": (0, (4.0, 2.5))},
+}
 _MARKS = {"fold": "o", "doubling": "s", "pitchfork": "D", "resonance": "^", "grazing": "x"}
 _NAMES = {"doubling": "period doubling", "grazing": "an impact grazes"}  # of marks in the key
 _APART = 14  # pixels: the least between two marks
 _NAMED = 6.5  # points: periods beside lines
-Lines = dict[int, tuple[slice, int, str]]  # family -> its points, period and colour
-_MARK = np.array(list(product((-5, 0, 5), repeat=2)))[:, :, None]  # pixels: steps in a mark
+Lines = dict[int, tuple[slice, int]]  # family -> its points and period
+Piece = tuple[np.ndarray, str]  # points in pixels (2, n), and their colour
+MARK = np.array(list(product((-5, 0, 5), repeat=2)))[:, :, None]  # pixels: steps in a mark
 
 
 @style.pinned()
 def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Figure:
     """Draw the regular share and positions of families over one axis of E or k.
 
-    Lines of elliptic orbits are thick, of hyperbolic ones thin, of inverse hyperbolic ones dashed.
-    Above are the fixed point's resonances. Families of a period above scene["drawn"] are left out.
+    Lines of elliptic orbits are thick, of hyperbolic ones thin, of inverse hyperbolic ones dashed,
+    each in a colour; a number beside a line is the family's period. Above are the fixed point's
+    resonances. Families of a period above scene["drawn"] are left out.
     """
     sheet = Sheet(style.COLUMN, 2025)
     across, parameter = abscissa(scene), scene["parameter"]
@@ -51,14 +57,15 @@ def draw(scene: dict[str, Any], families: xr.Dataset, shares: xr.Dataset) -> Fig
     at, share = (shares[name].values for name in (parameter, "regular"))
     least, most = (shares[f"regular_{end}"].values for end in ("low", "high"))
     above.estimates(at, share, least, most, style.BLUE)
+    others = []
     for end in rim[1:]:
-        below.line(rim[0], end, color=style.BACKDROP, lw=1.0)
+        below.line(rim[0], end, color=style.SEA, lw=1.0)
+        others.append(dense(below.place(rim[0], end), below.frame))
     shown = lines(scene, families)
-    for span, _, hue in shown.values():
-        stable_pieces(below, families, x, span, hue)
+    drawn = stable_pieces(below, families, x, shown)
     marks, places = _events(below, parameter, families, shown)
-    names(below, families[parameter].values, x, shown, np.hstack([places + by for by in _MARK]))
-    rim_entry = ("rim of the section", style.BACKDROP, "", False, 1.0)
+    names(below, drawn, shown, np.hstack([*others, *(places + by for by in MARK)]))
+    rim_entry = ("rim of the section", style.SEA, "", False, 1.0)
     entries = [(_NAMES.get(k, k), style.BLACK, mark, True) for k, mark in _MARKS.items()
                if k in marks]  # fmt: skip
     keys(sheet, scene, families, shown, [rim_entry, *entries])
@@ -73,37 +80,40 @@ def abscissa(scene: dict[str, Any]) -> Axis:
 
 
 def lines(scene: dict[str, Any], families: xr.Dataset) -> Lines:
-    """Return the points, the period and the colour of each family that is drawn, by its number."""
-    period = families["period"].values.tolist()
-    spans = enumerate(zip(rows(families), period, strict=True))
-    shown = {i: (span, n) for i, (span, n) in spans if n <= scene["drawn"]}
-    periods = sorted({n for _, n in shown.values()})
-    hues = dict(zip(periods, style.ordered(len(periods)), strict=True))
-    return {i: (span, n, hues[n]) for i, (span, n) in shown.items()}
-
-
-def names(
-    panel: Window, across: np.ndarray, up: np.ndarray, shown: Lines, others: np.ndarray
-) -> None:
-    """Write the period of each family beside its line, apart from other points in pixels (2, n)."""
-    curves = [
-        dense(panel.place(across[span], up[span]), panel.frame) for span, *_ in shown.values()
-    ]
-    texts, hues = ([f"{n}" for _, n, _ in shown.values()], [hue for *_, hue in shown.values()])
-    name_curves(panel.sheet, [*curves, others], texts, hues, panel.frame, _NAMED)
+    """Return the points and the period of each family that is drawn, by its number."""
+    spans = enumerate(zip(rows(families), families["period"].values.tolist(), strict=True))
+    return {i: (span, n) for i, (span, n) in spans if n <= scene["drawn"]}
 
 
 def stable_pieces(
-    panel: Window, families: xr.Dataset, heights: np.ndarray, span: slice, hue: str
-) -> None:
-    """Draw one family, in pieces of one type of stability."""
-    across = families[families.attrs["parameter"]].values[span]
-    up, types = heights[span], families["type"].values[span]
-    changes = [0, *(np.flatnonzero(types[1:] != types[:-1]) + 1).tolist(), types.size]
-    for first, last in pairwise(changes):
-        kind, piece = str(types[first]), slice(first, last + 1)
-        dashes = {"ls": (0, (4.0, 2.5))} if kind == "inverse hyperbolic" else {}
-        panel.line(across[piece], up[piece], color=hue, lw=_WIDTHS[kind], **dashes)
+    panel: Window, families: xr.Dataset, heights: np.ndarray, shown: Lines
+) -> list[list[Piece]]:
+    """Draw families in pieces of one type of stability, and return the pieces of each."""
+    across, types = families[families.attrs["parameter"]].values, families["type"].values
+    drawn = []
+    for span, _ in shown.values():
+        kinds = types[span]
+        turns = np.flatnonzero(kinds[1:] != kinds[:-1]) + 1
+        ends = (span.start + np.array([0, *turns, kinds.size])).tolist()
+        drawn.append(list[Piece]())
+        for first, last in pairwise(ends):
+            piece, look = slice(first, min(last + 1, span.stop)), _STYLES[str(types[first])]
+            panel.line(across[piece], heights[piece], **look)
+            place = panel.place(across[piece], heights[piece])
+            drawn[-1].append((dense(place, panel.frame), look["color"]))
+    return drawn
+
+
+def names(panel: Window, drawn: list[list[Piece]], shown: Lines, others: np.ndarray) -> None:
+    """Write the period of each family beside the longest of its pieces that are seen.
+
+    Periods are apart from other points in pixels, (2, n).
+    """
+    ordered = [sorted(pieces, key=lambda piece: -piece[0].shape[1]) for pieces in drawn]
+    longest, rest = [pieces[0] for pieces in ordered], [pieces[1:] for pieces in ordered]
+    curves = [points for points, _ in [*longest, *chain(*rest)]]
+    texts, hues = [f"{n}" for _, n in shown.values()], [hue for _, hue in longest]
+    name_curves(panel.sheet, [*curves, others], texts, hues, panel.frame, _NAMED)
 
 
 def _events(
@@ -121,18 +131,17 @@ def _events(
         for kind, x, y, family, one in zip(kinds, across, up, number, few, strict=True)
         if one or kind != "resonance"  # of longer chains there are too many
     ]
-    for index, (span, *_) in shown.items():
+    for index, (span, _) in shown.items():
         for side, last in ((0, span.start), (1, span.stop - 1)):
             end = families["end_kind"].values[index, side]
             kind = "grazing" if end in ("touch", "rim") else str(end)
             found.append((kind, *(families[name].values[last] for name in (parameter, "x")), index))
     found = [each for each in found if each[0] in _MARKS and each[3] in shown]
     marked, places = set(), np.empty((2, 0))
-    for kind, x, y, family in sorted(found, key=lambda each: [*_MARKS].index(each[0])):
+    for kind, x, y, _ in sorted(found, key=lambda each: [*_MARKS].index(each[0])):
         place = np.array(panel.place(x, y))
         if np.abs(places - place).max(axis=0).min(initial=np.inf) > _APART:
-            hue = shown[family][2]
-            panel.dots([x], [y], hue, 2.6, hollow=True, marker=_MARKS[kind])
+            panel.dots([x], [y], style.BLACK, 2.8, hollow=True, marker=_MARKS[kind])
             marked.add(kind)
             places = np.hstack([places, place])
     return marked, places
@@ -166,18 +175,16 @@ def resonances(panels: Sequence[Window], parameter: str, families: xr.Dataset) -
 def keys(
     sheet: Sheet, scene: dict[str, Any], families: xr.Dataset, shown: Lines, more: Sequence[Entry]
 ) -> None:
-    """Explain the widths, marks and colours that are drawn; write the ball above."""
-    types = {str(kind) for span, *_ in shown.values() for kind in families["type"].values[span]}
-    widths = ((kind, width) for kind, width in _WIDTHS.items() if kind in types)
+    """Explain the lines and marks that are drawn; write the ball above."""
+    types = {str(kind) for span, _ in shown.values() for kind in families["type"].values[span]}
     entries: list[Entry] = [
-        (kind, style.BLACK, "", "inverse" in kind, width) for kind, width in widths
+        (kind, look["color"], "", "ls" in look, look["lw"])
+        for kind, look in _STYLES.items()
+        if kind in types
     ]
     entries += more
     key(sheet, entries, 65 + 50 * -(-len(entries) // 3), 3, LEFT - 10, 900, 7.0)
-    hues = {f"{n}": hue for _, n, hue in sorted(shown.values(), key=lambda line: line[1])}
-    sheet.text(LEFT - 30, 65, "period", size=7.0)
-    entries = [(period, hue, "", False, 1.7) for period, hue in hues.items()]
-    key(sheet, entries, 65, 10, LEFT + 80, 820, 7.0)
+    sheet.text(LEFT - 20, 65, "A number beside a line is the period of its orbits.", size=7.0)
     fixed = {name: scene["ball"][name] for name in "kg" if name != scene["parameter"]}
     setting = style.setting(scene | {"ball": fixed}, energy=scene["parameter"] == "k")
     sheet.text(RIGHT, sheet.high - 40, setting, ha="right", va="center", size=7.0)

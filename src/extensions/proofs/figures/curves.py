@@ -11,13 +11,13 @@ from pseudorigid.figures.axes.panel import key
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import unbroken_runs
 
-_HATCH = 400  # lines of the shading across the section
-_SHADE = "#f0c3a6"
+_HATCH = 120  # lines of the hatching across the section
+_THIN = 0.35  # points: their width
 
 
 @style.pinned()
 def draw(scene: dict[str, Any], curves: xr.Dataset, orbits: xr.Dataset) -> Figure:
-    """Draw orbits, the proved curves, the areas inside, and points inside no invariant circle."""
+    """Draw orbits, proved curves, their hatched insides, and points inside no invariant circle."""
     panel, regular, chaotic = section.over_orbits(scene, orbits)
     x, y = curves["x"].values, curves["y"].values
     polygons = [(x[run], y[run]) for run in unbroken_runs(np.isnan(x))]
@@ -25,14 +25,14 @@ def draw(scene: dict[str, Any], curves: xr.Dataset, orbits: xr.Dataset) -> Figur
     for y in np.linspace(-height, height, _HATCH):
         for polygon in polygons:
             for ends in _inside(polygon, y):
-                panel.line(ends, [y, y], color=_SHADE, lw=0.8)
+                panel.line(ends, [y, y], color=style.VERMILION, lw=_THIN, zorder=1)
     for polygon in polygons:
         panel.line(*polygon, color=style.VERMILION, lw=1.0, zorder=5)
     saddles = curves["saddle_x"].values, curves["saddle_y"].values
     panel.dots(*saddles, style.BLACK, size=2.8)
     entries = [
         ("proved curve", style.VERMILION),
-        ("no orbit enters or leaves", _SHADE, "s", False, 5.0),
+        ("no orbit enters or leaves", style.VERMILION, "", False, _THIN),
         ("inside no invariant circle", style.BLACK, "o") if saddles[0].size else None,
         regular,
         chaotic,

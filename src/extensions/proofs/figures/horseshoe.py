@@ -14,7 +14,8 @@ from pseudorigid.figures.axes.panel import Axis, Window, corner, key, letters
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
-_HIGH = 1500  # pixels
+_HIGH = 1575  # pixels
+_WIDTHS, _RIM = (0.5, 1.0), 0.8  # points: of unstable and of stable branches, and of the rim
 _ABOVE, _BELOW = (135, 765, 1005, 1335), (135, 135, 1005, 600)
 _HALF = "${}$, in half sides of the middle set"
 _ROOM = 1.3  # height of the lower panel over that of its square; the square's name is above it
@@ -27,10 +28,11 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
     Raises ValueError if the axes show none of the sets or nothing of the image.
     """
     line_x, line_y = chart(horseshoe.attrs["k"], *states_of(manifolds))
+    rim_x, rim_y = section.rim(scene)  # around all that can be drawn
     scene = complete(
         scene,
-        x=lambda: of_data(line_x, horseshoe["x"].values),
-        y=lambda: of_data(line_y, horseshoe["y"].values),
+        x=lambda: of_data(rim_x),
+        y=lambda: of_data(rim_y),
         p=lambda: of_data(horseshoe["image_p"].values),
         q=lambda: of_data([-_ROOM, _ROOM], room=0.0),
     )
@@ -42,8 +44,8 @@ def draw(scene: dict[str, Any], manifolds: xr.Dataset, horseshoe: xr.Dataset) ->
     x, y, p, q = (Axis(**scene["axes"][axis], name=name) for axis, name in names.items())
     panel = Window(sheet, _ABOVE, x, y)
     for stable, span in zip(manifolds["stable"].values, rows(manifolds), strict=True):
-        hue, wide = style.pale(style.MANIFOLDS[stable]), (0.4, 0.8)[stable]
-        panel.line(line_x[span], line_y[span], color=hue, lw=wide)
+        panel.line(line_x[span], line_y[span], color=style.MANIFOLDS[stable], lw=_WIDTHS[stable])
+    panel.line(rim_x, rim_y, color=style.RIM, lw=_RIM)
     _sets(panel, horseshoe)
     _relation(Window(sheet, _BELOW, p, q), horseshoe)
     corner(sheet, _BELOW, style.setting(scene))
@@ -68,22 +70,24 @@ def _sets(panel: Window, horseshoe: xr.Dataset) -> None:
     on the way back, and NaN for the sets at the saddles.
     """
     x, y, chain = (horseshoe[name].values for name in ("x", "y", "chain"))
-    out, back = (style.BLUE, "o", False, 2.2), (style.ORANGE, "^", False, 2.8)
-    saddles, middle = (style.BLACK, "o", False, 3.6), (style.VERMILION, "D", False, 3.6)
+    out, back = (style.BLUE, "o", False, 3.0), (style.VERMILION, "^", False, 3.6)
+    saddles, middle = (style.BLACK, "s", False, 4.0), (style.VERMILION, "D", False, 4.4)
     for sets, (hue, mark, _, size) in (
         (chain < 0.0, out),
         (chain > 0.0, back),
         (np.isnan(chain), saddles),
         (chain == 0.0, middle),
     ):
+        panel.dots(x[sets], y[sets], "white", size=size + 1.2, marker=mark)
         panel.dots(x[sets], y[sets], hue, size=size, marker=mark)
     entries = (
         ("at the saddles", *saddles),
         ("middle set", *middle),
-        ("stable", style.pale(style.STABLE), "", False, 0.8),
+        ("stable", style.STABLE, "", False, _WIDTHS[1]),
         ("on the way out", *out),
         ("on the way back", *back),
-        ("unstable", style.pale(style.UNSTABLE), "", False, 0.4),
+        ("unstable", style.UNSTABLE, "", False, _WIDTHS[0]),
+        ("grazing rim", style.RIM, "", False, _RIM),
     )
     left, _, right, _ = panel.frame
     key(panel.sheet, entries, _HIGH - 29, 3, left, right - left)

@@ -13,10 +13,12 @@ from pseudorigid.figures.axes.section import Section, circle
 from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
-_HIGH, _FLOOR = 450, 108  # pixels
+_HIGH, _CEILING, _FLOOR = 525, 450, 108  # pixels
 _LEFT, _RIGHT, _LARGEST = 30, 330, 125.0  # pixels: ends of the floor, largest radius of the ball
 _FRAME = 420, 108, 1020, 384  # pixels: the panel of the section
 _SIZE = 7.5  # points
+_TYPES = {"regular": ": regular, its dots form closed curves",
+          "chaotic": ": chaotic, its dots fill a region"}  # fmt: skip
 _CURVE, _SEA, _NEWEST = 1.0, 0.5, 4.5  # points: the sizes of dots
 
 
@@ -30,13 +32,18 @@ def draw(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset) -> Figur
 
 
 def moving(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset) -> Iterator[Figure]:
-    """Draw all frames."""
-    return (_frame(scene, orbits, frames, index) for index in range(frames.sizes["frame"]))
+    """Draw all frames, and the last one again, which says that the picture begins again."""
+    last = frames.sizes["frame"] - 1
+    for index in range(last + 1):
+        yield _frame(scene, orbits, frames, index)
+    yield _frame(scene, orbits, frames, last, "It begins again.")
 
 
 @style.pinned()
-def _frame(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset, index: int) -> Figure:
-    """Draw one frame."""
+def _frame(
+    scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset, index: int, words: str = ""
+) -> Figure:
+    """Draw one frame, with words above it, by default what orbit the ball follows."""
     sheet = Sheet(style.COLUMN, _HIGH)
     panel = Section(sheet, _FRAME, scene, names=("$x$", "$y$"))
     regular = orbits["type"].values == "regular"
@@ -53,11 +60,20 @@ def _frame(scene: dict[str, Any], orbits: xr.Dataset, frames: xr.Dataset, index:
     panel.rim()
     tallest = float((2.0 + frames["strain"] - frames["position"]).max())  # top of the ball, in R
     position, strain = (float(frames[name][index]) for name in ("position", "strain"))
-    size = min(_LARGEST, (_HIGH - _FLOOR - 15) / tallest)
+    size = min(_LARGEST, (_CEILING - _FLOOR - 15) / tallest)
     _ball(sheet, position, strain, size, hues[followed])
-    sheet.text(0.5 * (_LEFT + _RIGHT), 56, f"impact {impacts:,}", _SIZE, ha="center")
+    sheet.text(0.5 * (_LEFT + _RIGHT), 66, f"impact {impacts:,}", _SIZE, ha="center")
+    sheet.text(0.5 * (_LEFT + _RIGHT), 28, "one impact, one dot", _SIZE, ha="center")
+    sheet.text(_LEFT, _HIGH - 36, words or _about(orbits, followed), _SIZE)
     corner(sheet, _FRAME, style.setting(scene))
     return sheet.figure
+
+
+def _about(orbits: xr.Dataset, followed: int) -> str:
+    """Say which orbit the ball follows, and what its impacts look like."""
+    types = orbits["type"].values.tolist()
+    ball = "New ball," if followed else "Ball"
+    return f"{ball} {followed + 1} of {len(types)}{_TYPES.get(types[followed], '')}"
 
 
 def _ball(sheet: Sheet, position: float, strain: float, radius: float, hue: str) -> None:

@@ -83,12 +83,15 @@ class Box:
             self.sheet.draw(*piece, lw=width, color=color)
 
     def names(
-        self, curves: Sequence[np.ndarray], names: Sequence[str], colors: Sequence[str]
-    ) -> None:
-        """Write the name of each curve beside it, as far as there is room."""
+        self, curves: Sequence[np.ndarray], names: Sequence[str], colors: Sequence[str],
+        ground: np.ndarray,
+    ) -> None:  # fmt: skip
+        """Write the name of each curve beside it, as far as there is room, best off the ground."""
         curves = [*curves, self.surface.outline(self.view), self.surface.rim()]
         pixels = [np.array(self.view(points[:, self.seen(points)])) for points in curves]
-        name_curves(self.sheet, pixels, names, colors, (0, 0, _WIDE, self.sheet.high), _NAMED)
+        behind = np.array(self.view(ground[:, self.seen(ground)]))
+        frame = 0, 0, _WIDE, self.sheet.high
+        name_curves(self.sheet, pixels, names, colors, frame, _NAMED, behind)
 
     def seen(self, points: np.ndarray) -> np.ndarray:
         """Return whether each point lies in the box and the surface in the box does not hide it."""

@@ -70,8 +70,8 @@ def linear(low: float, high: float, count: float, name: str = "") -> Axis:
     base = 1000 * unit * (_as_written(values[0]) // (1000 * unit))
     labels = [style.number(float((_as_written(value) - base) / unit)) for value in values]
     if base:
-        name = f"{name}, less {style.number(float(base))}"
-    return Axis((low, high), values, rf"{name}, / $10^{{{power}}}$", labels=labels)
+        name = f"({name} less {style.number(float(base))})"
+    return Axis((low, high), values, rf"{name} $/\;10^{{{power}}}$", labels=labels)
 
 
 def around(

@@ -29,9 +29,8 @@ class Section(Panel):
         self, sheet: Sheet, frame: Frame, scene: dict[str, Any], room: float = 1.06, ticks: int = 5,
         names: tuple[str | None, str | None] = ("$x$", NAME),
     ) -> None:  # fmt: skip
-        self.k, g = scene["ball"]["k"], scene["ball"]["g"]
-        self.centre = g / self.k
-        self.radius = math.sqrt(twice_energy_above_rest(self.k, g, scene["energy"]) / self.k)
+        self.scene, self.k = scene, scene["ball"]["k"]
+        self.centre, self.radius = extent(scene)
         self.high = math.sqrt(self.k * (1.0 + self.k))  # of the section, in radii
         half = room * self.radius
         high = _STEP * math.ceil(self.high / _STEP) * half
@@ -48,13 +47,24 @@ class Section(Panel):
         spans = rows(orbits)
         for index in np.argsort(regular, kind="stable").tolist():
             hue, size = (style.BACKDROP, 0.9) if regular[index] else (style.PALE_SEA, 0.7)
-            self.dots(x[spans[index]], y[spans[index]], hue, size=size)
+            place = self.place(x[spans[index]], y[spans[index]])
+            self.sheet.dots(*place, hue, size, zorder=1.5)  # below names of curves
 
     def rim(self, zorder: float = 4.5) -> None:
         """Draw the rim."""
-        cosine, sine = circle()
-        x = self.centre + self.radius * cosine
-        self.line(x, self.high * self.radius * sine, color=style.BLACK, lw=0.8, zorder=zorder)
+        self.line(*rim(self.scene), color=style.BLACK, lw=0.8, zorder=zorder)
+
+
+def extent(scene: dict[str, Any]) -> tuple[float, float]:
+    """Return x of the middle of a scene's section, and its radius along x."""
+    k, g = scene["ball"]["k"], scene["ball"]["g"]
+    return g / k, math.sqrt(twice_energy_above_rest(k, g, scene["energy"]) / k)
+
+
+def rim(scene: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Return x and y of the rim of a scene's section, all around."""
+    k, (centre, radius), (cosine, sine) = scene["ball"]["k"], extent(scene), circle()
+    return centre + radius * cosine, math.sqrt(k * (1.0 + k)) * radius * sine
 
 
 def circle(sides: int = 720) -> tuple[np.ndarray, np.ndarray]:

@@ -25,6 +25,7 @@ def name_curves(
     colors: Sequence[str],
     frame: Frame,
     size: float,
+    ground: np.ndarray | None = None,
 ) -> None:
     """Write the name of each curve where the other curves are farthest, on a white ground.
 
@@ -32,13 +33,17 @@ def name_curves(
     Curves are points (2, n) in pixels, so dense that a name does not fit between two of them; one
     beyond the last name has none. A name that would lie on a curve or another name, or beyond the
     frame (left, bottom, right, top), is left out. Names of curves that lie within the islands of
-    one another are at the same island, if there is room.
+    one another are at the same island, if there is room. Places off the points (2, n) of the
+    `ground` are preferred.
     """
     cells = [(np.unique(np.floor(c / _CELL), axis=1) + 0.5) * _CELL for c in curves]
     gap, places = _GAP * POINT, []
+    covered = _Cells(frame, np.empty((2, 0)) if ground is None else ground)
     for i, name in enumerate(names):
         half = 0.5 * width(name, size), 0.5 * _HIGH * size * POINT
         others = np.hstack([cell for j, cell in enumerate(cells) if j != i])
+        # On the curve or beside it, off the ground, and then the same on the ground.
+        found: list[list[tuple[np.ndarray, np.ndarray]]] = [[], []]
         for beside in (False, True):
             centres = _places(cells[i], half, gap, frame, beside)
             own, room = (_room(centres, half, points) for points in (cells[i], others))
@@ -49,9 +54,11 @@ def name_curves(
                 hidden, near = (np.sum(own < reach, axis=1) for reach in (gap, 5.0 * half[1]))
                 free = hidden < _HIDDEN * near
             free &= room > _LEAST * gap
-            if free.any():
-                break
-        places.append((i, half, centres[:, free], room[free]))
+            for kept, chosen in zip(found, (free & covered.free(centres, half), free), strict=True):
+                kept.append((centres[:, chosen], room[chosen]))
+        offers = [offer for kept in found for offer in kept]
+        best = next((offer for offer in offers if offer[1].size), offers[0])
+        places.append((i, half, *best))
     taken = np.empty((2, 0))
     named: list[tuple[np.ndarray, np.ndarray]] = []  # place and islands
     for i, half, centres, to_curves in sorted(places, key=lambda place: place[3].size):
@@ -70,6 +77,30 @@ def name_curves(
         across, up = np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
         box = np.array([x + half[0] * across.ravel(), y + half[1] * up.ravel()])
         taken = np.hstack([taken, box])
+
+
+class _Cells:
+    """Which cells of a frame have points (2, n)."""
+
+    def __init__(self, frame: Frame, points: np.ndarray) -> None:
+        self.corner = np.array(frame[:2])[:, None]
+        self.last = ((np.array(frame[2:])[:, None] - self.corner) // _CELL).astype(np.int64)
+        covered = np.zeros(self.last.ravel() + 1, dtype=np.int64)
+        covered[tuple(self._cell(points))] = 1
+        self.sums = np.pad(covered.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+
+    def free(self, centres: np.ndarray, half: tuple[float, float]) -> np.ndarray:
+        """Return whether no cell that a rectangle around each centre meets has points."""
+        reach = np.array(half)[:, None]
+        x0, y0 = self._cell(centres - reach)
+        x1, y1 = self._cell(centres + reach) + 1
+        sums = self.sums
+        return sums[x1, y1] - sums[x0, y1] - sums[x1, y0] + sums[x0, y0] == 0
+
+    def _cell(self, points: np.ndarray) -> np.ndarray:
+        """Return the cells of points, those at the ends for points beyond the frame."""
+        cells = np.floor((points - self.corner) / _CELL).astype(np.int64)
+        return np.clip(cells, 0, self.last)
 
 
 def dense(line: Sequence[np.ndarray], frame: Frame) -> np.ndarray:

@@ -28,7 +28,8 @@ _SCALE = "inferno", 36, 172  # matplotlib's table, and its darkest and lightest 
 GRID, PANE, FRAME = "#e0e0e0", "#b0b0b0", "#404040"
 RIM = BLACK
 QUIET = GRID, PANE, BACKDROP, PALE_SEA  # need no contrast, since they are the ground of the data
-_WEIGHTS, _INK = (2126, 7152, 722), 1833 * 255**2  # of red, green and blue; the most for a text
+_WEIGHTS = 2126, 7152, 722  # of red, green and blue
+_INK, _PALE = 1833 * 255**2, 3000 * 255**2  # the most for a text, for a line
 
 NAMES = {"x": "$x$", "xdot": r"$\dot{x}^{{-}}$", "udot": r"$\dot{u}^{{-}}$"}
 
@@ -81,17 +82,24 @@ def ordered(count: int) -> list[str]:
 
 
 def pale(color: str) -> str:
-    """Return `color` (#rrggbb) mixed with twice as much white."""
-    return "#" + bytes((part + 2 * 255) // 3 for part in bytes.fromhex(color[1:])).hex()
+    """Return `color` (#rrggbb) mixed with white as far as a contrast of 3 with white allows."""
+    parts = lighter = [*bytes.fromhex(color[1:])]
+    while _light(lighter) <= _PALE:
+        parts, lighter = lighter, [(part * 15 + 255) // 16 for part in lighter]
+    return "#" + bytes(parts).hex()
 
 
 def ink(color: str) -> str:
     """Return `color` (#rrggbb) for a text: darkened to a contrast of 4.5 with white."""
     parts = [*bytes.fromhex(color[1:])]
-    # Squares exceed the luminance of sRGB by a little, and have the same bits everywhere.
-    while sum(weight * part * part for weight, part in zip(_WEIGHTS, parts, strict=True)) > _INK:
+    while _light(parts) > _INK:
         parts = [part * 15 // 16 for part in parts]
     return "#" + bytes(parts).hex()
+
+
+def _light(parts: Sequence[int]) -> int:
+    """Return a little more than the luminance of sRGB, with the same bits everywhere."""
+    return sum(weight * part * part for weight, part in zip(_WEIGHTS, parts, strict=True))
 
 
 def setting(scene: dict[str, Any], energy: bool = True) -> str:
