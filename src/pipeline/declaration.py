@@ -62,7 +62,6 @@ class Stage(NamedTuple):
     more: str = ""
     of_block: str = ""
     reads: str = ""  # a pattern of the data files that it reads, with its fields in braces
-    measured: bool = False  # its data are times of this machine, and are never compared
     alone: bool = False  # it uses all cores, or measures seconds: no other job runs beside it
     mem_mb: int = 1000  # megabytes that its job may take on a cluster
     runtime: int = 60  # minutes that its job, or the job of a block, may take there
