@@ -136,9 +136,9 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
         if installed.get(package) != version:
             words = f"{package} is {installed.get(package)} here, not {version}"
             raise FileError(f"{words}: run ./reproduce again")
-    commit, dirty = _commit()
+    head, dirty = commit()
     record: dict[str, Any] = {
-        "commit": commit,
+        "commit": head,
         "dirty": dirty,
         "function": spec.function,
         "config": spec.config,
@@ -227,17 +227,17 @@ def git_refuses(root: str | os.PathLike[str] = ".") -> bool:
     return there and git("rev-parse", "--git-dir", root=root) is None
 
 
-def _commit() -> tuple[str | None, bool | None]:
+@cache
+def commit() -> tuple[str | None, bool | None]:
     """Return the commit, and whether tracked files other than figures differ from it."""
-    commit = git("rev-parse", "HEAD")
-    # Another repository may contain this folder.
-    if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
+    # Without the second name, this could be the commit of a repository that contains this folder.
+    commits = git("rev-parse", "HEAD", "HEAD:./Snakefile")
+    if commits is None:
         return None, None
-    others = list[str]()
-    for part in parts().values():
-        others += [f":!{each.folder}" for each in part.sets.values() if each.folder]
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
-    return commit.decode().strip(), None if changed is None else bool(changed)
+    sets = [each for part in parts().values() for each in part.sets.values()]
+    figures = [f":!{each.folder}" for each in sets if each.folder]
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *figures)
+    return commits.split()[0].decode(), None if changed is None else bool(changed)
 
 
 # -- which results are current ---------------------------------------------------------------------

@@ -157,9 +157,8 @@ class ParsedSource(NamedTuple):
 
 
 def syntax_hash(path: str | os.PathLike[str]) -> str | None:
-    """Return the hash of a file in hex, or None if there is no regular file."""
+    """Return the hash of a file in hex, or None if there is no file."""
     path = Path(path)
-    # Reading a FIFO would block.
     return parsed(path.name, path.read_bytes()).syntax_hash if path.is_file() else None
 
 
