@@ -117,7 +117,7 @@ class Findings:
     def report(self) -> list[str]:
         """Return the lines for the user: those of published files, then all other findings.
 
-        Files of a figure that say the same have one line, and one for each further layer.
+        Formats of a figure that differ in the same way share a line for each layer.
         """
         figures = dict[tuple[str, ...], list[str]]()
         for name, layers in self.layers.items():

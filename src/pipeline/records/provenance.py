@@ -122,10 +122,10 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
 
     The body may describe the result further in the mapping that it is given.
 
-    A ValueError in the body says that the result cannot exist (one of a subclass, such as
-    FileError, only if it has the attribute `lasting`). The record has this refusal then. Raises
-    FileError, and writes no record, if a source is not as the specification has it, or if a
-    source or an input changes.
+    A ValueError in the body says that the result cannot exist. The record then has its message. An
+    error of a subclass of ValueError, such as FileError, counts only if it has the attribute
+    `lasting`. Raises FileError, and writes no record, if a source is not as the specification has
+    it, or if a source or an input changes.
     """
     hashes = {path: file_hash(path) for path in sorted([*spec.sources, *spec.inputs])}
     for path, meaning in spec.sources.items():
@@ -373,7 +373,7 @@ class Freshness:
     def _made_otherwise(self, path: str, record: dict[str, Any]) -> str | None:
         """Return the first difference between a record and what this tree makes a result from."""
         spec = self.build_specs[path]
-        # What was made another way, to the same bytes, says which further sources that has.
+        # A graphics card makes the same bytes with further sources, which the record names.
         way = record["output"].get("way", {})
         before = record | {"sources": record["sources"] | way}
         here = record | {
