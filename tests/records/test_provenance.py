@@ -110,14 +110,15 @@ def test_a_result_whose_job_was_killed_before_its_record_has_to_be_made_again(ma
 
 def test_a_package_that_is_installed_on_demand_has_the_version_that_would_be(monkeypatch):
     """So that a new .venv outdates no result of proofs."""
-    here = provenance._installed("python-flint")
+    installed = provenance._installed.__wrapped__
+    here = installed("python-flint")
 
     def lacking(name):
         raise metadata.PackageNotFoundError
 
     monkeypatch.setattr(metadata, "version", lacking)
-    assert provenance._installed("python-flint") == here and here
-    assert provenance._installed("numpy") is None
+    assert installed("python-flint") == here and here
+    assert installed("numpy") is None
 
 
 @pytest.mark.parametrize(("package", "outdated"), [

@@ -51,7 +51,7 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
     options += [] if args.makes_nothing else ["--logger", "reproduce"]
     if not args.options:
         options += ["--executor", "reproduce", "--", *outdated]
-        return _run([*python, "pipeline.jobs.forked", *options], remote=False)
+        return _run([*python, "pipeline.jobs.forks", *options], remote=False)
     command = [*python, "snakemake", *options, *args.options, "--", *paths]
     if not args.makes_nothing:
         return _run(command, remote=True)

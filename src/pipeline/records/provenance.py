@@ -188,9 +188,7 @@ def require_loaded_unchanged() -> None:
 
 
 def versions(
-    spec: BuildSpec,
-    modules_of: Callable[[str], set[str]] = imported_modules,
-    version_of: Callable[[str], str | None] | None = None,
+    spec: BuildSpec, modules_of: Callable[[str], set[str]] = imported_modules
 ) -> dict[str, str | None]:
     """Return the installed version of each package that decides the bits of a result, or None.
 
@@ -200,9 +198,10 @@ def versions(
     imported = set[str]().union(*map(modules_of, spec.sources))
     packages = {each for module in imported & PACKAGES.keys() for each in PACKAGES[module]}
     packages |= {"pillow"} if spec.result.endswith(".gif") else set()
-    return {package: (version_of or _installed)(package) for package in sorted(packages)}
+    return {package: _installed(package) for package in sorted(packages)}
 
 
+@cache
 def _installed(package: str) -> str | None:
     """Return the version of a package, of one that is installed on demand that of its list."""
     with suppress(metadata.PackageNotFoundError):
@@ -266,13 +265,10 @@ class Freshness:
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.reason = cache(self._reason)
         self.build_specs = dict[str, BuildSpec]()
-        modules_of, version_of = (
-            cache(lambda file: imported_modules(root / file)),
-            cache(_installed),
-        )
+        modules_of = cache(lambda file: imported_modules(root / file))
         for path, spec in build_specs.items():
             sources = {file: self.syntax_hash(file) for file in spec.sources}
-            environment = versions(spec, modules_of, version_of)
+            environment = versions(spec, modules_of)
             self.build_specs[path] = spec._replace(sources=sources, environment=environment)
 
     def set_times(self) -> None:
