@@ -25,7 +25,7 @@ class CompletionError(Exception):
 
 
 class Scan(fields.Block):
-    """A search of the next impact in steps of equal length, as it is usually written."""
+    """A search for the next impact in equal steps of time."""
 
     scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
     """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected, for
