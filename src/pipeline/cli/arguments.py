@@ -112,7 +112,9 @@ def read(arguments: list[str]) -> Arguments:
     if word == "help":
         return read([*filter(None, [args.word]), "--help"])
     if not word and args.version:
-        print(_versions())
+        lock = read_text(ROOT / "requirements/lock.txt")
+        (snakemake,) = re.findall("^snakemake==([^ ;]+)", lock, re.MULTILINE)
+        print(f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}")
         sys.exit(0)
     args.word, args.options = word, options
     return args
@@ -170,10 +172,3 @@ def _parser(name: str | None) -> _Parser:
     parser.usage = parser.format_usage().partition(": ")[2].strip()
     parser.usage = parser.usage.replace(f"[{REQUIRED} ...]", f"{REQUIRED} [{REQUIRED} ...]")
     return parser
-
-
-def _versions() -> str:
-    """Return the versions of this project and of snakemake."""
-    lock = read_text(ROOT / "requirements/lock.txt")
-    (snakemake,) = re.findall("^snakemake==([^ ;]+)", lock, re.MULTILINE)
-    return f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}"
