@@ -187,8 +187,19 @@ def require_loaded_unchanged() -> None:
             require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
+def _installed(package: str) -> str | None:
+    """Return the version of a package, of one that is installed on demand that of its list."""
+    with suppress(metadata.PackageNotFoundError):
+        return metadata.version(package)
+    lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
+    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
+    return pins.get(package)
+
+
 def versions(
-    spec: BuildSpec, modules_of: Callable[[str], set[str]] = imported_modules
+    spec: BuildSpec,
+    modules_of: Callable[[str], set[str]] = imported_modules,
+    version_of: Callable[[str], str | None] = _installed,
 ) -> dict[str, str | None]:
     """Return the installed version of each package that decides the bits of a result, or None.
 
@@ -198,17 +209,7 @@ def versions(
     imported = set[str]().union(*map(modules_of, spec.sources))
     packages = {each for module in imported & PACKAGES.keys() for each in PACKAGES[module]}
     packages |= {"pillow"} if spec.result.endswith(".gif") else set()
-    return {package: _installed(package) for package in sorted(packages)}
-
-
-@cache
-def _installed(package: str) -> str | None:
-    """Return the version of a package, of one that is installed on demand that of its list."""
-    with suppress(metadata.PackageNotFoundError):
-        return metadata.version(package)
-    lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
-    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
-    return pins.get(package)
+    return {package: version_of(package) for package in sorted(packages)}
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
@@ -266,9 +267,10 @@ class Freshness:
         self.reason = cache(self._reason)
         self.build_specs = dict[str, BuildSpec]()
         modules_of = cache(lambda file: imported_modules(root / file))
+        version_of = cache(_installed)
         for path, spec in build_specs.items():
             sources = {file: self.syntax_hash(file) for file in spec.sources}
-            environment = versions(spec, modules_of)
+            environment = versions(spec, modules_of, version_of)
             self.build_specs[path] = spec._replace(sources=sources, environment=environment)
 
     def set_times(self) -> None:

@@ -162,5 +162,7 @@ def _pieces(value: object) -> Iterator[str]:
         yield "}" if isinstance(value, dict) else "]"
     elif value is None:
         yield "nothing"
+    elif isinstance(value, int) and value.bit_length() > 14_000:  # too long for decimals
+        yield hex(value)
     else:
         yield str(value).lower() if isinstance(value, bool) else repr(value)
