@@ -121,9 +121,9 @@ class Tree:
             (self.path / MEANINGS).mkdir(exist_ok=True)
             shutil.copy(kept, self.path / MEANINGS)
         for kept in here.glob("*.*-*"):
-            module, named = kept.name.rpartition("-")[0], sources.machine_code_folder.__wrapped__
+            module, _, digest = kept.name.rpartition("-")
             with suppress(ValueError):  # the module no longer exists
-                if named(self.path / "src", module)[0] == kept.name:
+                if sources.machine_code_digest.__wrapped__(self.path / "src", module)[0] == digest:
                     shutil.copytree(kept, there / kept.name, dirs_exist_ok=True)
 
     def command(self, *arguments):

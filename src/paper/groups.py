@@ -32,7 +32,7 @@ from pseudorigid.kernel.closed_forms import fixed_point, twice_energy_above_rest
 
 
 class View(Block):
-    """a mapping with the keys elevation and azimuth"""
+    """The direction from which a surface is seen."""
 
     elevation: float = allowed("a number of degrees from 0.1 to 89.9", ge=0.1, le=89.9)
     """Angle of the viewing direction above the plane of x and xdot."""
@@ -42,14 +42,14 @@ class View(Block):
 
 
 class Branch(Block):
-    """a mapping with the key length"""
+    """Branches of manifolds on one side of a periodic point."""
 
     length: float = allowed("a positive number, in radii of the section", gt=0)
     """Arc length along which each of these branches is traced from its periodic point."""
 
 
 class BothBranches(Block):
-    """a mapping with the keys outer and inner, or one of them"""
+    """The branches of manifolds that are traced."""
 
     outer: Branch = ABSENT
     """Branches on the far side of the fixed point, which fold in the chaotic sea."""
@@ -58,7 +58,7 @@ class BothBranches(Block):
 
 
 class Resolution(Block):
-    """a mapping with the keys distance and bend"""
+    """How finely a line is traced."""
 
     distance: float = allowed("a number from 1e-9 to 1, in radii of the section", ge=1e-9, le=1)
     """Largest distance between neighbouring points of a traced line. Use 0.01 for a picture of the
@@ -68,7 +68,7 @@ class Resolution(Block):
 
 
 class Window(Block):
-    """a mapping with the keys x and xdot"""
+    """A window of the section around a point."""
 
     x: Range
     """Ends of the window in x, measured from the point, in section radii."""

@@ -22,7 +22,7 @@ from pseudorigid.kernel import compiled  # loaded from its text
 
 from .records import sources
 
-compiled.subfolder = sources.compiled_subfolder
+compiled.name_folders_by(sources.digest_of_loaded)
 
 # Snakemake asks for the user's name and makes a cache. In a container, a user may be a number that
 # has no name, and no home.

@@ -5,12 +5,12 @@ PART. Files beside it are found by their names:
 
     __init__.py       (also in figures/)
     kinds.py          kinds of picture: the fields of their scenes
-    settings.py       blocks of config.yaml that are no scenes, each a class of its name; one that
-                      `computes` stages (stage -> function) is a method of scenes
+    settings.py       other mappings of config.yaml, each a class of its name; one that `computes`
+                      stages (stage -> function) is a method of scenes
     figures/KIND.py   the functions `draw` and, for a kind with axes, `hidden`: what these hide;
                       for a kind with gif among its formats, `moving`: its frames
     figures/reports.py  what pictures report
-    scenes.yaml       blocks of config.yaml that it ships, and variants
+    scenes.yaml       scenes and variants that it ships
     captions.toml     captions of its pictures
     examples.yaml     a small scene of each kind, for the docs and the tests
     bench.py          rows of the benchmark: calls(), and lines(seconds) on them
@@ -57,12 +57,12 @@ class Stage(NamedTuple):
     fields: str = ""  # the scene's fields that it takes, as far as the scene has them
     inputs: tuple[str, ...] = ()  # stages whose datasets it takes
     follows: bool = False  # it follows orbits, so that a scene's `method` decides its data too
-    # A function (config, scene, specification) -> specifications, if it takes more than its inputs:
-    # that of its dataset with all that it takes, after those of blocks that `of_block` computes.
+    # A function (config, scene, specification) -> specifications, for a stage that takes datasets
+    # of other scenes or that is computed in blocks. It returns the specification with all inputs,
+    # after those of the blocks.
     more: str = ""
-    of_block: str = ""
+    of_block: str = ""  # the function that computes a block: the cells of a sweep that a job takes
     reads: str = ""  # a pattern of the data files that it reads, with its fields in braces
-    measured: bool = False  # its data are times of this machine, and are never compared
     alone: bool = False  # it uses all cores, or measures seconds: no other job runs beside it
     mem_mb: int = 1000  # megabytes that its job may take on a cluster
     runtime: int = 60  # minutes that its job, or the job of a block, may take there
@@ -74,7 +74,7 @@ class SceneSet(NamedTuple):
     folder: str  # of the published files; empty if nothing is published
     command: str  # that makes them
     heading: str = ""  # in docs/figures.md
-    key: str = ""  # of config.yaml, whose block has the scenes; empty if a function gives them
+    key: str = ""  # of config.yaml, below which the scenes are; empty if a function gives them
     scenes: str = ""  # this function: module.function
     kind: str = ""  # of a scene that does not say its kind
     texts: tuple[str, ...] = ()  # other files that the command writes
@@ -130,7 +130,7 @@ def _declared() -> dict[str, Part]:
 
 @cache
 def parts() -> dict[str, Part]:
-    """Return the parts that are there with all that they need, each after what it needs."""
+    """Return the parts whose needed parts are all there, each after those that it needs."""
     declared, found = _declared(), dict[str, Part]()
 
     def add(name: str) -> bool:
@@ -163,7 +163,10 @@ def imported(name: str) -> Any:
 
 
 def hidden_by(drawn_by: str, block: dict[str, Any], *datasets: Any) -> list[str]:
-    """Return what the axes of a block hide, said by `hidden`, if it is there, beside its `draw`."""
+    """Return lines on what the axes of a scene hide, from the function `hidden` beside its `draw`.
+
+    Without this function, or without axes, nothing is hidden.
+    """
     module = importlib.import_module(drawn_by.rpartition(".")[0])
     given = "axes" in block and hasattr(module, "hidden")
     return [*module.hidden(block, *datasets)] if given else []

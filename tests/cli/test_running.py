@@ -178,3 +178,12 @@ def test_settings_of_a_users_shell_do_not_reach_a_run(monkeypatch):
     assert os.environ["PYTHONPATH"] == str(ROOT / "src")
     for name in ("MPLCONFIGDIR", "XDG_CACHE_HOME"):
         assert os.environ[name].startswith(str(ROOT / ".venv"))
+
+
+def test_snakemake_has_the_options_of_the_profile():
+    """A flag has no value, and a list is several words."""
+    options = running._profile()
+    assert options[options.index("--rerun-triggers") + 1] == "mtime"
+    assert options[options.index("--keep-going") + 1].startswith("--")
+    profile = (ROOT / "profiles/default/config.yaml").read_text()
+    assert all(f"{each.removeprefix('--')}:" in profile for each in options[3:] if each[:2] == "--")

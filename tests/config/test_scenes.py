@@ -94,6 +94,9 @@ BAD = [
     ("a_motion.axes.t.limits", [16, 0], ": [16, 0] is not allowed: expected a list of two incr"),
     ("a_motion.axes.t.ticks", [0, 17], ": 17 is not allowed: expected numbers within the limit"),
     ("a_motion.axes.x", AXES, ": unknown key: allowed here: t, displacement"),
+    ("a_motion.axes", 3, ": 3 is not allowed: expected a mapping with the keys t and displacement, "
+     "or one of them"),
+    ("a_closeup.window", 3, ": 3 is not allowed: expected a mapping with the keys x and xdot"),
     ("a_motion.axes.display", 3, ": unknown key: did you mean displacement?"),
     ("a_portrait.starts", [-0.5, 1], "[1]: 1 is not allowed: expected a fraction of"),
     ("a_portrait.impacts", [10], ": [10] is not allowed: expected one number for each of the 2"),

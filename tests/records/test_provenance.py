@@ -7,6 +7,7 @@ from contextlib import suppress
 from importlib import metadata
 
 import pytest
+from verdicts import commit
 
 from pipeline.records import provenance
 from pipeline.records.files import FileError
@@ -271,3 +272,23 @@ def test_damage_of_a_result_or_a_record_is_outdated_and_a_copy_is_not(made):
             file.write_bytes(kept[file])
             shutil.rmtree(root / "results/paper/specs")  # as in results from a cache
             assert run_again(made) == []
+
+
+def test_the_commit_is_that_of_the_repository_that_has_the_workflow(tmp_path, monkeypatch):
+    """A folder inside another repository has none; figures and untracked files are no edits."""
+    files = [tmp_path / name for name in ("Snakefile", "paper_figures/fig2.png", "module.py")]
+    for file in files:
+        file.parent.mkdir(exist_ok=True)
+        file.touch()
+    commit(tmp_path, *files)
+    (tmp_path / "inner").mkdir()
+    (tmp_path / "inner/Snakefile").touch()
+    monkeypatch.chdir(tmp_path / "inner")
+    found = provenance.commit.__wrapped__
+    assert found() == (None, None)
+    monkeypatch.chdir(tmp_path)
+    files[1].write_text("another picture")
+    head = provenance.git("rev-parse", "HEAD").decode().strip()
+    assert found() == (head, False)
+    files[2].write_text("an edit")
+    assert found() == (head, True)

@@ -26,7 +26,7 @@ from pseudorigid.dynamics.bounds import as_decimal
 from pseudorigid.kernel.closed_forms import energy_bounds
 
 # Bounds of a sweep.
-LARGEST_IMPACTS = 10_000_000_000_000  # a larger number is a slip
+LARGEST_IMPACTS = 10_000_000_000_000  # more would take years: a typing error
 MOST_CELLS = 1_000_000  # each start of ./reproduce looks at all of them
 MOST_COLUMNS, MOST_ROWS = 1000, 1600  # of a plane, for which a picture has room
 MOST_JOBS = 5000  # with more, snakemake is busier with its list than with the jobs
@@ -35,7 +35,7 @@ _FORTY_DIGITS = Context(prec=40)
 
 
 class Span(Block):
-    """a mapping with from, to and count"""
+    """Evenly spaced values."""
 
     from_: float = allowed("a number", alias="from")
     """First value of the axis."""

@@ -7,7 +7,7 @@ from pipeline.config.schema.fields import LARGEST, Block, allowed, whole
 
 
 class Prove(Block):
-    """a mapping with the key impacts"""
+    """How many impacts ./reproduce prove proves."""
 
     impacts: int = whole(1, LARGEST)
     """Number of impacts to prove in each figure whose data have millions of them. The impacts of
@@ -15,7 +15,7 @@ class Prove(Block):
 
 
 class Exact(Block):
-    """a mapping with the key exact"""
+    """The method that computes true orbits."""
 
     computes: ClassVar[Mapping[str, str]] = {
         "orbits": "extensions.proofs.true_orbits.orbit.true_scene_orbits"

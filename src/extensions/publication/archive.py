@@ -175,7 +175,7 @@ def read(path: Path | str) -> Contents:
     if os.path.exists(path) and not os.path.isfile(path):
         raise ArchiveError(f"{path}: no archive: it is no regular file")
     try:
-        with files.open_regular(path) as file, tarfile.open(fileobj=file, mode="r:") as tar:
+        with tarfile.open(path, mode="r:") as tar:
             archived = {entry.name.removeprefix(f"{TOP}/"): _content(tar, entry) for entry in tar}
     except FileError as error:
         raise ArchiveError(str(error)) from None

@@ -91,12 +91,10 @@ def _captions() -> Iterator[tuple[PublishedSet, dict[str, Caption]]]:
         if not (ROOT / published_set.folder / MANIFEST).exists():
             continue
         committed = manifest.read(ROOT, published_set.folder)
-        group = published_set.group
-        known: dict[str, tuple[dict[str, Any], dict[str, Any] | None]] = {}
+        known: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
         for file, drawing in manifest.published(committed).items():
             record = committed["results"][drawing]
             known[Path(file).stem] = record["config"], record["output"]
-        for scene in (Path(file).stem for file in published_set.measured):
-            known[scene] = config.variants[group][scene].as_mapping(), None
+        group = published_set.group
         prefix = "" if group == MAIN else f"{group}/"
         yield published_set, {name: caption_of(prefix + name, *of) for name, of in known.items()}

@@ -57,15 +57,9 @@ def caption_of(name: str, block: dict[str, Any], facts: dict[str, Any] | None = 
     return Caption(shown_name, title, " ".join([shows, *hidden]), *rest)
 
 
-def _with_commas(value: object) -> object:
-    """Return a whole number as text with commas, and any other value as it is."""
-    return f"{value:,}" if type(value) is int else value
-
-
-def _counted(count: int, noun: str) -> str:
-    """Return a count, with commas, and a noun in the number that it needs."""
-    return f"{count:,} {noun}{'s' * (count != 1)}"
-
-
-_ENVIRONMENT = jinja2.Environment(finalize=_with_commas, undefined=jinja2.StrictUndefined)
-_ENVIRONMENT.filters["counted"] = _counted
+# Whole numbers have commas, and the filter `counted` adds a noun in the number that it needs.
+_ENVIRONMENT = jinja2.Environment(
+    finalize=lambda value: f"{value:,}" if type(value) is int else value,
+    undefined=jinja2.StrictUndefined,
+)
+_ENVIRONMENT.filters["counted"] = lambda n, noun: f"{n:,} {noun}{'s' * (n != 1)}"

@@ -42,12 +42,8 @@ def describe_data(dataset: xr.Dataset) -> dict[str, Any]:
 
 def _attribute_hashes(source: xr.Dataset | xr.Variable) -> dict[str, str]:
     """Map each attribute to a short hash of its value."""
-    values = plain_attributes(source).items()
-    return {name: _short_hash(json.dumps(value).encode()) for name, value in values}
-
-
-def _short_hash(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:16]
+    texts = ((name, json.dumps(value)) for name, value in plain_attributes(source).items())
+    return {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in texts}
 
 
 def build(root: Path, published_set: PublishedSet) -> Manifest:

@@ -1,7 +1,6 @@
 """The sets of published files that must keep their bytes: what makes them, and their checksums.
 
-They are the figures of the paper, the study's charts whose data are the same on every machine, and
-the pictures of extensions.
+They are the figures of the paper, the study's charts, and the pictures of extensions.
 """
 
 import re
@@ -11,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..config import MAIN, Config
-from ..config.results import SHOWN, drawn, is_measured
+from ..config.results import SHOWN, drawn
 from ..config.schema.parts import PUBLISHED, SETS
 from ..records.files import file_hash, read_text
 from ..records.provenance import BuildSpec, git, git_refuses, with_dependencies
@@ -36,7 +35,6 @@ class PublishedSet(NamedTuple):
     drawn: dict[str, str]  # name of a published file -> its drawing in results
     data: dict[str, dict[str, str]]  # scene -> stage -> the dataset that it is drawn from
     build_specs: dict[str, BuildSpec]  # every result
-    measured: tuple[str, ...]  # published files without a checksum: they show times
 
     def without(self, scenes: Collection[str]) -> "PublishedSet":
         """Return the set without some scenes, which cannot exist."""
@@ -58,9 +56,7 @@ def committed_sets(config: Config) -> list[PublishedSet]:
 
 def _published(config: Config, group: str) -> PublishedSet:
     """Return the published set of a group of scenes."""
-    pictures = {n: block for n, block in config.variants[group].items() if block.formats}
-    measured = tuple(f"{name}.png" for name, block in pictures.items() if is_measured(block))
-    scenes = {name: block for name, block in pictures.items() if not is_measured(block)}
+    scenes = {name: block for name, block in config.variants[group].items() if block.formats}
     drawings = [drawn(n, suffix, group) for n, block in scenes.items() for suffix in block.formats]
     specs = config.build_specs([group])
     return PublishedSet(
@@ -72,7 +68,6 @@ def _published(config: Config, group: str) -> PublishedSet:
         drawn={Path(path).name: path for path in drawings if Path(path).suffix[1:] in SHOWN},
         data={scene: config.data_of(group, scene) for scene in scenes},
         build_specs={path: specs[path] for path in with_dependencies(specs, drawings)},
-        measured=measured,
     )
 
 

@@ -38,8 +38,7 @@ class Findings:
         self.left_out = [
             f"{scene} is left out, because it cannot exist: {why}" for scene, why in refused.items()
         ]
-        folder, names = published_set.folder, {*published_set.drawn, *published_set.measured}
-        self.unlisted = unlisted_files(root, published_set.group, names, refused)
+        self.unlisted = unlisted_files(root, published_set.group, published_set.drawn, refused)
         self.stale = freshness.outdated(published_set.build_specs)
         self.committed: manifest.Manifest | None = None  # if it cannot be read
         # Name of each published file -> layer -> how it differs; None for a new file. Empty without
@@ -48,7 +47,7 @@ class Findings:
         # Lines about manifest, checksum list, text files and surplus files.
         self.problems = [*self.unlisted.values()]
         try:
-            self.committed = manifest.read(root, folder)
+            self.committed = manifest.read(root, published_set.folder)
         except FileError as error:
             self.problems = [str(error)]
         else:
@@ -118,7 +117,7 @@ class Findings:
     def report(self) -> list[str]:
         """Return the lines for the user: those of published files, then all other findings.
 
-        Files of a figure that say the same have one line, and one for each further layer.
+        Formats of a figure that differ in the same way share a line for each layer.
         """
         figures = dict[tuple[str, ...], list[str]]()
         for name, layers in self.layers.items():

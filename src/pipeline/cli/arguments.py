@@ -6,7 +6,7 @@
 import argparse
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -18,7 +18,6 @@ from ..declaration import files, lacking
 from ..records.files import read_text
 from ..records.sources import ROOT
 from ..spelling import suggestion
-from .errors import print_error, print_once
 
 if TYPE_CHECKING:  # it needs packages
     from ..config import Config
@@ -43,7 +42,7 @@ class Arguments(argparse.Namespace):
 
     dry_run = False
     cores = "all"
-    told = False  # whether mistakes in variants were printed
+    told: Collection[str] = ()  # the lines that the property `config` has printed
 
     @property
     def makes_nothing(self) -> bool:
@@ -52,17 +51,17 @@ class Arguments(argparse.Namespace):
 
     @cached_property
     def config(self) -> "Config":
-        """The checked config.yaml. Prints the mistakes in its variants, which stop only these."""
+        """The checked config.yaml. Prints mistakes in variants and a warning on balls, once."""
         from ..config import load  # needs packages
 
         config = load(ROOT / "config.yaml")
-        if words := config.warning():
-            print_once(words)
-        lines = dict.fromkeys(str(line) for lines in config.faulty.values() for line in lines)
-        if lines and not self.told:
-            print(*lines, sep="\n", file=sys.stderr)
-            print_error(f"left out because of these mistakes: {', '.join(config.faulty)}")
-        self.told = True
+        lines = [line for mistakes in config.faulty.values() for line in mistakes]
+        if names := ", ".join(config.faulty):
+            lines.append(f"reproduce: left out because of these mistakes: {names}")
+        lines += [f"reproduce: {words}"] if (words := config.warning()) else []
+        for line in dict.fromkeys(each for each in lines if each not in self.told):
+            print(line, file=sys.stderr)
+        self.told = lines
         return config
 
 
@@ -113,7 +112,9 @@ def read(arguments: list[str]) -> Arguments:
     if word == "help":
         return read([*filter(None, [args.word]), "--help"])
     if not word and args.version:
-        print(_versions())
+        lock = read_text(ROOT / "requirements/lock.txt")
+        (snakemake,) = re.findall("^snakemake==([^ ;]+)", lock, re.MULTILINE)
+        print(f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}")
         sys.exit(0)
     args.word, args.options = word, options
     return args
@@ -171,10 +172,3 @@ def _parser(name: str | None) -> _Parser:
     parser.usage = parser.format_usage().partition(": ")[2].strip()
     parser.usage = parser.usage.replace(f"[{REQUIRED} ...]", f"{REQUIRED} [{REQUIRED} ...]")
     return parser
-
-
-def _versions() -> str:
-    """Return the versions of this project and of snakemake."""
-    lock = read_text(ROOT / "requirements/lock.txt")
-    (snakemake,) = re.findall("^snakemake==([^ ;]+)", lock, re.MULTILINE)
-    return f"pseudorigid {pseudorigid.__version__}, snakemake {snakemake}"

@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
 
 from ..records.sources import ROOT
 
@@ -33,9 +32,3 @@ def print_error(line: str) -> None:
     """Print a line for the user to stderr."""
     sys.stdout.flush()  # keeps the order of lines if both streams go to one pipe
     print(f"reproduce: {line}", file=sys.stderr, flush=True)
-
-
-@cache
-def print_once(line: str) -> None:
-    """Print a line for the user to stderr, the first time that a command has it."""
-    print_error(line)

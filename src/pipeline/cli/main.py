@@ -48,11 +48,8 @@ def _run(args: arguments.Arguments) -> int:
     """Run a command in the root, with the packages that it needs."""
     try:
         args.start = Path.cwd()
-        str(ROOT).encode()  # netCDF4 and snakemake need names that are text
     except FileNotFoundError:
         raise UsageError("the current folder was deleted: go to another one") from None
-    except UnicodeEncodeError:
-        raise UsageError(f"{str(ROOT)!a}: this folder's name is not UTF-8: rename it") from None
     os.chdir(ROOT)
     set_environment()
     command = all_commands().get(args.word, DEFAULT_COMMAND)

@@ -11,7 +11,7 @@ from types import FrameType
 from typing import Any
 
 from ..jobs.heartbeat import clear_line
-from ..records.files import disk_is_full, memory_is_short, why_not_a_file
+from ..records.files import disk_is_full, memory_is_short, read_text, why_not_a_file
 from ..records.provenance import DAMAGED, Freshness, log_path, record_path, with_dependencies
 from ..records.sources import ROOT
 from .arguments import Arguments
@@ -21,13 +21,6 @@ INTERRUPTED = 130
 RUN = "PSEUDORIGID_RUN"  # a variable of runs that end with this process
 # Reasons that are printed when a result is made again, because no edit explains them.
 _REPORTED = ("its record", "no record", DAMAGED)
-# The options of profiles/default; snakemake prints a line if it reads them there. --nolock: the
-# lock of a killed snakemake would stop the next run, and ./reproduce has a lock of its own.
-OPTIONS = (
-    *("--workflow-profile", "none", "--nolock", "--ignore-incomplete", "--keep-incomplete"),
-    *("--rerun-triggers", "mtime", "--max-checksum-file-size", "0", "--keep-going"),
-    *("--scheduler", "greedy"),
-)
 _LOGS = ".snakemake/log/*.log"  # one of each run
 _NUMBA_SETTINGS = ("NUMBA_CACHE_DIR", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_DISABLE_JIT")
 
@@ -53,18 +46,32 @@ def make(freshness: Freshness, results: Iterable[str], args: Arguments) -> int:
         return 0
     if words := disk_is_full(ROOT) or memory_is_short():
         raise UsageError(words)
-    python, options = [sys.executable, "-P", "-m"], [*OPTIONS, "--cores", args.cores]
+    python, options = [sys.executable, "-P", "-m"], [*_profile(), "--cores", args.cores]
     options += ["--dry-run"] * args.dry_run
     options += [] if args.makes_nothing else ["--logger", "reproduce"]
     if not args.options:
         options += ["--executor", "reproduce", "--", *outdated]
-        return _run([*python, "pipeline.jobs.forked", *options], remote=False)
+        return _run([*python, "pipeline.jobs.forks", *options], remote=False)
     command = [*python, "snakemake", *options, *args.options, "--", *paths]
     if not args.makes_nothing:
         return _run(command, remote=True)
     result = subprocess.run(command, stdout=subprocess.PIPE, check=False)
     sys.stdout.write(result.stdout.decode(errors="replace"))  # to a reader that may end: `| head`
     return result.returncode
+
+
+def _profile() -> list[str]:
+    """Return the options of profiles/default. If snakemake reads them there, it prints a line.
+
+    The lock of a killed snakemake would stop the next run, and ./reproduce has a lock of its own.
+    """
+    import yaml  # none of the packages is there when they are installed
+
+    options = ["--workflow-profile", "none", "--nolock"]
+    for name, value in yaml.safe_load(read_text(ROOT / "profiles/default/config.yaml")).items():
+        values = value if isinstance(value, list) else [value]
+        options += [f"--{name}", *(str(each) for each in values if each is not True)]
+    return options
 
 
 def _run(command: list[str], remote: bool) -> int:

@@ -21,10 +21,11 @@ _VERDICTS = {32: r"\b(identical|proved)\b", 31: r"\b(differs|missing|stale|refus
 def print_files(
     title: str, rows: Iterable[FileRow], header: tuple[str, ...] = (), notes: Iterable[str] = ()
 ) -> None:
-    """Print one row for all files of a figure that say the same, below their folder, and notes.
+    """Print tables of figures, one for each folder, and notes.
 
-    The words that follow ": " in a cell stand below the table, once for all their files. If a cell
-    says "differs", the last line says what to do.
+    Formats of a figure that have the same state share a row. Reasons, the words that follow ": " in
+    a cell, are printed below the table, once for all their files. If a cell says "differs", the
+    last line says what to do.
     """
     folders, reasons = dict[str, dict[tuple[str, ...], list[str]]](), dict[str, list[str]]()
     differs = False

@@ -112,15 +112,12 @@ class Config:
             yield BuildSpec(path, name, step, block, "draw", function, files, inputs)
 
     def figures(self, variant: str = MAIN) -> dict[str, tuple[str, str]]:
-        """Map each figure, where users find it, to its scene and its drawing.
-
-        Pictures of measurements stay in results until `accept`.
-        """
+        """Map each figure, where users find it, to its scene and its drawing."""
         found = {}
         for name, block in self.variants[variant].items():
             for suffix in block.formats:
                 path = drawing_path = drawn(name, suffix, variant)
-                if variant in PUBLISHED and suffix in SHOWN and not is_measured(block):
+                if variant in PUBLISHED and suffix in SHOWN:
                     path = f"{PUBLISHED[variant]}/{name}.{suffix}"
                 found[path] = name, drawing_path
         return found
@@ -150,11 +147,6 @@ def drawing(scene: Picture) -> YamlMapping:
 def drawn(scene: str, suffix: str, variant: str = MAIN) -> str:
     """Return the path where a figure is drawn, before it is published."""
     return f"results/{variant}/figures/{scene}.{suffix}"
-
-
-def is_measured(scene: Picture) -> bool:
-    """Return whether a scene shows times of this machine."""
-    return any(STAGES[stage].measured for stage in scene.stages)
 
 
 def dataset_paths(variants: Variants) -> Datasets:

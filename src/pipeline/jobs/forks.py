@@ -97,3 +97,10 @@ def forking() -> ForkServerContext | SpawnContext:
         os.environ.clear()
         os.environ.update(before)
     return jobs
+
+
+if __name__ == "__main__":  # both snakemake and the process that forks its jobs load packages
+    forking()
+    from snakemake.cli import main
+
+    main()

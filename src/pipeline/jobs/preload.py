@@ -1,6 +1,7 @@
 """Modules that jobs need, imported by the process that forks jobs.
 
-An import that fails here fails again in a job, which reports it.
+An import that fails here fails again in a job, which reports it. Jobs also inherit the commit, for
+which git is asked once a run.
 """
 
 import sys
@@ -13,6 +14,8 @@ for _name in (
 ):
     with suppress(Exception):
         import_module(_name)
+with suppress(Exception):
+    import_module("pipeline.records.provenance").commit()
 # Without scipy.linalg numba loads no OpenBLAS, with which each fork takes 0.1 s longer.
 sys.modules["scipy.linalg"] = None  # type: ignore[assignment]
 with suppress(Exception):  # the first call of any compiled function initialises numba

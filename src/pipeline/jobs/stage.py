@@ -46,7 +46,8 @@ def make(spec: BuildSpec, **known: Any) -> dict[str, Any] | None:
     if "folder" in parameters:  # where it keeps finished parts, so that a killed run goes on
         fields["folder"] = f"{spec.result}.part"
     inputs = [artifacts.load(path) for path in spec.inputs]
-    attributes: dict[str, Any] = {"stage": spec.step, "title": artifacts.title_of(function)}
+    title = function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
+    attributes: dict[str, Any] = {"stage": spec.step, "title": title}
     if "ball" not in block:
         energies = {"energy": block["energy"]} if "energy" in block else {}
         dataset = function(*inputs, **fields, **energies)

@@ -8,7 +8,6 @@ zlib. Ragged arrays are contiguous: `row_size` counts the samples of each row.
 import json
 import math
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -32,11 +31,6 @@ ABOUT = {
     ),
     "source": "pseudorigid, from the parameters in the attribute config",
 }
-
-
-def title_of(function: Callable[..., xr.Dataset]) -> str:
-    """Return the title of the datasets that a function computes: its name in words."""
-    return function.__name__.removeprefix("scene_").replace("_", " ").capitalize()
 
 
 def save(

@@ -1,4 +1,4 @@
-"""Read regular files only, and write each file whole or not at all."""
+"""Read files with errors of one line, and write each file whole or not at all."""
 
 import errno
 import hashlib
@@ -9,7 +9,6 @@ import shutil
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from io import BufferedReader
 from pathlib import Path
 
 _Path = str | os.PathLike[str]
@@ -25,39 +24,26 @@ class FileError(ValueError):
 
 
 def why_not_a_file(path: _Path) -> str | None:
-    """Say what is in the place of a regular file; None for a regular file or nothing."""
-    if not os.path.exists(path) or os.path.isfile(path):
-        return None
-    what = "a folder" if os.path.isdir(path) else "a special file"
-    return f"{what} is in its place: move it away"
-
-
-@contextmanager
-def open_regular(path: _Path) -> Iterator[BufferedReader]:
-    """Open a regular file to read its bytes.
-
-    Nothing else is opened: reading a FIFO could wait for ever, and a device may have no end. Raises
-    FileNotFoundError or NotADirectoryError without a file, else FileError, also while it is read.
-    """
-    if words := why_not_a_file(path):
-        raise FileError(f"{path}: {words}")
-    try:
-        with open(path, "rb") as file:
-            yield file
-    except ABSENT:
-        raise
-    except OSError as error:
-        raise FileError(f"{path}: cannot be read: {error.strerror or error}") from None
+    """Return words if a folder has the name of a file, else None."""
+    return "a folder is in its place: move it away" if os.path.isdir(path) else None
 
 
 def read_bytes(path: _Path) -> bytes:
-    """Return the content of a regular file; raises the errors of `open_regular`."""
-    with open_regular(path) as file:
-        return file.read()
+    """Return the content of a file.
+
+    Raises FileNotFoundError or NotADirectoryError without a file, else FileError.
+    """
+    try:
+        return Path(path).read_bytes()
+    except ABSENT:
+        raise
+    except OSError as error:
+        words = why_not_a_file(path) or f"cannot be read: {error.strerror or error}"
+        raise FileError(f"{path}: {words}") from None
 
 
 def read_text(path: _Path) -> str:
-    """Return the text of a regular UTF-8 file; also raises UnicodeDecodeError."""
+    """Return the text of a UTF-8 file; also raises UnicodeDecodeError."""
     return read_bytes(path).decode("utf-8")
 
 
@@ -137,8 +123,9 @@ def write_whole(path: _Path, data: str | bytes) -> None:
 
 
 def file_hash(path: _Path) -> str | None:
-    """Return the SHA-256 of a regular file in hex, or None without one; raises FileError."""
-    if os.path.isfile(path):
-        with suppress(*ABSENT), open_regular(path) as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+    """Return the SHA-256 of a file in hex, or None without one; raises FileError."""
+    if os.path.isdir(path):
+        return None
+    with suppress(*ABSENT):
+        return hashlib.sha256(read_bytes(path)).hexdigest()
     return None

@@ -1,6 +1,7 @@
 """Compare what finished figures show: pixels of a PNG or GIF, or elements of an SVG."""
 
 import hashlib
+import io
 import os
 from itertools import zip_longest
 from pathlib import Path
@@ -9,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
-from .files import FileError, open_regular, write_whole
+from .files import FileError, read_bytes, read_text, write_whole
 
 _Path = str | os.PathLike[str]
 
@@ -22,7 +23,7 @@ def pixels(path: _Path) -> npt.NDArray[np.uint8]:
     from PIL import Image, ImageSequence
 
     try:
-        with open_regular(path) as file, Image.open(file) as image:
+        with Image.open(io.BytesIO(read_bytes(path))) as image:
             frames = [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(image)]
             return np.concatenate(frames)
     except Exception as error:  # Pillow raises many types, among them SyntaxError
@@ -35,8 +36,7 @@ def _elements(path: _Path) -> list[str]:
     An element is two of them, its start tag and its end tag. The first line is empty.
     """
     try:
-        with open_regular(path) as file:
-            text = ElementTree.canonicalize(from_file=file, strip_text=True)
+        text = ElementTree.canonicalize(read_text(path), strip_text=True)
     except (ElementTree.ParseError, ValueError, LookupError, RecursionError) as error:
         raise FileError(f"{path}: damaged, or not SVG ({error})") from error
     return text.replace("<", "\n<").split("\n")

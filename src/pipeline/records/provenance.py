@@ -122,10 +122,10 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
 
     The body may describe the result further in the mapping that it is given.
 
-    A ValueError in the body says that the result cannot exist (one of a subclass, such as
-    FileError, only if it has the attribute `lasting`). The record has this refusal then. Raises
-    FileError, and writes no record, if a source is not as the specification has it, or if a
-    source or an input changes.
+    A ValueError in the body says that the result cannot exist. The record then has its message. An
+    error of a subclass of ValueError, such as FileError, counts only if it has the attribute
+    `lasting`. Raises FileError, and writes no record, if a source is not as the specification has
+    it, or if a source or an input changes.
     """
     hashes = {path: file_hash(path) for path in sorted([*spec.sources, *spec.inputs])}
     for path, meaning in spec.sources.items():
@@ -136,9 +136,9 @@ def recorded(spec: BuildSpec) -> Iterator[dict[str, Any]]:
         if installed.get(package) != version:
             words = f"{package} is {installed.get(package)} here, not {version}"
             raise FileError(f"{words}: run ./reproduce again")
-    commit, dirty = _commit()
+    head, dirty = commit()
     record: dict[str, Any] = {
-        "commit": commit,
+        "commit": head,
         "dirty": dirty,
         "function": spec.function,
         "config": spec.config,
@@ -187,10 +187,19 @@ def require_loaded_unchanged() -> None:
             require_unchanged({os.path.relpath(path, ROOT): digest})
 
 
+def _installed(package: str) -> str | None:
+    """Return the version of a package, of one that is installed on demand that of its list."""
+    with suppress(metadata.PackageNotFoundError):
+        return metadata.version(package)
+    lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
+    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
+    return pins.get(package)
+
+
 def versions(
     spec: BuildSpec,
     modules_of: Callable[[str], set[str]] = imported_modules,
-    version_of: Callable[[str], str | None] | None = None,
+    version_of: Callable[[str], str | None] = _installed,
 ) -> dict[str, str | None]:
     """Return the installed version of each package that decides the bits of a result, or None.
 
@@ -200,16 +209,7 @@ def versions(
     imported = set[str]().union(*map(modules_of, spec.sources))
     packages = {each for module in imported & PACKAGES.keys() for each in PACKAGES[module]}
     packages |= {"pillow"} if spec.result.endswith(".gif") else set()
-    return {package: (version_of or _installed)(package) for package in sorted(packages)}
-
-
-def _installed(package: str) -> str | None:
-    """Return the version of a package, of one that is installed on demand that of its list."""
-    with suppress(metadata.PackageNotFoundError):
-        return metadata.version(package)
-    lines = read_text(ROOT / "requirements" / "algebra.txt").splitlines()
-    pins = dict(line.split()[0].split("==") for line in lines if re.match("[a-z]", line))
-    return pins.get(package)
+    return {package: version_of(package) for package in sorted(packages)}
 
 
 def git(*arguments: str, root: str | os.PathLike[str] = ".") -> bytes | None:
@@ -227,17 +227,17 @@ def git_refuses(root: str | os.PathLike[str] = ".") -> bool:
     return there and git("rev-parse", "--git-dir", root=root) is None
 
 
-def _commit() -> tuple[str | None, bool | None]:
+@cache
+def commit() -> tuple[str | None, bool | None]:
     """Return the commit, and whether tracked files other than figures differ from it."""
-    commit = git("rev-parse", "HEAD")
-    # Another repository may contain this folder.
-    if commit is None or git("ls-files", "--error-unmatch", "Snakefile") is None:
+    # Without the second name, this could be the commit of a repository that contains this folder.
+    commits = git("rev-parse", "HEAD", "HEAD:./Snakefile")
+    if commits is None:
         return None, None
-    others = list[str]()
-    for part in parts().values():
-        others += [f":!{each.folder}" for each in part.sets.values() if each.folder]
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *others)
-    return commit.decode().strip(), None if changed is None else bool(changed)
+    sets = [each for part in parts().values() for each in part.sets.values()]
+    figures = [f":!{each.folder}" for each in sets if each.folder]
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", *figures)
+    return commits.split()[0].decode(), None if changed is None else bool(changed)
 
 
 # -- which results are current ---------------------------------------------------------------------
@@ -266,10 +266,8 @@ class Freshness:
         self.syntax_hash = cache(lambda path: syntax_hash(root / path))
         self.reason = cache(self._reason)
         self.build_specs = dict[str, BuildSpec]()
-        modules_of, version_of = (
-            cache(lambda file: imported_modules(root / file)),
-            cache(_installed),
-        )
+        modules_of = cache(lambda file: imported_modules(root / file))
+        version_of = cache(_installed)
         for path, spec in build_specs.items():
             sources = {file: self.syntax_hash(file) for file in spec.sources}
             environment = versions(spec, modules_of, version_of)
@@ -373,7 +371,7 @@ class Freshness:
     def _made_otherwise(self, path: str, record: dict[str, Any]) -> str | None:
         """Return the first difference between a record and what this tree makes a result from."""
         spec = self.build_specs[path]
-        # What was made another way, to the same bytes, says which further sources that has.
+        # A graphics card makes the same bytes with further sources, which the record names.
         way = record["output"].get("way", {})
         before = record | {"sources": record["sources"] | way}
         here = record | {

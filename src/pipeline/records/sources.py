@@ -119,31 +119,28 @@ def _imports_names_lazily(src: Path, package: str) -> bool:
 
 
 @cache
-def machine_code_folder(src: Path, module: str) -> tuple[str, dict[Path, str]]:
-    """Return the name of the folder of a module's compiled functions, and its sources' SHA-256.
-
-    The name contains a hash of the sources, so that a changed constant compiles again.
-    """
+def machine_code_digest(src: Path, module: str) -> tuple[str, dict[Path, str]]:
+    """Return a hash of all that a module's machine code depends on, and its sources' SHA-256."""
     meanings, digests = list[str](), dict[Path, str]()
     for file in import_closure(src, module):
         data = file.read_bytes()
         meanings.append(parsed(file.name, data).syntax_hash)
         digests[file] = _sha256(data)
-    return f"{module}-{_sha256(' '.join(meanings).encode())[:16]}", digests
+    return _sha256(" ".join(meanings).encode())[:16], digests
 
 
-def compiled_subfolder(module: str, src: Path = SRC) -> str | None:
-    """Return the name of the folder for the compiled functions of a module.
+def digest_of_loaded(module: str) -> str | None:
+    """Return `machine_code_digest` of a module of this project.
 
-    Returns None for a module of another project, or if this process loaded another text of a source
-    than the file has now.
+    Returns None for other modules, or if this process loaded another text of a source than the file
+    has now.
     """
     try:
-        name, digests = machine_code_folder(src, module)
+        digest, sources = machine_code_digest(SRC, module)
     except ValueError:
         return None
-    unchanged = all(LOADED.get(os.path.realpath(f), {d}) == {d} for f, d in digests.items())
-    return name if unchanged else None
+    unchanged = all(LOADED.get(os.path.realpath(f), {d}) == {d} for f, d in sources.items())
+    return digest if unchanged else None
 
 
 class ParsedSource(NamedTuple):
@@ -157,9 +154,8 @@ class ParsedSource(NamedTuple):
 
 
 def syntax_hash(path: str | os.PathLike[str]) -> str | None:
-    """Return the hash of a file in hex, or None if there is no regular file."""
+    """Return the hash of a file in hex, or None if there is no file."""
     path = Path(path)
-    # Reading a FIFO would block.
     return parsed(path.name, path.read_bytes()).syntax_hash if path.is_file() else None
 
 

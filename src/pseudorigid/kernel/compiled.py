@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+_RULE: list[Any] = []  # the function given to `name_folders_by`, if any
 _SEEN: set[tuple[str, str]] = set()  # (module, name) of each function that was compiled
 
 
@@ -73,11 +74,21 @@ def folders():
 def subfolder(module: str) -> str | None:
     """Return the name of the folder for a module's machine code, or None to keep none.
 
-    An edit of any file in the module's package, or in this one, gives another name. A program may
-    replace this function by one that knows better what a module depends on.
+    An edit of any file in the module's package, or in this one, gives another name, unless
+    `name_folders_by` has set another rule.
     """
-    digest = _digest(*{name.partition(".")[0] for name in (module, __name__)})
+    packages = {name.partition(".")[0] for name in (module, __name__)}
+    digest = _RULE[0](module) if _RULE else _digest(*packages)
     return digest and f"{module}-{digest}"
+
+
+def name_folders_by(digest_of):
+    """Let a program that knows what a module depends on name the folders of machine code.
+
+    `digest_of` is a function of a module's name. It returns a hash of all that the module's machine
+    code depends on, or None to keep none.
+    """
+    _RULE[:] = [digest_of]
 
 
 @cache

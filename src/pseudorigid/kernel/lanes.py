@@ -1,4 +1,4 @@
-"""Many orbits at once in SIMD lanes, with the bits of `impact.iterate`.
+"""Many orbits at once in SIMD lanes; results equal those of `impact.iterate` bit for bit.
 
 Each of LANES orbits has a lane, and all lanes advance by one impact together. The gap, the march
 and the landing are those of `flight`: the gap is negative in flight, the march goes towards its
@@ -236,10 +236,10 @@ def advance(lanes, orbit, n, k, g, coefficients):
 
 @jit
 def iterate(x, v, w, k, g, impacts, tau, out):
-    """Advance states x, v, w (n,) in place, with the bits of `impact.iterate`; impacts >= 1.
+    """Advance states x, v, w (n,) in place by at least one impact.
 
-    `tau` (n,) receives the times of the last flights, and `out` (n, impacts, 4), unless it is
-    empty, x, v, w and tau of every impact.
+    Results equal those of `impact.iterate` bit for bit. `tau` (n,) receives the times of the last
+    flights, and `out` (n, impacts, 4), unless it is empty, x, v, w and tau of every impact.
     """
     coefficients = impact_coefficients(k)
     lanes, orbit = np.empty(SIZE), np.empty(LANES, np.int64)

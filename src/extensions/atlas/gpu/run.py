@@ -28,8 +28,8 @@ def make_blocks(config: Config, datasets: Iterable[str], cores: str) -> None:
     """
     freshness = Freshness(ROOT, config.build_specs())
     specs = freshness.build_specs
-    blocks = [specs[block] for path in dict.fromkeys(datasets) for block in specs[path].inputs]
-    blocks = [spec for spec in blocks if freshness.reason(spec.result)]
+    paths = dict.fromkeys(block for path in datasets for block in specs[path].inputs)
+    blocks = [specs[path] for path in freshness.outdated(paths)]
     if not blocks:
         return
     context = forks.forking()  # before CUDA starts

@@ -131,7 +131,7 @@ def _carried_radius(
 
 @jit
 def _widen_to_hold(cone: np.ndarray, right: float, up: float) -> bool:
-    """Widen a cone, by its right and its left edge, to hold a vector; return if it still can.
+    """Widen a cone, by its right and its left edge, to hold a vector; return whether it can.
 
     It cannot if the vector and the cone fit into no half plane. A vector that is NaN, after an
     exactly grazing impact, excludes nothing.

@@ -108,7 +108,7 @@ def _gallery(root: Path, config: Config) -> Iterator[str]:
     for each in published_sets.committed_sets(config):
         yield f"\n## {SETS[each.group].heading}\n\n`{each.command}`\n\n:::::{{container}} cards"
         key = SETS[each.group].key
-        for name in sorted(n for n in [*each.drawn, *each.measured] if n.endswith(".png")):
+        for name in sorted(n for n in each.drawn if n.endswith(".png")):
             scene, picture = Path(name).stem, f"{each.folder}/{name}"
             if not (root / picture).is_file():
                 continue

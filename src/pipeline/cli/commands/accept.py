@@ -9,7 +9,7 @@ from ...checks.layers import UPSTREAM
 from ...checks.published_sets import MANIFEST, SUMS, committed_sets, is_left_over
 from ...checks.verify import Findings
 from ...config import Config
-from ...records.files import file_hash, read_bytes, write_whole
+from ...records.files import file_hash, write_whole
 from ...records.sources import ROOT
 from ..arguments import Arguments
 from ..lock import locked
@@ -25,9 +25,9 @@ def run(args: Arguments) -> int:
 def accept(root: Path, config: Config) -> int:
     """Renew the manifests of the paper and of other published sets that have results here.
 
-    Measured charts are published too, without a checksum. Pictures that no scene makes any more are
-    removed if this tree published them and git does not track them. Returns the exit status, which
-    is 1 if a result of the paper is missing or not current.
+    Pictures that no scene makes any more are removed if this tree published them and git does not
+    track them. Returns the exit status, which is 1 if a result of the paper is missing or not
+    current.
     """
     for published_set in committed_sets(config):
         results, command = published_set.build_specs, published_set.command
@@ -37,10 +37,6 @@ def accept(root: Path, config: Config) -> int:
         print(*findings.left_out, sep="\n", end="\n" * bool(findings.left_out))
         problem = findings.not_published(root)
         if problem is None:
-            for name in published_set.measured:
-                drawing = root / "results" / published_set.group / "figures" / name
-                if drawing.is_file():
-                    write_whole(root / published_set.folder / name, read_bytes(drawing))
             _remove_left_over(root, findings)
             _renew(root, findings)
         elif published_set.on_request:

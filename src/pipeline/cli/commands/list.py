@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 from ...checks.published_sets import PublishedSet, committed_sets, committed_state
 from ...config import Config
-from ...config.results import drawn, is_measured
+from ...config.results import drawn
 from ...config.schema.parts import SETS
 from ...records.differences import differing_layers
 from ...records.files import FileError
@@ -17,8 +17,8 @@ from ..arguments import Arguments, hint
 from ..errors import CommandLineError
 from ..table import print_files, print_lines, wrapped
 
-# What --json says of a file. The kind is figure, measured (a chart of times of this machine), data,
-# or variant (a figure of a variant); `variant` may be a set of scenes.
+# The fields of a file that --json prints. The kind is figure, data, or variant (a figure of a
+# variant); `variant` may be a set of scenes.
 _KEYS = ("command", "kind", "variant", "scene", "path", "state")
 _File = tuple[str, str, str, str, str, str]
 
@@ -51,24 +51,20 @@ def run(args: Arguments) -> int:
 
 
 def _files(config: Config, wanted: Collection[str]) -> Iterator[_File]:
-    """Yield every file that is published, and what is not.
+    """Yield every file that is published, and some that are not.
 
-    That is charts of times, the data of scenes without a picture or of the `wanted` ones, and the
-    figures of variants.
+    These are the data of scenes without a picture or of the `wanted` ones, and the figures of
+    variants.
     """
     freshness = Freshness(ROOT, config.build_specs())
     for each in committed_sets(config):
         for path, state in _published(freshness, each):
             yield each.command, "figure", each.group, PurePath(path).stem, path, state
     for group, declared in SETS.items():
-        blocks = config.variants[group]
-        charts = [scene for scene, block in blocks.items() if is_measured(block) and block.formats]
-        paths = [("measured", scene, drawn(scene, "png", group)) for scene in charts]
-        for scene, block in blocks.items():
+        for scene, block in config.variants[group].items():
             if not block.formats or scene in wanted:
-                paths += [("data", scene, path) for path in config.data_of(group, scene).values()]
-        for kind, scene, path in paths:
-            yield declared.command, kind, group, scene, path, freshness.state(path)
+                for path in config.data_of(group, scene).values():
+                    yield declared.command, "data", group, scene, path, freshness.state(path)
     for name in config.own_variants:
         states = {path: (s, freshness.state(path)) for s, path in config.figures(name).values()}
         states |= {drawn(s, "png", name): (s, why) for s, why in config.left_out[name].items()}

@@ -9,7 +9,7 @@ A checked config has these models. `Block.as_mapping` makes what is recorded of 
 import importlib
 import re
 from collections.abc import Callable, Iterable, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import pydantic
 from annotated_types import Predicate
@@ -20,17 +20,37 @@ from pseudorigid.dynamics.bounds import G_ALLOWED, K_ALLOWED
 YamlMapping = dict[str, Any]  # a mapping of config.yaml as YAML made it, or can write it
 ABSENT: Any = None  # the default of a field that may be left out and then has no value
 
-# Largest count of impacts, or of points of a manifold, in a scene. A larger number is a slip.
+# Largest number of impacts, or of points of a manifold, that a scene may ask for. It stops typing
+# errors before they cost hours.
 LARGEST = 10_000_000
 
 TYPES_ALONE = "types alone"  # the context in which values only need to have the right type
 _OF_VALUES = {"predicate_failed", "multiple_of"}  # errors of values that have the right type
 
 
+def mapping_with(keys: Sequence[str], optional: bool = False) -> str:
+    """Return in words that a mapping with these keys is allowed."""
+    *others, last = keys
+    names = f"keys {', '.join(others)} and {last}" if others else f"key {last}"
+    more = f", or {'one' if len(keys) == 2 else 'some'} of them"
+    return f"a mapping with the {names}{more * optional}"
+
+
+def _describe(schema: YamlMapping, model: type["Block"]) -> None:
+    """Write into a JSON schema which keys a mapping needs or, if it needs none, may have."""
+    required = schema.get("required", [])
+    schema["description"] = model.words or mapping_with(
+        required or [*schema["properties"]], optional=not required
+    )
+
+
 class Block(BaseModel):
     """A mapping of the config. Unknown keys are mistakes, and so are numbers in quotes."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        extra="forbid", strict=True, allow_inf_nan=False, json_schema_extra=_describe
+    )
+    words: ClassVar[str] = ""  # what is allowed, if that is not a mapping with the required keys
 
     @pydantic.field_validator("*", mode="wrap")
     @classmethod
@@ -122,7 +142,7 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_-]*$")]
 
 
 class BallBlock(Block):
-    """a mapping with the keys k and g"""
+    """The ball of a scene."""
 
     k: Inertia
     """Dimensionless Euler inertia of the ball: 1/5 = 0.2 for a solid sphere, 1/3 for a thin shell.
@@ -132,7 +152,7 @@ class BallBlock(Block):
 
 
 class PartOfBall(Block):
-    """a mapping with the keys k and g, or one of them"""
+    """The parameters of the ball that a variant changes."""
 
     k: Inertia = ABSENT
     """Dimensionless Euler inertia."""
@@ -141,7 +161,7 @@ class PartOfBall(Block):
 
 
 class Axis(Block):
-    """a mapping with the keys limits and ticks"""
+    """An axis of a picture."""
 
     limits: Range
     """Both ends of the axis, in the unit of its quantity. What lies outside is not drawn. An axis
@@ -151,7 +171,9 @@ class Axis(Block):
 
 
 class Point(Block):
-    """a mapping with the keys x and xdot, or x and y = xdot - k udot"""
+    """A point of the section."""
+
+    words = "a mapping with the keys x and xdot, or x and y = xdot - k udot"
 
     x: Number
     """Position of the mass centre at impact, downwards, in R."""

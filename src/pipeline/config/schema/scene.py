@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from annotated_types import Predicate
-from pydantic import Discriminator
+from pydantic import ConfigDict, Discriminator
 
 from pseudorigid.dynamics.bounds import energy_mistake, g_mistake
 
@@ -25,7 +25,7 @@ class CompletionError(Exception):
 
 
 class Scan(fields.Block):
-    """a mapping with the keys scan and tolerance"""
+    """A search for the next impact in equal steps of time."""
 
     scan: float = allowed("the scan's step, a number from 0.001 to 1", ge=0.001, le=1)
     """Time step, in 1/omega, at which the sign of the gap between ball and floor is inspected, for
@@ -42,7 +42,7 @@ def _tag(value: Any) -> str:
     return fields.TAGS[not METHODS.keys().isdisjoint(keys)]
 
 
-_WORDS = ["a mapping with the keys scan and tolerance", *map("{{{}: true}}".format, METHODS)]
+_WORDS = [fields.mapping_with([*Scan.model_fields]), *map("{{{}: true}}".format, METHODS)]
 _EITHER: Any = Scan
 if METHODS:
     (_block,) = METHODS.values()  # the second of two tags
@@ -52,7 +52,9 @@ Method: Any = Annotated[_EITHER, allowed(", or ".join(_WORDS))]
 
 
 class Picture(fields.Block):
-    """a mapping that begins with picture"""
+    """The fields that scenes of every kind have."""
+
+    model_config = ConfigDict(json_schema_extra={})  # the description is that of the kind
 
     # Stages that compute the data, in the order in which the kind's `draw` takes their datasets.
     stages: ClassVar[tuple[str, ...]]
@@ -97,7 +99,7 @@ class Picture(fields.Block):
 
 
 class Scene(Picture):
-    """a mapping that begins with picture"""
+    """The fields that scenes of a ball and an energy have."""
 
     on_section = True
 
@@ -138,7 +140,7 @@ _Value = Annotated[
 
 
 class Variant(fields.Block):
-    """a mapping with the keys ball, energy, method, scenes, scale and values, or some of them"""
+    """The paper's scenes with some values replaced, or a range of such variants."""
 
     ball: fields.PartOfBall = ABSENT
     """Replaces `k`, `g` or both in the ball of every scene."""

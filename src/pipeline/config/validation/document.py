@@ -33,8 +33,7 @@ _FIELDS: dict[str, Any] = {
     **{each.key: (_SCENES, {}) for name, each in SETS.items() if each.key and name != MAIN},
     **{key: (block, ABSENT) for key, block in BLOCKS.items()},
 }
-_ABOUT = "a mapping with the keys ball and scenes"
-Document: Any = create_model("Document", __base__=Block, __doc__=_ABOUT, **_FIELDS)
+Document: Any = create_model("Document", __base__=Block, **_FIELDS)
 
 
 def load(path: str | Path) -> Config:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 from pydantic import ValidationError
 
 from ...spelling import suggestion
-from ..schema.fields import NAME, TAGS, TYPES_ALONE, Block
+from ..schema.fields import NAME, TAGS, TYPES_ALONE, Block, mapping_with
 
 Place = tuple[int | str, ...]  # keys and indices that lead to a value
 _LONGEST_VALUE = 60  # characters of a value in a message
@@ -101,8 +101,7 @@ def allowed_at(model: type[Block], loc: Place) -> str:
         return str(node["description"])
     if "enum" in node:
         return f"one of {', '.join(node['enum'])}"
-    *keys, last = node["propertyNames"]["enum"]
-    return f"a mapping with the keys {', '.join(keys)} and {last}, or some of them"
+    return mapping_with(node["propertyNames"]["enum"], optional=True)
 
 
 _schema = cache(lambda model: model.model_json_schema())  # of a type of block

@@ -101,7 +101,10 @@ def derive_variant(
         if merged is None:
             continue
         errors = [*merged.cross_field_errors()]
-        # Its own errors are in fields that the variant changes for it, or that had none before.
+        if not errors:
+            derived[scene] = _scaled(merged, variant.scale or 1)
+            continue
+        # The variant's fields for this scene are wrong if they contain an error, or cause one.
         unchanged, _ = _read_scene(_merge_variant(given, ball, variant, {}), where, scenes)
         before = {at[0] for at, *_ in unchanged.cross_field_errors()} if unchanged else set()
         own = [error for error in errors if error[0][0] not in before - change.keys()]
@@ -109,10 +112,8 @@ def derive_variant(
             shared = at[0] in variant.model_fields_set and at[0] not in change
             mistake = refusal((*(place if shared else where), *at), value, allowed)
             (mistaken if own else unsuitable).setdefault(mistake, []).extend([scene] * shared)
-        if errors and not own:
+        if not own:
             left_out[scene] = f"left out: {refusal(*errors[0])}"
-        else:
-            derived[scene] = _scaled(merged, variant.scale or 1)
     for mistake, names in (mistaken if derived else mistaken | unsuitable).items():
         more = f", for {', '.join(names)}" if names else ""
         mistakes.append(mistake._replace(words=mistake.words + more))
