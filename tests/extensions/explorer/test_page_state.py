@@ -64,7 +64,8 @@ def test_an_address_has_the_whole_state(scripts):
         found = scripts.run("return readAddress(args[0])", address)
         assert found.pop("leftOut") == 0 and set(state) == set(fields)
         if state["panel"] == "time" and state["chart"] != "exponent":
-            found["panel"] = "time"  # which is not written: addresses of before had no panels
+            assert found.pop("panel") == "chart"  # as in addresses of before, which had no panels
+            found["panel"] = "time"
         assert found == state
 
 
