@@ -153,7 +153,7 @@ function writeBranch(branch) {
   return [writeMotion(branch), saddle, kind, side, length].join(",");
 }
 
-/** The state in an address; throws an error of one line if it has none. A scene's own ball is allowed. */
+/** The state in an address; throws an error of one line if it has none. The ball of a scene is allowed. */
 function readAddress(text, scenes = {}) {
   const state = freshState();
   const fail = (name, value, allowed) => {
@@ -255,8 +255,8 @@ function readAddress(text, scenes = {}) {
   const { k, g, energy: E } = state;
   const wrong = !(k > 0 && k <= 1) ? "k" : !(g > 0 && g < k) ? "g" : "E";
   const error = parameterError(wrong, String({ k, g, E }[wrong]), { k, g, E });
-  const own = Object.hasOwn(scenes, state.preset) && presetState(state.preset, scenes); // in its own unit
-  if (error && !(own.k === k && own.g === g && own.energy === E)) throw new Error(`the address has ${error}`);
+  const own = (scene) => scene.ball.k === k && scene.ball.g === g && scene.energy === E;
+  if (error && !Object.values(scenes).some(own)) throw new Error(`the address has ${error}`);
   state.orbits = state.orbits.map(({ part, at, typed, ...rest }) => {
     const [p, q] = typed ? geometry.placeAt(state.k, state.g, state.energy, ...at) : at;
     if (!(p * p + q * q < 1)) fail("a start", part, "it lies outside the section");
