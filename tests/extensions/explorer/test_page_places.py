@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from pseudorigid import Ball, symmetric_orbits
+from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits
 from pseudorigid.dynamics.rotation import symmetric_fixed_point
+from pseudorigid.kernel.tangents import turns_and_growth
 
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
 BALLS = [(0.2, 0.04, 0.01), (1 / 3, 0.05, 0.003), (0.9, 0.3, -0.04), (0.1, 0.001, 0.048)]
@@ -193,6 +194,22 @@ def test_cells_of_a_grid_cover_the_section_once_and_the_reversor_gives_the_other
     known, exponent, verdict = scripts.run(script, True)
     assert known == [1, 6, 10, 13] and (exponent, verdict) == (pytest.approx(0.1), 2)
     assert scripts.run(script, False) == [[1, 6], 0, 0]
+
+
+def test_cells_have_python_s_rotation_numbers_and_exponents(scripts):
+    places = [(-0.4, 0.0), (-0.3, 0.1), (-0.1, -0.05), (-0.2, 0.02)]  # of regular orbits
+    script = """const index = Uint32Array.from(args[0], (_, i) => i), places = args[0].flat();
+      const at = ([p, q]) => geometry.stateAt(0.2, 0.04, 0.01, { p, q });
+      const found = crowd.begin({ k: 0.2, g: 0.04, energy: 0.01, places, index });
+      return [args[0].map(at), [...found.rotation], [...found.exponent]]"""
+    states, rotation, exponent = scripts.run(script, places)
+    centre, radius = BALL.section(ENERGY)
+    place, turn = symmetric_fixed_point(BALL, ENERGY)
+    around = np.full(4, (centre + radius * place) / BALL.g), np.full(4, turn)
+    turns, _ = turns_and_growth(BALL.k, np.array(states).T / BALL.g, *around, 200)
+    assert np.allclose(rotation, turns, rtol=0, atol=1e-9)
+    spectra = [lyapunov_spectrum(BALL, state, 200, 1)["exponent"] for state in states]
+    assert exponent == [float(spectrum[0, 0]) for spectrum in spectra]
 
 
 def test_shares_are_of_the_decided_cells_once_most_are(scripts):
