@@ -57,6 +57,8 @@ def test_the_section_and_its_starts_are_python_s(scripts, k, g, energy):
 def test_a_point_of_the_screen_is_the_place_that_is_drawn_there(scripts, view):
     view = dict(zip(("kind", "azimuth", "elevation", "x", "y", "half"), view, strict=True))
     places = (np.random.default_rng(2).uniform(-0.7, 0.7, (200, 2))).tolist()
+    if view["kind"] == "disk":
+        places += [[0, 0.98], [0, -0.98], [0.98, 0], [-0.98, 0]]
     state = {"k": 0.2, "g": 0.04, "energy": 0.01, "view": view}
     window, rows = scripts.run(PROJECTED, state, places)
     seen = [(place, *row) for place, row in zip(places, rows, strict=True) if row]
