@@ -200,6 +200,7 @@ PACKAGES |= {
     "typing_extensions": "typing-extensions",
     "yaml": "pyyaml",
     "annotated_types": "annotated-types",
+    "py_mini_racer": "mini-racer",
     "cuda": "cuda-core",
 }
 for _kind in ("logger", "executor"):

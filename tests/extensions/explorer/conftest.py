@@ -3,6 +3,7 @@
 import browsers
 import pytest
 from doubles import SCRIPT
+from engine import Engine
 from person import Person
 from project import SHIPPED
 from slowly import slowly
@@ -29,10 +30,32 @@ def webkit(tmp_path_factory):
         yield browser
 
 
-@pytest.fixture(scope="session", params=["chromium", *slowly("firefox", "webkit")])
+@pytest.fixture(scope="session")
+def engine():
+    return Engine()
+
+
+BROWSERS = slowly("chromium", "firefox", "webkit")
+
+
+@pytest.fixture(scope="session", params=BROWSERS)
 def either(request):
-    """Chromium, then Firefox and WebKit."""
+    """Chromium, Firefox and WebKit."""
     return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(scope="session", params=["engine", *BROWSERS])
+def kernel_runner(request):
+    """What can run the kernel: an engine, and the browsers."""
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(scope="session")
+def scripts():
+    """The scripts of the page and its worker, without what begins to draw and to compute."""
+    found = Engine()
+    found.load(page.kernel_scripts(), *map(page.script, (*page.APP[:-1], *page.WORKER[:-1])))
+    return found
 
 
 @pytest.fixture(scope="session")
@@ -45,11 +68,11 @@ def kernel_page(tmp_path_factory):
 
 
 @pytest.fixture
-def browser(either, kernel_page):
-    """A browser on the page of the kernel."""
-    if either.run("return location.href") != kernel_page:
-        either.open(kernel_page)
-    return either
+def browser(kernel_runner, kernel_page):
+    """An engine or a browser on the page of the kernel."""
+    if kernel_runner.run("return location.href") != kernel_page:
+        kernel_runner.open(kernel_page)
+    return kernel_runner
 
 
 @pytest.fixture(scope="session")

@@ -76,8 +76,9 @@ class Visitor:
         wait_for(complete)
 
     def state(self):
-        """Fields of the address, which follows the state after 0.4 s."""
+        """Fields of the address, which follows the state 0.4 s after a frame has been drawn."""
         text = self.run(
+            "await new Promise(requestAnimationFrame);"
             "await new Promise(done => setTimeout(done, 500));"
             "return decodeURIComponent(location.hash.slice(1))"
         )

@@ -27,10 +27,7 @@ class BallControls extends OfPage {
     this.editing = false;
   }
 
-  get ball() {
-    const { k, g, energy } = this.state;
-    return { k, g, E: energy };
-  }
+  get ball() { return { k: this.state.k, g: this.state.g, E: this.state.energy }; }
 
   /** Set the sliders, whose ends are those of the range at the other two values. */
   slides() {

@@ -4,7 +4,8 @@
  * verdict once its orbit is decided.
  */
 const GRIDS = { exponent: [60, 300], rotation: [60, 300], verdict: [60, 100, 200] }; // cells along a side
-const CHUNK = 528; // orbits of a request, in full SIMD lanes; a change waits for at most one
+const DRAGGED = 40; // cells along a side of the coarse grid while a person drags
+const CHUNK = 792; // most orbits of a request, in full SIMD lanes; a change waits for at most one
 const EXPONENTS = [0.005, 0.5]; // the ends of the scale
 const MOST = 0.9; // share of cells that are decided before shares are shown
 const RIM = 0.9995; // section radii from the middle, beyond which no cell has its orbit
@@ -108,23 +109,25 @@ class Colouring {
       return;
     }
     this.computing = true;
-    const grids = GRIDS[map].map((size) => new Grid(size));
+    const drags = this.page.controls.ball.editing && !this.page.sweeping;
+    const [coarse, ...finer] = GRIDS[map];
+    const grids = [drags ? DRAGGED : coarse, ...finer].map((size) => new Grid(size));
     const mirrored = window.q[0] === -window.q[1];
     const chunks = this.chunks(grids[0].size, window, mirrored);
     const first =
       await Promise.all(chunks.map((chunk) => this.page.pool.ask("pixels", { ...ball, ...chunk })));
     this.computing = false;
+    const { later } = this;
+    if (later) this.compute(...later); // while the page draws this one
     if (this.page.state.map === map) {
       for (const result of first) grids[0].take(result, mirrored);
       if (map === "verdict") grids[0].guess();
       Object.assign(this, { window, grids, by: map, energy: ball.energy, level: 0, left: 0 });
       this.draw();
     }
-    if (this.later) this.compute(...this.later);
-    else if (wanted()) {
-      const moving = this.page.sweeping || this.page.controls.ball.editing;
-      this.finer = setTimeout(() => this.refine(ball, map, wanted), moving ? PAUSE : 0);
-    }
+    if (later || !wanted()) return;
+    const moving = this.page.sweeping || this.page.controls.ball.editing;
+    this.finer = setTimeout(() => this.refine(ball, map, wanted), moving ? PAUSE : 0);
   }
 
   /** Compute the finer grids, one after the other. */
@@ -166,10 +169,13 @@ class Colouring {
         places.push(...middle.map((value) => value * Math.min(1, RIM / away)));
       }
     }
-    return Array.from({ length: Math.ceil(cells.length / CHUNK) }, (_, i) => ({
-      index: Uint32Array.from(cells.slice(i * CHUNK, (i + 1) * CHUNK)),
-      places: Float64Array.from(places.slice(2 * i * CHUNK, 2 * (i + 1) * CHUNK)),
-    }));
+    const { workers } = this.page.pool; // each has as much to do
+    const parts = workers * Math.ceil(cells.length / CHUNK / workers);
+    return Array.from({ length: parts }, (_, i) => {
+      const [from, to] = [i, i + 1].map((n) => Math.round((n * cells.length) / parts));
+      return { index: Uint32Array.from(cells.slice(from, to)),
+        places: Float64Array.from(places.slice(2 * from, 2 * to)) };
+    });
   }
 
   drawSoon() { this.drawing ??= setTimeout(() => this.draw(), this.left ? 120 : 0); }

@@ -42,7 +42,8 @@ class Computer {
 /** Workers that share requests, which are done in their order. */
 class Pool {
   constructor() {
-    this.idle = Array.from({ length: navigator.hardwareConcurrency || 2 }, () => new Computer());
+    this.workers = navigator.hardwareConcurrency || 2;
+    this.idle = Array.from({ length: this.workers }, () => new Computer());
     this.queue = [];
   }
 

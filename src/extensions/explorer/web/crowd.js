@@ -6,6 +6,8 @@
 const VERDICTS = ["", "regular", "chaotic", "undecided", "undefined"];
 const crowd = (() => {
   const SHOWN = 200; // impacts behind a pixel's exponent and rotation number
+  const SHARES = Array.from({ length: SHOWN }, (_, i) => (i + 0.5) / SHOWN);
+  const WEIGHT = SHARES.reduce((sum, share) => sum + (share * (1 - share)) ** 3, 0); // of the turns
   const LEVELS = [500, 1000, 2000, 4000, 8000, 16000, 32000, 64000]; // at which orbits are judged
   const DECISIVE = 2000; // impacts from which on the growth decides alone
   const GROWTH = 2.2;
@@ -36,7 +38,7 @@ const crowd = (() => {
     follow(125, 150, orbits.second);
     follow(150, 200, late, orbits.second);
     const growth = late.map((value, i) => (value - early[i]) / 50);
-    const rotation = orbits.weighted.map((value) => value / weightOf(SHOWN));
+    const rotation = orbits.weighted.map((value) => value / WEIGHT);
     const exponent = pseudorigid.exponents(orbits, SHOWN);
     const verdict = verdicts(orbits, growth, SHOWN);
     return { index, exponent, rotation, growth, verdict, rest: rest(orbits, index, verdict), done: SHOWN };
@@ -71,12 +73,6 @@ const crowd = (() => {
     };
   }
 
-  function weightOf(length) {
-    let sum = 0;
-    for (let i = 0; i < length; i++) sum += (((i + 0.5) / length) * (1 - (i + 0.5) / length)) ** 3;
-    return sum;
-  }
-
   /** The verdicts, as places in VERDICTS, that are possible after some impacts. */
   function verdicts({ sum, length, whole }, growth, impacts) {
     return Uint8Array.from(growth, (value, i) => {
@@ -91,10 +87,10 @@ const crowd = (() => {
 
   /** The undecided of some orbits, with their pixels. */
   function rest(orbits, index, verdict) {
-    const open = [...verdict.keys()].filter((i) => !verdict[i]);
-    const chosen = ([name, values]) => [name, Float64Array.from(open, (i) => values[i])];
-    return { index: Uint32Array.from(open, (i) => index[i]),
-      orbits: Object.fromEntries(Object.entries(orbits).map(chosen)) };
+    const open = verdict.map((known) => (known ? 0 : 1));
+    const chosen = (values) => values.filter((_, i) => open[i]);
+    return { index: chosen(index),
+      orbits: Object.fromEntries(Object.entries(orbits).map(([name, values]) => [name, chosen(values)])) };
   }
 
   /**

@@ -758,7 +758,7 @@ function begin() {
     try {
       const name = decodeURIComponent(address.slice(1)) || "fig2"; // a scene's name is an address too
       const known = Object.hasOwn(data.scenes, name);
-      const state = known ? presetState(name, data.scenes) : readAddress(address);
+      const state = known ? presetState(name, data.scenes) : readAddress(address, data.scenes);
       if (!Object.hasOwn(data.scenes, state.preset)) state.preset = "";
       explorer.show(state);
       explorer.controls.welcome();

@@ -513,9 +513,9 @@ class SectionView {
       return found.p[0] < found.p[1] && found.q[0] < found.q[1] ? found : null;
     }
     const range = { p: [Infinity, -Infinity], q: [Infinity, -Infinity] };
-    for (let i = 0; i <= 24; i++) {
-      for (let j = 0; j <= 24; j++) {
-        const place = this.placeOf(left + (this.wide * i) / 24, top + (this.tall * j) / 24);
+    for (let i = 0; i <= 60; i++) {
+      for (let j = 0; j <= 60; j++) {
+        const place = this.placeOf(left + (this.wide * i) / 60, top + (this.tall * j) / 60);
         if (!place) continue;
         ["p", "q"].forEach((name, n) => {
           range[name] = [Math.min(range[name][0], place[n]), Math.max(range[name][1], place[n])];
@@ -524,7 +524,7 @@ class SectionView {
     }
     if (!(range.p[0] < range.p[1] && range.q[0] < range.q[1])) return null;
     for (const [name, [low, high]] of Object.entries(range)) {
-      const room = (high - low) / 20; // beyond the points that were tried
+      const room = (high - low) / 12; // beyond the points that were tried
       range[name] = clamped([low - room, high + room]);
     }
     return range;

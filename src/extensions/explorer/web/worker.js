@@ -17,9 +17,7 @@ const jobs = {
   },
 
   reset: () => followers.clear(),
-  close({ keys }) {
-    for (const key of keys) followers.delete(key);
-  },
+  close: ({ keys }) => keys.forEach((key) => followers.delete(key)),
 
   /**
    * Follow orbits, [[key, impacts at most], ...], for about `time` ms, which they share, and return
