@@ -110,6 +110,7 @@ def test_a_wrong_address_is_refused_in_a_line_that_names_it(scripts):
 def test_the_page_allows_the_energies_that_config_yaml_does(scripts):
     """Also where k/2 - g is not a double: 0.2/2 - 0.04 is a little larger than 0.06."""
     balls = [(k / 100, g / 1000) for k in (7, 20, 30, 33, 50, 100) for g in (1, 23, 40, 69)]
+    balls += [(1 / 3, 0.05), (1 / 3, 0.1)]
     rows = []
     for k, g in balls:
         high, low = k / 2 - g, -g * g / (2 * k)

@@ -252,7 +252,7 @@ class Controls extends OfPage {
     this.page.look();
     this.orbits.updateFacts();
     this.atlas.draw();
-    this.page.saveSoon();
+    this.page.save(); // a reload may follow at once
   }
 
   /** What a reload restores besides the address. */

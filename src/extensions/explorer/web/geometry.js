@@ -12,8 +12,8 @@ const geometry = {
     return { centre: g / k, radius, height: Math.sqrt(k * (1 + k)) * radius };
   },
 
-  /** The lowest energy, and the upper bound of eq. (31), as of decimals: 0.2/2 - 0.04 is 0.06. */
-  energyBounds(k, g) { return [-(g * g) / (2 * k), 0.5 * k - g].map((end) => Number(end.toPrecision(15))); },
+  /** The lowest energy, and the upper bound of eq. (31). */
+  energyBounds(k, g) { return [-(g * g) / (2 * k), 0.5 * k - g]; },
 
   /** The energy above which the map jumps. */
   firstJump(k, g) { return g * g * (1 + 0.5 * k); },

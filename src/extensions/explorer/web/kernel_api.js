@@ -84,8 +84,7 @@ globalThis.pseudorigid = (() => {
   }
 
   function emptyOrbit(impacts) {
-    const names = ["x", "xdot", "udot", "tau"];
-    return Object.fromEntries(names.map(name => [name, new Float64Array(impacts)]));
+    return Object.fromEntries(["x", "xdot", "udot", "tau"].map(name => [name, new Float64Array(impacts)]));
   }
 
   // Advance a state by `impacts`, and return the last state and flight time.

@@ -189,12 +189,8 @@ class SectionView {
 
   inside([left, top]) {
     const { frame } = this;
-    return (
-      left >= frame.left &&
-      top >= frame.top &&
-      left <= this.width - frame.right &&
-      top <= this.height - frame.bottom
-    );
+    return left >= frame.left && left <= this.width - frame.right &&
+      top >= frame.top && top <= this.height - frame.bottom;
   }
 
   drawGround() {

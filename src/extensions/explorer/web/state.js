@@ -70,9 +70,18 @@ function parameterError(name, text, ball) {
   return `${refused}: above ${low}, ${below} ${high} at ${others.join(" and ")}, eq. (31)`;
 }
 
+/** Compared as decimals, like Python: as doubles, 0.2/2 - 0.04 exceeds 0.06. */
 function ballAllowed({ k, g, E }) {
-  const [low, high] = geometry.energyBounds(k, g);
-  return k > 0 && k <= 1 && g > 0 && g < k && E > low && E < high;
+  if (!(k > 0 && k <= 1 && g > 0 && g < k && Number.isFinite(E))) return false;
+  const [exactK, exactG, exactE] = [k, g, E].map(asDecimal);
+  return 2n * exactK * exactE + exactG * exactG > 0n && 2n * (exactE + exactG) < exactK;
+}
+
+/** The shortest decimal of a number, in units of 1e-400. */
+function asDecimal(value) {
+  const [digits, power] = value.toExponential().split("e");
+  const [whole, part = ""] = digits.split(".");
+  return BigInt(whole + part) * 10n ** BigInt(Number(power) - part.length + 400);
 }
 
 /** A number or a fraction that was typed, with a comma or a real minus sign too; NaN if it is none. */
@@ -107,9 +116,7 @@ const COUNT = new Intl.NumberFormat("en");
 function writeAddress(state) {
   const { view } = state;
   const fields = new Map([
-    ["k", state.k],
-    ["g", state.g],
-    ["E", state.energy],
+    ["k", state.k], ["g", state.g], ["E", state.energy],
     ["view", [view.kind, view.azimuth, view.elevation, view.x, view.y, view.half].join(",")],
     ["colour", state.colour],
     ["map", state.map === "none" ? "" : state.map],
@@ -122,14 +129,12 @@ function writeAddress(state) {
     ["branches", state.branches.map(writeBranch).join(";")],
     ["jump", state.jump ? 1 : ""],
     ["chart", state.chart],
-    ["t", state.time],
-    ["span", state.span],
+    ["t", state.time], ["span", state.span],
     ["twin", state.twin || ""],
     ["next", `${state.impacts}${state.back ? "<" : ""}`],
     ["preset", state.preset],
     ["panel", state.panel === "time" ? "" : state.panel],
-    ["tour", state.tour || ""],
-    ["lesson", state.lesson || ""],
+    ["tour", state.tour || ""], ["lesson", state.lesson || ""],
     ["revealed", state.revealed ? 1 : ""],
   ]);
   const parts = [...fields].filter(([, value]) => value !== "");
