@@ -9,9 +9,9 @@ import sys
 from contextlib import suppress
 
 import pytest
-from project import ROOT, Tree, fresh_tree, of_scenes, once
-from runs import VARIANTS
 
+from helpers.project import ROOT, Tree, fresh_tree, of_scenes, once
+from helpers.runs import VARIANTS
 from pipeline.declaration import parts
 from pipeline.records import sources
 
@@ -38,7 +38,7 @@ def pytest_configure(config):
         return
     # If this fails, a test says why, and each worker compiles what it needs.
     subprocess.run(
-        [sys.executable, str(ROOT / "tests" / "compile_kernels.py")], check=False, cwd=ROOT
+        [sys.executable, str(ROOT / "tests/helpers/compile_kernels.py")], check=False, cwd=ROOT
     )
 
 

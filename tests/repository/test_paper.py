@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from project import shipped
 
+from helpers.project import shipped
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.lyapunov import scene_exponents
 from pseudorigid.dynamics.paper import BALL as PAPER_BALL

@@ -13,9 +13,9 @@ from pathlib import Path
 import netCDF4
 import psutil
 import pytest
-from project import SHIPPED, wait_for
-from runs import contents
 
+from helpers.project import SHIPPED, wait_for
+from helpers.runs import contents
 from pipeline.cli import publishing, running
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import UsageError

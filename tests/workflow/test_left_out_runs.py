@@ -1,10 +1,10 @@
 """Figures that cannot be made: accept and archive say so and go on with the others."""
 
 import pytest
-from project import Tree
-from runs import contents
-from verdicts import accepting, verified
 
+from helpers.project import Tree
+from helpers.runs import contents
+from helpers.verdicts import accepting, verified
 from pipeline import config
 
 REASON = "left out: energy: 0.0017 is not allowed: expected a number below k/2 - g = -0.015"

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from project import of_scenes, run
+
+from helpers.project import of_scenes, run
 
 SITE = Path(np.__file__).parents[1]  # the packages, without the link to the sources in .venv
 

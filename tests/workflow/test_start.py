@@ -11,9 +11,9 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from project import ROOT, path_of_bare_python, run, wait_for
-from slowly import slowly
 
+from helpers.project import ROOT, path_of_bare_python, run, wait_for
+from helpers.slowly import slowly
 from pipeline.cli import packages
 
 

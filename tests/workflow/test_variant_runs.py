@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from project import make_here, of_scenes
-from runs import VARIANTS, contents, rows
 
+from helpers.project import make_here, of_scenes
+from helpers.runs import VARIANTS, contents, rows
 from pipeline import config
 from pipeline.declaration import parts
 from pipeline.records.artifacts import load

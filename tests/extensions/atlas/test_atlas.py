@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
-from examples import assert_decided
-from legible import assert_legible
-from readable import assert_as_known
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas, raster
 from extensions.atlas.sweep import resonances
+from helpers.examples import assert_decided
+from helpers.legible import assert_legible
+from helpers.readable import assert_as_known
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from host_card import HostCard
 
 from extensions.atlas.gpu import card, cells, orbit, plans
 from extensions.atlas.starts import sunflower_points
+from helpers.parts import host_card
+from helpers.parts.host_card import HostCard
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.verdict import VERDICT, all_windows, classify_orbits, lengths_to_decide
 from pseudorigid.kernel.arithmetic import log, sincos
@@ -21,7 +22,6 @@ from pseudorigid.kernel.impact import steps
 from pseudorigid.kernel.tangents import bump
 
 PTX = Path(cells.__file__).with_name("kernel.ptx")
-HERE = Path(__file__).parent
 
 
 @pytest.fixture(params=["host", pytest.param("card", marks=pytest.mark.gpu)], scope="module")
@@ -129,7 +129,7 @@ def test_too_little_memory_is_said_in_one_line():
 @pytest.mark.slow
 def test_a_sweep_on_a_card_has_the_same_files_and_says_what_made_them(place, tmp_path):
     there, size = place
-    project = pytest.importorskip("project")
+    project = pytest.importorskip("helpers.project")
     sweep = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 700, "block": 2}
     over = {"picture": "chains", "over": "small", "chains": [6]}  # it shares the dataset
     document = project.of_scenes("fig3", sweeps={"small": sweep, "over_it": over})
@@ -144,7 +144,7 @@ def test_a_sweep_on_a_card_has_the_same_files_and_says_what_made_them(place, tmp
     by_processor = made("sweep", "small")
     shutil.rmtree(folder)
     if size == 1:
-        tree.command = lambda *words: [sys.executable, HERE / "on_host_card.py", *words]
+        tree.command = lambda *words: [sys.executable, host_card.__file__, *words]
     assert made("sweep", "small", "--gpu") == by_processor
     on_card, tree = tree, project.Tree(tree.path)
     record = json.loads((folder / "provenance/sweep_small.0000.nc.json").read_text())

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from sections import BALL
 
 from extensions.claims.analyses.exclusion import exclusion
+from helpers.sections import BALL
 from pseudorigid import orbit
 from pseudorigid.dynamics.rotation import symmetric_fixed_point
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import xarray as xr
-from sections import BALL
 
 from extensions.claims.analyses import rotation
 from extensions.claims.ledger.chaos import discontinuous
+from helpers.sections import BALL
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.rotation import regular
 

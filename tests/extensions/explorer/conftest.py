@@ -1,13 +1,13 @@
 """Browsers and pages of the tests of the explorer. A browser is started once for all tests."""
 
-import browsers
 import pytest
-from doubles import SCRIPT
-from person import Person
-from project import SHIPPED
-from slowly import slowly
 
 from extensions.explorer import page
+from helpers.parts import browsers
+from helpers.parts.doubles import SCRIPT
+from helpers.parts.person import Person
+from helpers.project import SHIPPED
+from helpers.slowly import slowly
 from pipeline import config
 
 

@@ -5,11 +5,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from slowly import slowly
 
 from extensions.atlas.last_curve import OrbitSearch
 from extensions.claims.analyses.jumps import jumps
 from extensions.families.breakup import breakup, neighbour, noble_residue
+from helpers.slowly import slowly
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.rotation import regular, symmetric_fixed_point, winding
 from pseudorigid.dynamics.variables import states_of

@@ -2,11 +2,11 @@
 
 import numpy as np
 import xarray as xr
-from legible import assert_legible, frames_of
-from readable import assert_as_known
 
 from extensions.atlas.figures import raster
 from extensions.families.figures import chains
+from helpers.legible import assert_legible, frames_of
+from helpers.readable import assert_as_known
 from pseudorigid.figures.canvas import style
 
 SWEEP = {

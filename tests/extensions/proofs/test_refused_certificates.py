@@ -4,13 +4,13 @@ import re
 from fractions import Fraction
 
 import pytest
-from certificates import ONE_OF_EACH, altered, numbers, refused, with_field, with_rows
 
 from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
+from helpers.parts.certificates import ONE_OF_EACH, altered, numbers, refused, with_field, with_rows
 
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 

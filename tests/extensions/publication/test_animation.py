@@ -5,11 +5,11 @@ from io import BytesIO
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
-from project import ROOT
-from readable import assert_as_known
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
+from helpers.project import ROOT
+from helpers.readable import assert_as_known
 from pipeline.checks import manifest
 from pipeline.records.files import FileError
 from pipeline.records.pictures import drawing_hash, picture_difference

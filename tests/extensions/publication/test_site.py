@@ -2,20 +2,18 @@
 
 import json
 import re
-import sys
 from collections import defaultdict
 from contextlib import nullcontext
 from itertools import product
-from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
-from archives import DATA, forge
-from outline import Outline
-from project import ROOT, SHIPPED
 
 from extensions.explorer import page as explorer
 from extensions.publication.commands import article, site
+from helpers.parts.archives import DATA, forge
+from helpers.parts.outline import Outline
+from helpers.project import ROOT, SHIPPED
 from pipeline import config
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
@@ -115,9 +113,9 @@ def test_what_is_missing_stops_the_site(built, tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_the_site_is_accessible_and_statements_are_filtered(built, tmp_path):
-    sys.path.append(str(Path(__file__).parents[1] / "explorer"))
-    import browsers
     from axe_core_python.selenium import Axe
+
+    from helpers.parts import browsers
 
     names = "index", "CLAIMS", "pages/run", "pages/gallery", "docs/method", "pages/api"
     pages = [built / f"{name}.html" for name in names]
