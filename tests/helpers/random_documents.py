@@ -1,6 +1,7 @@
 """Random documents and bytes, for the tests of files from elsewhere."""
 
 import copy
+import json
 
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
@@ -49,6 +50,33 @@ def spoilt(draw, data):
     return data
 
 
-FUZZ = settings(
-    max_examples=20, deadline=None, suppress_health_check=[*HealthCheck], derandomize=True
-)
+TAGS = {bool: "!!bool ", int: "!!int ", float: "!!float ", str: "!!str "}
+
+
+@st.composite
+def in_yaml(draw, value, known=None):
+    """YAML of a JSON value: with tags, anchors, aliases of equal parts, and overridden merges."""
+    known = {} if known is None else known
+    text = json.dumps(value)
+    if not isinstance(value, (dict, list)):
+        return draw(st.sampled_from(["", TAGS[type(value)]])) + text
+    if text in known and draw(st.booleans()):
+        return f"*{known[text]}"
+    if isinstance(value, list):
+        written = f"[{', '.join(draw(in_yaml(each, known)) for each in value)}]"
+    else:
+        merged = draw(st.lists(st.sampled_from(sorted(value)), unique=True)) if value else []
+        overridden = {key for key in merged if draw(st.booleans())}
+        base = {key: "overridden" if key in overridden else value[key] for key in merged}
+        pairs = [f"<<: {draw(in_yaml(base, known))}"] if merged else []
+        for key in sorted(value.keys() - {*merged} | overridden):
+            pairs.append(f"{json.dumps(key)}: {draw(in_yaml(value[key], known))}")
+        written = f"{{{', '.join(pairs)}}}"
+    if text in known:
+        return written
+    known[text] = f"a{len(known)}"
+    return f"&{known[text]} {written}"
+
+
+# Examples differ from day to day: tests/conftest.py chooses their seed.
+FUZZ = settings(max_examples=20, deadline=None, suppress_health_check=[*HealthCheck])

@@ -4,11 +4,14 @@ import re
 from importlib import metadata
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import pseudorigid
 from helpers.commands import answer, mistake
 from helpers.documents import complaint
 from helpers.project import ROOT, path_of_bare_python, run
+from helpers.random_documents import FUZZ
 from pipeline.cli import arguments, main, packages
 from pipeline.command_list import all_commands
 from pipeline.config.schema.parts import SETS
@@ -88,6 +91,37 @@ def test_names_and_flags_may_be_mixed_and_options_of_snakemake_follow():
     assert arguments.read(["fig3", "--", "--dag"]).makes_nothing
     args = arguments.read(["test", "-k", "verify", "--help"])
     assert args.options == ["-k", "verify", "--help"]
+
+
+TYPED = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=8)
+WORDS = [*all_commands(), "fig3", "fig2", "study/edges", "results/paper/orbits_fig2.nc", "=", "2"]
+WORDS += [
+    "-n",
+    "-c",
+    "-c2",
+    "--cores",
+    "--cores=all",
+    "--strict",
+    "-h",
+    "--help",
+    "--version",
+    "--",
+]
+
+
+def test_any_command_line_is_read_or_refused_in_one_line(capsys):
+    @FUZZ
+    @given(words=st.lists(st.sampled_from(WORDS) | TYPED, max_size=4))
+    def trial(words):
+        status = None
+        try:
+            arguments.read(words)
+        except SystemExit as end:
+            status = end.code
+        err = capsys.readouterr().err
+        assert (status, err.count("\n")) in {(None, 0), (0, 0), (2, 1)}, (words, status, err)
+
+    trial()
 
 
 def test_help_without_a_venv_installs_nothing(tree, tmp_path):

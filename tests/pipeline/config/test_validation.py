@@ -7,12 +7,12 @@ import sys
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from helpers.documents import changed, complaint, complaints, good
 from helpers.project import SHIPPED, run, shipped
-from helpers.random_documents import FUZZ, JSON, edited, spoilt
+from helpers.random_documents import FUZZ, JSON, edited, in_yaml, spoilt
 from pipeline import config
 from pipeline.config.schema.parts import MAIN, SETS
 from pipeline.config.validation import document
@@ -67,6 +67,29 @@ def test_any_file_is_a_config_or_is_refused(tmp_path):
             return
         for result in checked.build_specs(["paper"]):
             assert (tmp_path / result).resolve().is_relative_to(tmp_path / "results" / "paper")
+
+    trial()
+
+
+# The variant's view overrides a key that it merges, and a scene merges it, which is read before it.
+OVERRIDING = """
+ball: {k: 0.2, g: 0.04}
+variants: {low: {scenes: {a: {view: &v {<<: {elevation: 9}, elevation: 1, azimuth: 2}}}}}
+scenes:
+  a: &a {picture: portrait, energy: 0.01, starts: [0.5], impacts: 9}
+  b: {<<: *a, view: {<<: *v}}
+"""
+
+
+def test_anchors_merges_and_tags_say_what_they_stand_for(tmp_path):
+    path, meant = tmp_path / "config.yaml", yaml.safe_load(OVERRIDING)
+
+    @settings(FUZZ, max_examples=10)
+    @example(text=OVERRIDING)
+    @given(text=in_yaml(meant))
+    def trial(text):
+        path.write_text(text)
+        assert config.load(path).scenes == config.check(meant).scenes
 
     trial()
 

@@ -9,8 +9,10 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
+from hypothesis import given, settings
 
 from helpers.project import ROOT
+from helpers.random_documents import FUZZ, spoilt
 from pipeline.records import artifacts
 from pipeline.records.artifacts import ArtifactError, canonical_values, load, save
 from pipeline.records.files import FileError
@@ -132,6 +134,22 @@ def test_a_bad_file_gives_one_line_that_names_it(tmp_path):
     for content in (b"hello", *cut):
         path.write_bytes(content)
         assert "damaged" in refusal(path)
+
+
+@pytest.mark.slow  # a fault of the HDF5 library could end the process
+def test_a_file_with_any_damage_is_read_or_refused_in_one_line(tmp_path):
+    path = saved(dataset(), tmp_path / "a.nc")
+
+    @settings(FUZZ, max_examples=60)
+    @given(data=spoilt(path.read_bytes()))
+    def trial(data):
+        path.write_bytes(data)
+        try:
+            load(path)
+        except ArtifactError as error:
+            assert str(path) in str(error) and "\n" not in str(error)
+
+    trial()
 
 
 def test_all_nan_and_all_byte_orders_are_one_value():

@@ -10,7 +10,7 @@ from helpers.sections import BALL, ball_of
 from pseudorigid import Ball
 from pseudorigid.dynamics.ensemble import ImpactMap
 
-every = settings(derandomize=True, deadline=None)
+every = settings(deadline=None)
 numbers = st.floats(-2.0, 2.0, allow_subnormal=False)
 # Of any energy: eq. (31) bounds that of balls with g < k.
 balls = st.builds(

@@ -63,7 +63,7 @@ def test_the_bounds_are_those_of_decimals():
     assert PAPER.energy_bounds() == (-0.004, 0.06)
 
 
-@settings(derandomize=True, deadline=None)
+@settings(deadline=None)
 @given(st.decimals("0.001", "1", places=3), st.decimals("0.001", "1", places=3))
 def test_the_range_of_doubles_is_that_of_the_decimals(k, share):
     k, g = float(k), float(k * share / 2)

@@ -120,7 +120,7 @@ def signed(low, high):
     return st.one_of(sizes, sizes.map(lambda a: -a), st.just(0.0))
 
 
-@settings(max_examples=400, derandomize=True, deadline=None)
+@settings(max_examples=400, deadline=None)
 @given(
     st.floats(-12, 0) | st.just(-323.3), st.floats(-6, 2), signed(-9, 3), signed(-9, 3),
     signed(-9, 3), st.booleans(),

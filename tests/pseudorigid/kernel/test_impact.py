@@ -109,7 +109,7 @@ def test_inverse(ball):
 @example(-700, 0.2, 0.04, -0.05, 0.1, 0.3)
 @example(700, 0.2, 0.04, -0.05, 0.1, 0.3)
 @example(1000, 0.2, 0.04, -0.05, 0.1, 0.3)
-@settings(derandomize=True, deadline=None)
+@settings(deadline=None)
 @given(
     st.integers(-60, 60), st.floats(0.01, 1.0), st.floats(1e-4, 1.0),
     *[st.floats(-2.0, 2.0, allow_subnormal=False)] * 3,
