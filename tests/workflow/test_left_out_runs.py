@@ -84,6 +84,7 @@ def test_a_published_picture_whose_scene_cannot_exist_is_named_with_the_reason(f
     archive.write(tree.path, config.load(tree.config), tmp_path / "a.tar")
 
 
+@pytest.mark.slow
 def test_a_stray_picture_is_named_by_archive_and_by_accept(refused, tmp_path):
     tree, file = refused.copy(tmp_path / "stray"), "paper_figures/FIG2.png"
     (tree.path / file).write_bytes(contents(tree)["fig3.png"])

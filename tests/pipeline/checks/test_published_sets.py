@@ -65,6 +65,7 @@ def test_the_pictures_of_a_removed_scene_are_listed(moved):
     assert (moved.path / "paper_figures" / "fig7.png").is_file()
 
 
+@pytest.mark.slow
 def test_a_picture_of_a_scene_that_is_gone_is_removed_if_it_was_published_here(moved):
     """What git tracks, what another hand drew, and what an unknown repository has stay."""
     figures, drawn = moved.path / "paper_figures", moved.path / "results/paper/figures"
