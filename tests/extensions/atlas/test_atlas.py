@@ -110,6 +110,7 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
         assert bars == places(np.repeat(across[3:], 2), 135 + height * ends)
 
 
+@pytest.mark.slow
 def test_a_sweep_without_a_sea_can_be_drawn():
     nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
     wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # the edges of cells pass k = 0

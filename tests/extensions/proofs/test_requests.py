@@ -171,6 +171,7 @@ def test_the_data_of_a_proved_curve(monkeypatch):
     assert 0.99 * data["area"].item() < area < data["area"].item()
 
 
+@pytest.mark.slow
 def test_the_data_of_a_proved_graph():
     data = scenes.scene_graph(BALL, 0.005)
     assert 0.05 < data["entropy"].item() < 0.051

@@ -85,6 +85,7 @@ def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures(
     assert gif.keys() - png.keys() == {"pillow"} and png.keys() <= gif.keys()
 
 
+@pytest.mark.slow
 def test_two_gifs_are_compared_frame_by_frame(content, data, tmp_path):
     paths = [tmp_path / name for name in ("a.gif", "b.gif", "c.gif")]
     orbits, frames = data

@@ -76,7 +76,8 @@ def test_a_start_has_the_energy_and_lies_on_the_symmetry_line(ball, fraction, he
     x, v, w = ball.start(fraction, energy)
     centre, radius = ball.section(energy)
     size = v * v + w * w + 2 * ball.g * abs(x) + x * x
-    assert abs(ball.energy(x, v, w) - energy) <= 2e-15 * size
+    rounded = ball.k * centre**2  # near the rim x is a difference of two numbers near the centre
+    assert abs(ball.energy(x, v, w) - energy) <= 2e-15 * (size + rounded)
     assert abs(v - ball.k * w) <= 1e-15 * abs(v) and v + w >= 0.0
     assert x == pytest.approx(centre + fraction * radius, abs=1e-15 * size**0.5)
 
