@@ -7,13 +7,19 @@ import shutil
 import subprocess
 import sys
 from contextlib import suppress
+from datetime import date
 
+import hypothesis
 import pytest
-from project import ROOT, Tree, fresh_tree, of_scenes, once
-from runs import VARIANTS
 
+from helpers.project import ROOT, Tree, fresh_tree, of_scenes, once
+from helpers.runs import VARIANTS
 from pipeline.declaration import parts
 from pipeline.records import sources
+
+# Its own profile for servers tries the same examples each day.
+hypothesis.settings.register_profile("of the day", derandomize=False)
+hypothesis.settings.load_profile("of the day")
 
 # As under ./reproduce: tests that pytest has rewritten are kept, which halves collection.
 sys.dont_write_bytecode = False
@@ -21,13 +27,20 @@ sys.dont_write_bytecode = False
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_cmdline_main(config):
-    """Use one worker per core, unless an option says otherwise (-n0, -p no:xdist)."""
+    """Use one worker per core and the seed of the day, unless an option says otherwise."""
     option = config.option
+    if option.hypothesis_seed is None:
+        option.hypothesis_seed = f"{date.today():%Y%m%d}"
     chosen = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
     if not (chosen or hasattr(config, "workerinput")):
         on_linux = hasattr(os, "sched_getaffinity")
         cores = len(os.sched_getaffinity(0)) if on_linux else os.cpu_count()
         option.numprocesses, option.dist = cores, "worksteal"
+
+
+def pytest_report_header(config):
+    """Say with which option property tests try the same examples on another day."""
+    return f"property tests: --hypothesis-seed={config.option.hypothesis_seed}"
 
 
 def pytest_configure(config):
@@ -38,7 +51,7 @@ def pytest_configure(config):
         return
     # If this fails, a test says why, and each worker compiles what it needs.
     subprocess.run(
-        [sys.executable, str(ROOT / "tests" / "compile_kernels.py")], check=False, cwd=ROOT
+        [sys.executable, str(ROOT / "tests/helpers/compile_kernels.py")], check=False, cwd=ROOT
     )
 
 

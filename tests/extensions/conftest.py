@@ -10,9 +10,8 @@ from pipeline.records import sources
 @pytest.fixture(scope="session")
 def derived(pickled):
     """The dataset of all derivations, which takes seconds to compute."""
-    from claim_data import made
-
     from extensions.proofs.derivations import derivations
+    from helpers.parts.claim_data import made
 
     return pickled("derivations", lambda: made(derivations), "extensions.proofs.derivations")
 
@@ -20,7 +19,7 @@ def derived(pickled):
 @pytest.fixture(scope="session")
 def flowing(pickled):
     """The dataset of the flux, whose areas take seconds to compute."""
-    import claim_data
+    from helpers.parts import claim_data
 
     module = "extensions.claims.analyses.flux"
     return pickled("flux", claim_data.flux_of_the_paper, module)
@@ -29,7 +28,7 @@ def flowing(pickled):
 @pytest.fixture(scope="session")
 def datasets(pickled, derived, flowing):
     """All datasets that the checks of claims need, computed with little work."""
-    import claim_data
+    from helpers.parts import claim_data
 
     file = Path(claim_data.__file__)  # what it imports computes them
     modules = sources._imported_modules(sources.SRC, file, "")

@@ -1,8 +1,8 @@
 """The commands of extensions: their arguments, and the reports of mistakes."""
 
 import pytest
-from commands import mistake
 
+from helpers.commands import mistake
 from pipeline.cli import arguments
 from pipeline.declaration import parts
 

@@ -5,8 +5,8 @@ import statistics
 import numpy as np
 import pytest
 import xarray as xr
-from samples import SCENES, exponents, orbits
 
+from helpers.samples import SCENES, exponents, orbits
 from paper.figures import portrait, reports
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.lyapunov import scene_exponents

@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 import yaml
-from project import ROOT
 
 import pseudorigid
+from helpers.project import ROOT
 from pseudorigid import Ball, symmetric_orbits
 
 BALL = Ball(k=0.2, g=0.04)

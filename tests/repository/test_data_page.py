@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from described import PAGE, assert_described, assert_describes_itself, stages_of
-from test_documents import blocks, text_of
 
+from helpers.described import PAGE, assert_described, assert_describes_itself, stages_of
+from helpers.pages import blocks, text_of
 from pipeline.config.schema.parts import STAGES
 from pipeline.records import artifacts
 from pseudorigid import (

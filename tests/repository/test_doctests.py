@@ -6,9 +6,9 @@ import pkgutil
 from pathlib import Path
 
 import pytest
-from slowly import slowly
 
 import pseudorigid
+from helpers.slowly import slowly
 from pipeline.declaration import files
 from pipeline.records.sources import SRC
 

@@ -5,8 +5,9 @@ from fnmatch import fnmatch
 
 import pytest
 import yaml
-from project import ROOT
 
+from helpers.pages import blocks, text_of
+from helpers.project import ROOT
 from pipeline import config, declaration
 from pipeline.cli import arguments
 from pipeline.command_list import COMMANDS, all_commands
@@ -18,6 +19,7 @@ FOLDERS = (".github", "src", "tests", "docs", "workflow", "profiles", "requireme
 FOLDERS += ("paper_figures", "more_figures")
 PATHS = [*ROOT.glob("*"), *(path for folder in FOLDERS for path in (ROOT / folder).rglob("*"))]
 FILES = [str(path.relative_to(ROOT)) for path in PATHS if path.is_file()]
+QUOTES = '"' * 3
 SUFFIX = r"\.(?:py|md|yaml|yml|toml|json|txt|png|svg|cff|nc|smk|tar)"
 
 
@@ -29,21 +31,11 @@ def anchors(text):
 
 def is_absent(name):
     """Whether a file is one of a part that is not there, or of its tests."""
-    tests = re.match(r"(?:tests/)?(extensions|study)/", name)
+    tests = re.match(r"(?:tests/)?(extensions|study|helpers/parts)/", name)
     if tests and not (ROOT / "tests" / tests[1]).is_dir():
         return True
     found = re.search(r"\b(?:extensions/|src/)(?!extensions/)(\w+)/", name)
     return bool(found) and not [*ROOT.glob(f"src/{found[1]}"), *ROOT.glob(f"src/*/{found[1]}")]
-
-
-def text_of(document):
-    return (ROOT / document).read_text(encoding="utf-8")
-
-
-def blocks(document):
-    """The indented blocks of a document, without the indent."""
-    found = re.findall(r"(?:^|\n)\n((?:    .*\n|\n(?=    ))+)", text_of(document))
-    return [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip("\n") for block in found]
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
@@ -54,6 +46,13 @@ def test_links_lead_to_files(document):
         assert file.exists() or is_absent(path), link
         if place and file.exists():
             assert place in anchors(file.read_text(encoding="utf-8")), link
+
+
+def test_the_page_of_tests_has_the_modules_that_tests_share():
+    shared = ROOT / "tests" / "helpers"
+    for file in {*shared.rglob("*.py")} - {*shared.rglob("__init__.py")}:
+        name, first = file.relative_to(shared).with_suffix(""), file.read_text().splitlines()[0]
+        assert f"| `{name}` | {first.replace(QUOTES, '')} |\n" in text_of("tests/README.md")
 
 
 def test_the_page_of_commands_has_those_of_parts():

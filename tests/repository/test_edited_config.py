@@ -6,12 +6,13 @@ import shutil
 import subprocess
 
 import pytest
-from documents import SCENES
-from project import ROOT, Tree, run, shipped
+
+from helpers.documents import SCENES
+from helpers.project import ROOT, Tree, run, shipped
 
 # What a test contains that reads it: the file, or a command that is run there.
 READS_CONFIG = re.compile(
-    r'ROOT / "config\.yaml"|text_of\("config|cwd=ROOT|from commands import|figures_page\.page'
+    r'ROOT / "config\.yaml"|text_of\("config|cwd=ROOT|helpers\.commands|figures_page\.page'
 )
 NOT_COPIED = shutil.ignore_patterns(".venv", "results", ".snakemake", "__pycache__", ".*_cache")
 

@@ -15,12 +15,13 @@ import sys
 import zipfile
 
 import pytest
-from project import ROOT, run
 
+from helpers.project import ROOT, run
 from pipeline.checks.published_sets import read_sums
 
 pytestmark = [pytest.mark.emulated, pytest.mark.timeout(0)]  # they take long
 
+SEARCHED = str(ROOT / "src"), str(ROOT / "tests")
 DEBIAN = """
     libbz2-1.0 libc6 libcrypt1 libdb5.3 libexpat1 libffi8 libgcc-s1 liblzma5 libncursesw6 libnsl2
     libpython3.11-minimal libpython3.11-stdlib libreadline8 libsqlite3-0 libssl3 libstdc++6
@@ -67,7 +68,7 @@ def aarch64(tmp_path_factory):
         zipfile.ZipFile(wheel).extractall(folder / "site")
     python = folder / "root" / "usr" / "bin" / "python3.11"
     command = ["qemu-aarch64", "-L", str(folder / "root"), str(python), "-s"]
-    return command, {"PYTHONPATH": f"{ROOT / 'src'}{os.pathsep}{folder / 'site'}"}
+    return command, {"PYTHONPATH": os.pathsep.join([*SEARCHED, str(folder / "site")])}
 
 
 @pytest.fixture(scope="module", params=["nehalem", "aarch64"])
@@ -78,7 +79,7 @@ def machine(request):
 def test_the_published_figures(machine, tmp_path):
     python, environment = machine
     caches = {"NUMBA_CACHE_DIR": str(tmp_path), "MPLCONFIGDIR": str(tmp_path)}
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")} | caches | environment
-    result = run(*python, ROOT / "tests" / "paper_probe.py", env=environment)
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(SEARCHED)} | caches | environment
+    result = run(*python, ROOT / "tests/helpers/paper_probe.py", env=environment)
     assert result.returncode == 0, result.stderr
     assert json.loads(result.stdout) == read_sums(ROOT, "paper_figures")

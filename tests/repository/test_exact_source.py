@@ -4,8 +4,8 @@ import ast
 import re
 
 import pytest
-from project import ROOT, SHIPPED
 
+from helpers.project import ROOT, SHIPPED
 from pipeline import config
 
 EXACT = {"prod", "sqrt", "floor", "ceil", "inf", "nan", "isnan", "isfinite", "copysign", "ulp"}

@@ -7,10 +7,10 @@ import runpy
 import matplotlib
 import numpy as np
 import pytest
-from colours import assert_colours_apart
-from project import ROOT
-from slowly import slowly
 
+from helpers.colours import assert_colours_apart
+from helpers.project import ROOT
+from helpers.slowly import slowly
 from pipeline.declaration import parts
 from pipeline.records import artifacts
 from pseudorigid import Ball, Picture

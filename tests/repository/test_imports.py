@@ -12,9 +12,9 @@ from importlib.util import find_spec
 import grimp
 import pytest
 import yaml
-from project import ROOT, SHIPPED, run
-from test_style import requested
 
+from helpers.project import ROOT, SHIPPED, run
+from helpers.requirements import requested
 from pipeline import config
 from pipeline.cli import packages
 from pipeline.command_list import COMMANDS

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from project import NO_CACHES, ROOT, run
 
+from helpers.project import NO_CACHES, ROOT, run
 from pipeline.loading import LOADED
 from pseudorigid.kernel import arithmetic
 

@@ -9,15 +9,15 @@ import platform
 import sys
 from pathlib import Path
 
-import matrix_probe
 import pytest
 from fontTools.ttLib import TTFont
 from matplotlib import get_data_path
-from project import ROOT, run
 
+from helpers import matrix_probe
+from helpers.project import ROOT, run
 from pipeline.declaration import parts
 
-PROBE = ROOT / "tests" / "matrix_probe.py"
+PROBE = ROOT / "tests/helpers/matrix_probe.py"
 CONTROLS = {"library", "simd"}  # the probe's answers that the settings may change
 
 # FOLDER is one of the probe's own, with a matplotlibrc and false fonts for ours. To find the
@@ -59,7 +59,10 @@ def probe(folder, mode, environment, python=(sys.executable,)):
                     record.string = family
             font.save(folder / ".fonts" / f"{family}.ttf")
     kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
-    own = {"PYTHONPATH": str(ROOT / "src"), "MPLCONFIGDIR": str(folder / "config")}
+    own = {
+        "PYTHONPATH": f"{ROOT}/src{os.pathsep}{ROOT}/tests",
+        "MPLCONFIGDIR": str(folder / "config"),
+    }
     own |= {name: value.replace("FOLDER", str(folder)) for name, value in environment.items()}
     result = run(*python, PROBE, mode, env=kept | own, cwd=folder)
     assert result.returncode == 0, result.stderr

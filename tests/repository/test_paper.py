@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from project import shipped
 
+from helpers.project import shipped
 from paper.values import BALL as PAPER_BALL
 from paper.values import EXPONENT, FIGURES, WINDOW
 from pseudorigid import Ball, symmetric_orbits

@@ -1,9 +1,10 @@
 """Figures of the paper, from the shipped scenes, have the committed bytes."""
 
-import paper_probe
 import pytest
 import yaml
-from project import ROOT, SHIPPED, run
+
+from helpers import paper_probe
+from helpers.project import ROOT, SHIPPED, run
 
 SUMS = "paper_figures/SHA256SUMS"
 

@@ -4,7 +4,8 @@ import ast
 import tomllib
 
 import pytest
-from project import ROOT
+
+from helpers.project import ROOT
 
 FAULTS = tomllib.loads((ROOT / "tests/faults/faults.toml").read_text(encoding="utf-8"))["fault"]
 # Those of a deleted part are not looked at.

@@ -4,7 +4,8 @@ import os
 import sys
 
 import pytest
-from project import fresh_tree, of_scenes, run
+
+from helpers.project import fresh_tree, of_scenes, run
 
 # Python runs this file at each start. It takes away what macOS lacks, and the user's name.
 SITE = """

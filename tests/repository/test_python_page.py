@@ -3,9 +3,8 @@
 import doctest
 import re
 
-from test_documents import blocks, text_of
-
 import pseudorigid
+from helpers.pages import blocks, text_of
 
 PAGE = "docs/python.md"
 

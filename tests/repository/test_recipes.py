@@ -5,8 +5,9 @@ import re
 import shutil
 
 import pytest
-from project import ROOT, Tree, run
-from verdicts import commit
+
+from helpers.project import ROOT, Tree, run
+from helpers.verdicts import commit
 
 KIND = '''
 
@@ -73,7 +74,7 @@ SCENE = """
 PRESET = "  returns: (scene) => ({ orbits: orbitsOf(scene) }),\n"
 TEST = '''"""Returns of orbits."""
 
-from examples import checked, made
+from helpers.examples import checked, made
 
 
 def test_orbits_are_counted():
@@ -89,12 +90,13 @@ EDITS = {
     "src/paper/presets.js": lambda text: text.replace("PRESETS, {\n", f"PRESETS, {{\n{PRESET}", 1),
     "src/paper/captions.toml": lambda text: text + CAPTION,
     "src/paper/examples.yaml": lambda text: text + EXAMPLE,
-    "tests/figures/test_NAME.py": lambda text: TEST,
+    "tests/pseudorigid/figures/test_NAME.py": lambda text: TEST,
     "config.yaml": lambda text: text.replace("\nscenes:\n", f"\nscenes:{SCENE}", 1),
 }
 # Default tests that look at kinds of picture, scenes or files.
-TESTS = ("checks", "config", "figures/test_returns.py", "paper", "repository")
-TESTS += ("extensions/explorer/test_generated.py", "extensions/publication/test_figures_page.py")
+TESTS = ("pipeline/checks", "pipeline/config", "pseudorigid/figures/test_returns.py")
+TESTS += ("paper", "repository", "extensions/explorer/test_generated.py")
+TESTS += ("extensions/publication/test_figures_page.py",)
 
 
 def steps():

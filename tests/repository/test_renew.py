@@ -4,8 +4,8 @@ import re
 import shutil
 
 import pytest
-from project import ROOT, check_jsonschema, fresh_tree, shipped, small
 
+from helpers.project import ROOT, check_jsonschema, fresh_tree, shipped, small
 from pipeline import renew
 from pipeline.config import reference
 from pipeline.config.schema.kinds import KINDS

@@ -5,7 +5,9 @@ import shutil
 import sys
 
 import pytest
-from project import ROOT, run
+
+from helpers.project import ROOT, run
+from helpers.requirements import requested
 
 PYTHON = (sys.executable, "-m")
 
@@ -62,17 +64,6 @@ def test_every_package_is_pinned_and_hashed():
 
 
 REQUESTED = sorted(file.stem for file in (ROOT / "requirements").glob("*.in"))
-
-
-def requested(name):
-    """Name -> version, or nothing, of each package that requirements/NAME.in asks for."""
-    found = {}
-    for line in (ROOT / "requirements" / f"{name}.in").read_text().splitlines():
-        if line and not line.startswith("#"):
-            pin = re.split("[;<~]", line)[0].strip()  # without its condition
-            package, _, version = pin.lower().replace("_", "-").partition("==")
-            found[package] = version
-    return found
 
 
 @pytest.mark.parametrize("name", REQUESTED)

@@ -5,8 +5,8 @@ import shutil
 
 import pytest
 import yaml
-from project import ROOT, SHIPPED, Tree, run
 
+from helpers.project import ROOT, SHIPPED, Tree, run
 from pipeline import config
 
 PAGE = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
-from project import NO_CACHES, ROOT, run
-from test_documents import blocks
 
 import pseudorigid
+from helpers.pages import blocks
+from helpers.project import NO_CACHES, ROOT, run
 
 
 def succeed(*command, cwd, **environment):
@@ -154,7 +154,7 @@ def test_the_tests_of_the_sdist_need_no_workflow(unpacked, tmp_path):
     program = f"{without}; import pytest; sys.exit(pytest.main(['--collect-only', '-q']))"
     tests = succeed(sys.executable, "-P", "-c", program, cwd=unpacked)
     for folder in ("dynamics", "kernel", "figures", "verified"):
-        assert f"tests/{folder}/test_" in tests
+        assert f"tests/pseudorigid/{folder}/test_" in tests
 
 
 @pytest.mark.slow

@@ -4,7 +4,8 @@ import re
 
 import pytest
 import yaml
-from project import ROOT, check_jsonschema, run
+
+from helpers.project import ROOT, check_jsonschema, run
 
 FILES = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 
@@ -36,7 +37,7 @@ def test_each_push_tries_the_newest_python_and_a_mac_blocks_nothing():
 @pytest.mark.parametrize(("skipped", "status"), [("needs the extension atlas", 0), ("no fish", 1)])
 def test_the_check_of_everything_fails_on_an_unexpected_skip(tmp_path, skipped, status):
     end = (ROOT / ".ci/run").read_text().partition("say 'skipped tests")[2]
-    (tmp_path / "tests").write_text(f"SKIPPED [1] tests/cli/test_a.py:3: {skipped}\n")
+    (tmp_path / "tests").write_text(f"SKIPPED [1] tests/pipeline/cli/test_a.py:3: {skipped}\n")
     program = f"set -euo pipefail\nscratch={tmp_path}\nsay() {{ :; }}\nsay 'skipped tests{end}"
     result = run("bash", "-c", program)
     assert (result.returncode, skipped in result.stdout) == (status, bool(status)), result.stdout

@@ -9,11 +9,11 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from flights import FAMILIES, by_mpmath, draw
-from independent_solver import judge
-from sections import ball_of
-from slowly import slowly
 
+from helpers.flights import FAMILIES, by_mpmath, draw
+from helpers.independent_solver import judge
+from helpers.sections import ball_of
+from helpers.slowly import slowly
 from pseudorigid.kernel.formulas import impact_coefficients, rebound
 from study import stages, states
 from study.methods import inflections

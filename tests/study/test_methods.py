@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from project import ROOT
 
+from helpers.project import ROOT
 from pipeline.records.sources import source_files
 from study import stages, states
 from study.methods import libraries

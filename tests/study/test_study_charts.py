@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from keys import texts
-from legible import assert_legible
 
+from helpers.keys import texts
+from helpers.legible import assert_legible
 from study import charts as study
 
 FAMILIES = ("certified march", "scan 0.1 + bisection")

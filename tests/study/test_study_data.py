@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from described import assert_describes_itself, stages_of
-from project import shipped
 
+from helpers.described import assert_describes_itself, stages_of
+from helpers.project import shipped
 from pipeline.records import artifacts
 from pseudorigid import Ball, symmetric_orbits
 from study import figure_errors, stages

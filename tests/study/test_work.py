@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from independent_solver import judge
 
+from helpers.independent_solver import judge
 from study import bench, stages, states
 from study.methods.counted_methods import METHODS
 

@@ -1,10 +1,10 @@
 """Figures that cannot be made: accept and archive say so and go on with the others."""
 
 import pytest
-from project import Tree
-from runs import contents
-from verdicts import accepting, verified
 
+from helpers.project import Tree
+from helpers.runs import contents
+from helpers.verdicts import accepting, verified
 from pipeline import config
 
 REASON = "left out: energy: 0.0017 is not allowed: expected a number below k/2 - g = -0.015"
@@ -84,6 +84,7 @@ def test_a_published_picture_whose_scene_cannot_exist_is_named_with_the_reason(f
     archive.write(tree.path, config.load(tree.config), tmp_path / "a.tar")
 
 
+@pytest.mark.slow
 def test_a_stray_picture_is_named_by_archive_and_by_accept(refused, tmp_path):
     tree, file = refused.copy(tmp_path / "stray"), "paper_figures/FIG2.png"
     (tree.path / file).write_bytes(contents(tree)["fig3.png"])

@@ -1,8 +1,8 @@
 """Scenes with a `method`: their data count what it missed, and nothing else changes."""
 
 import pytest
-from project import make_here, of_scenes
 
+from helpers.project import make_here, of_scenes
 from pipeline import config
 from pipeline.jobs import stage
 from pipeline.records.artifacts import load

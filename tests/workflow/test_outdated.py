@@ -11,9 +11,10 @@ from contextlib import suppress
 
 import psutil
 import pytest
-from project import fresh_tree, of_scenes
-from runs import FIG3, contents, rows
-from verdicts import verified
+
+from helpers.project import fresh_tree, of_scenes
+from helpers.runs import FIG3, contents, rows
+from helpers.verdicts import verified
 
 PAPER = "results/paper"
 

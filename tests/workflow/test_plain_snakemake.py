@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from project import of_scenes, run
+
+from helpers.project import of_scenes, run
+from helpers.slowly import slowly
 
 SITE = Path(np.__file__).parents[1]  # the packages, without the link to the sources in .venv
 
@@ -18,6 +20,7 @@ def snakemake(folder, *arguments):
     return run(*command, cwd=folder, env=others | {"PYTHONPATH": str(SITE)})
 
 
+@pytest.mark.slow
 def test_it_makes_the_same_files_where_no_environment_knows_the_sources(tree):
     tree.write(of_scenes("fig7"))
     # The Python of the jobs finds the sources of the tests too.
@@ -36,7 +39,9 @@ def test_it_makes_the_same_files_where_no_environment_knows_the_sources(tree):
 MODULE = 'module ball:\n    snakefile: "{}/Snakefile"\n\nuse rule * from ball as ball_*\n'
 
 
-@pytest.mark.parametrize("where", ["another folder", "its own folder", "another directory"])
+@pytest.mark.parametrize(
+    "where", ["another folder", *slowly("its own folder", "another directory")]
+)
 def test_use_as_a_module_or_with_a_directory_is_refused_in_one_line(tree, tmp_path, where):
     tree.write(of_scenes("fig7"))
     other = tmp_path / "other"

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 
 import pytest
 import yaml
-from project import ROOT
 from snakemake.io import regex_from_filepattern, update_wildcard_constraints
 
+from helpers.project import ROOT
 from pipeline.config import load
 from pipeline.config.schema.kinds import KINDS
 from pipeline.config.schema.parts import STAGES

@@ -4,8 +4,7 @@ import os
 import re
 import shutil
 
-from runs import FIG3, contents, rows
-
+from helpers.runs import FIG3, contents, rows
 from pipeline.cli.table import WHAT_TO_DO
 
 PAPER = "results/paper"

@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from project import ROOT, fresh_tree, of_scenes, shipped
 
+from helpers.project import ROOT, fresh_tree, of_scenes, shipped
 from pipeline.records.sources import BOOKKEEPING
 
 # Put into jobs/job.py: when a result is made, write the names of the loaded files.

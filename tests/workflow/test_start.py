@@ -11,9 +11,9 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from project import ROOT, path_of_bare_python, run, wait_for
-from slowly import slowly
 
+from helpers.project import ROOT, path_of_bare_python, run, wait_for
+from helpers.slowly import slowly
 from pipeline.cli import packages
 
 
@@ -31,28 +31,31 @@ def test_a_bad_config_is_a_line_a_mistake_and_starts_nothing(tree):
     assert (result.returncode, result.stdout) == (1, lines) and not (tree.path / "results").exists()
 
 
-@pytest.mark.parametrize(("words", "text", "status", "line"), [
-    ("verify fig3", "", 2, "reproduce verify: no argument fig3: usage: ./reproduce verify [-h]"),
-    ("fig2 --cores x", "", 2, "reproduce: argument -c/--cores: 'x' is not allowed"),
+# Words, config.yaml (None: no file), exit status, and how the line begins.
+EARLY = [
+    ("verify fig3", "x", 2, "reproduce verify: no argument fig3: usage: ./reproduce verify [-h]"),
+    ("fig2 --cores x", "x", 2, "reproduce: argument -c/--cores: 'x' is not allowed"),
     ("fig2", None, 1, "reproduce: config.yaml: cannot be read: No such file or directory"),
     ("fig2", "ball:\n\tk: 0.2\n", 1, "reproduce: config.yaml: line 2: begins with a tab"),
     ("fig2", "# nothing\n", 1, "reproduce: config.yaml: is empty"),
     ("fig2", "\udcff", 1, "reproduce: config.yaml: is not UTF-8 text: byte 0"),
     ("--version", None, 0, "pseudorigid "),
-])  # fmt: skip
-def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_installed(
-    tree, tmp_path, words, text, status, line
-):
-    if text is None:
-        tree.config.unlink()
-    elif text:
-        tree.config.write_bytes(text.encode(errors="surrogateescape"))
+]
+
+
+def test_a_mistake_that_needs_no_package_is_reported_before_packages_are_installed(tree, tmp_path):
     path = path_of_bare_python(tmp_path / "bin")
-    result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
-    assert (result.returncode, result.stderr.count("\n")) == (status, int(status > 0))
-    assert (result.stdout + result.stderr).startswith(line) and not (tree.path / ".venv").exists()
+    for words, text, status, line in EARLY:
+        tree.config.unlink(missing_ok=True)
+        if text is not None:
+            tree.config.write_bytes(text.encode(errors="surrogateescape"))
+        result = run(tree.path / "reproduce", *words.split(), env={"PATH": path}, cwd="/")
+        assert (result.returncode, result.stderr.count("\n")) == (status, int(status > 0))
+        assert (result.stdout + result.stderr).startswith(line)
+    assert not (tree.path / ".venv").exists()
 
 
+@pytest.mark.slow
 def test_commands_that_only_read_need_no_permission_to_write(finished, tmp_path):
     """In a folder of another user."""
     tree = finished.copy(tmp_path / "tree")
@@ -81,37 +84,34 @@ def test_the_code_of_one_tree_does_not_run_the_workflow_of_another(tree):
     assert not (tree.path / "results").exists()
 
 
-@pytest.mark.parametrize(("pretend", "line"), [
+# What a Python says of itself (None: there is none), and the line about it.
+UNSUITABLE = [
     (None, "no python3 found: please install Python 3.11 to 3.14"),
     ("sys.version_info = (3, 9, 2)", "needs Python 3.11 to 3.14, but python3 is 3.9.2"),
     ("sys.version_info = (3, 15, 0)", "needs Python 3.11 to 3.14, but python3 is 3.15.0"),
-    (
-        "sys.modules['ensurepip'] = None",
-        "python3 lacks the venv module: "
-        "please install it (Debian, Ubuntu: apt install python3-venv)",
-    ),
-    (
-        "sys.version_info = (3, 14, 0)",
-        "python3 is 3.14.0, for which one package has to be compiled: please install a C "
-        "compiler and the headers of Python (Debian, Ubuntu: apt install gcc python3-dev), or "
-        "Python 3.11 to 3.13",
-    ),
-])  # fmt: skip
-def test_an_unsuitable_python_is_one_line(tree, tmp_path, pretend, line):
-    path = tmp_path / "bin"
-    path.mkdir()
+    ("sys.modules['ensurepip'] = None", "python3 lacks the venv module: please install it (Debian, "
+     "Ubuntu: apt install python3-venv)"),
+    ("sys.version_info = (3, 14, 0)", "python3 is 3.14.0, for which one package has to be compiled"
+     ": please install a C compiler and the headers of Python (Debian, Ubuntu: apt install gcc "
+     "python3-dev), or Python 3.11 to 3.13"),
+]  # fmt: skip
+
+
+def test_an_unsuitable_python_is_one_line(tree, tmp_path):
+    (path := tmp_path / "bin").mkdir()
     for tool in ("readlink", "cat", "cksum", "uname", "cut", "tail", "mkdir", "rm", "sh"):
         (path / tool).symlink_to(shutil.which(tool))
-    if pretend:
-        version = "import platform\nplatform.python_version = lambda: '.'.join(map(str, version))\n"
-        program = tmp_path / "program.py"
-        program.write_text(
-            f"import sys\n{pretend}\nversion = sys.version_info[:3]\n{version}exec(sys.argv.pop())"
-        )
-        (path / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "{program}" "$2"\n')
-        (path / "python3").chmod(0o755)
-    result = run(tree.path / "reproduce", env={"PATH": str(path)}, cwd="/")
-    assert (result.returncode, result.stdout) == (1, "") and result.stderr == f"reproduce: {line}\n"
+    version = "import platform\nplatform.python_version = lambda: '.'.join(map(str, version))\n"
+    version = f"version = sys.version_info[:3]\n{version}exec(sys.argv.pop())"
+    for pretend, line in UNSUITABLE:
+        if pretend:
+            program, python = tmp_path / "program.py", path / "python3"
+            program.write_text(f"import sys\n{pretend}\n{version}")
+            python.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{program}" "$2"\n')
+            python.chmod(0o755)
+        result = run(tree.path / "reproduce", env={"PATH": str(path)}, cwd="/")
+        assert (result.returncode, result.stdout) == (1, "")
+        assert result.stderr == f"reproduce: {line}\n"
     assert not (tree.path / ".venv").exists()
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from project import make_here, of_scenes
-from runs import VARIANTS, contents, rows
 
+from helpers.project import make_here, of_scenes
+from helpers.runs import VARIANTS, contents, rows
 from pipeline import config
 from pipeline.declaration import parts
 from pipeline.records.artifacts import load
@@ -65,6 +65,7 @@ def test_the_copy_scaled_by_two_is_equal_in_every_bit(scaled, name):
         assert np.array_equal(doubled.attrs[key], value * 2.0 if key in lengths else value), key
 
 
+@pytest.mark.slow
 def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert figures_of(variants, "low") == {"fig3.png", "fig7.png"}
     if "publication" not in parts():
@@ -75,6 +76,7 @@ def test_a_figure_that_cannot_exist_is_named_and_the_rest_is_drawn(variants):
     assert {*rows(output).values()} == {"published again"}  # what is current is not listed
 
 
+@pytest.mark.slow
 def test_a_variant_s_figures_are_not_published(variants):
     assert set(contents(variants)) == {"fig3.png", "fig4.png", "fig7.png"}
     data = (variants.path / "results" / "paper" / "figures" / "fig7.png").read_bytes()

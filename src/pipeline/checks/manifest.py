@@ -52,9 +52,10 @@ def build(root: Path, published_set: PublishedSet) -> Manifest:
     for scene, stages in published_set.data.items():
         data = {stage: load(root / path) for stage, path in stages.items()}
         described |= {path: describe_data(data[stage]) for stage, path in stages.items()}
-        for path in (path for path in published_set.drawn.values() if Path(path).stem == scene):
-            known = facts(published_set.build_specs[path].config, data)
-            described[path] = known | {"drawing": drawing_hash(root / path)}
+        drawings = [path for path in published_set.drawn.values() if Path(path).stem == scene]
+        # All formats of a picture have one config, and the same facts.
+        known = facts(published_set.build_specs[drawings[0]].config, data) if drawings else {}
+        described |= {p: known | {"drawing": drawing_hash(root / p)} for p in drawings}
     records = {path: read_record(root, record_path(path)) for path in sorted(described)}
     shared = _shared([record["environment"] for record in records.values()])
     sources, results = dict[str, str](), dict[str, dict[str, Any]]()

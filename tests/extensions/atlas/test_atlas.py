@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
-from examples import assert_decided
-from legible import assert_legible
-from readable import assert_readable
 
 from extensions.atlas import cell
 from extensions.atlas.figures import atlas
 from extensions.atlas.sweep import resonances
+from helpers.examples import assert_decided
+from helpers.legible import assert_legible
+from helpers.readable import assert_readable
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics import fixed_point
@@ -111,6 +111,7 @@ def test_the_line_is_drawn_with_its_bars_and_gaps():
         assert bars == places(np.repeat(across[3:], 2), 135 + height * ends)
 
 
+@pytest.mark.slow
 def test_a_sweep_without_a_sea_can_be_drawn():
     nothing = dict.fromkeys(("exponent", "exponent_low", "exponent_high"), np.nan)
     wide = PLANE | {"k": [0.1, 0.9], "energy": [-0.4, 0.2]}  # the edges of cells pass k = 0

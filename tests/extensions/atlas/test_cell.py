@@ -5,10 +5,10 @@ from itertools import product
 
 import numpy as np
 import pytest
-from dataset_hash import content_hash
 
 from extensions.atlas import cell, kinds, starts
 from extensions.atlas.sweep import dataset_of_a_sweep
+from helpers.dataset_hash import content_hash
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.kernel import tangents

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from host_card import HostCard
 
 from extensions.atlas.gpu import card, cells, orbit, plans
 from extensions.atlas.starts import sunflower_points
+from helpers.parts import host_card
+from helpers.parts.host_card import HostCard
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.verdict import VERDICT, all_windows, classify_orbits, lengths_to_decide
 from pseudorigid.kernel.arithmetic import log, sincos
 from pseudorigid.kernel.formulas import start
-from pseudorigid.kernel.impact import steps
+from pseudorigid.kernel.impact import iterate
 from pseudorigid.kernel.tangents import bump
 
 PTX = Path(cells.__file__).with_name("kernel.ptx")
-HERE = Path(__file__).parent
 
 
 @pytest.fixture(params=["host", pytest.param("card", marks=pytest.mark.gpu)], scope="module")
@@ -65,7 +65,7 @@ def test_orbits_at_their_own_k_g_and_energies(place):
     nothing = np.empty((1, 0, 4))
     for i, reached in enumerate(there.read(orbits, float).reshape(5, -1)[:3].T):
         x, v, w = (column[i : i + 1].copy() for column in states)
-        steps(x, v, w, k[i], g[i], 2000, np.zeros(1), nothing, None)
+        iterate(x, v, w, k[i], g[i], 2000, np.zeros(1), nothing, None)
         assert same(reached, np.array([x, v, w])[:, 0])
 
 
@@ -129,7 +129,7 @@ def test_too_little_memory_is_said_in_one_line():
 @pytest.mark.slow
 def test_a_sweep_on_a_card_has_the_same_files_and_says_what_made_them(place, tmp_path):
     there, size = place
-    project = pytest.importorskip("project")
+    project = pytest.importorskip("helpers.project")
     sweep = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 700, "block": 2}
     over = {"picture": "chains", "over": "small", "chains": [6]}  # it shares the dataset
     document = project.of_scenes("fig3", sweeps={"small": sweep, "over_it": over})
@@ -144,7 +144,7 @@ def test_a_sweep_on_a_card_has_the_same_files_and_says_what_made_them(place, tmp
     by_processor = made("sweep", "small")
     shutil.rmtree(folder)
     if size == 1:
-        tree.command = lambda *words: [sys.executable, HERE / "on_host_card.py", *words]
+        tree.command = lambda *words: [sys.executable, host_card.__file__, *words]
     assert made("sweep", "small", "--gpu") == by_processor
     on_card, tree = tree, project.Tree(tree.path)
     record = json.loads((folder / "provenance/sweep_small.0000.nc.json").read_text())

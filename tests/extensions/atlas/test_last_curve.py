@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from independent_solver import periodic_point
-from sections import BALL
 
 from extensions.atlas import last_curve
+from helpers.independent_solver import periodic_point
+from helpers.sections import BALL
 from pseudorigid import Ball, rotation_number
 
 ENERGY = 0.01

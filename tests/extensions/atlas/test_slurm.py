@@ -4,8 +4,9 @@ import hashlib
 import subprocess
 
 import pytest
-import slurm_node
-from project import fresh_tree
+
+from helpers.parts import slurm_node
+from helpers.project import fresh_tree
 
 pytestmark = pytest.mark.slurm
 

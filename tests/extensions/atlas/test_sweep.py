@@ -6,9 +6,9 @@ import shutil
 import signal
 
 import pytest
-from project import fresh_tree, of_scenes, wait_for
 
 from extensions.atlas import cell, command
+from helpers.project import fresh_tree, of_scenes, wait_for
 from pipeline import config
 from pipeline.cli.arguments import Arguments
 from pipeline.cli.errors import UsageError

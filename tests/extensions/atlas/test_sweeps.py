@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from documents import complaint, good
 
+from helpers.documents import complaint, good
 from pipeline import config
 
 SMALL = {"k": [0.1, 0.2], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}

@@ -3,10 +3,6 @@
 import numpy as np
 import pytest
 import xarray as xr
-from examples import checked
-from keys import SCENE, colors, texts
-from legible import assert_legible, frames_of
-from sections import BALL
 
 from extensions.claims.analyses.flux import SIDES
 from extensions.claims.analyses.spread import spread
@@ -17,6 +13,10 @@ from extensions.claims.figures import flux as flux_figure
 from extensions.claims.figures import last_curve as last_curve_figure
 from extensions.claims.figures import rotation as rotation_figure
 from extensions.claims.figures import spread as spread_figure
+from helpers.examples import checked
+from helpers.keys import SCENE, colors, texts
+from helpers.legible import assert_legible, frames_of
+from helpers.sections import BALL
 from pipeline.checks.captions import caption_of
 from pipeline.checks.quantities import facts
 from pseudorigid.dynamics.lyapunov import scene_exponents

@@ -4,17 +4,17 @@ from functools import cache
 
 import numpy as np
 import pytest
-from legible import assert_legible
-from readable import assert_readable
-from samples import module
-from sections import BALL
-from small_curve import SMALL
 
 from extensions.claims.analyses.exclusion import exclusion
 from extensions.families.dataset import families
 from extensions.families.shares import shares
 from extensions.proofs.escape import escape
 from extensions.proofs.theorems import scenes
+from helpers.legible import assert_legible
+from helpers.parts.small_curve import SMALL
+from helpers.readable import assert_readable
+from helpers.samples import module
+from helpers.sections import BALL
 from pseudorigid import symmetric_orbits
 from pseudorigid.dynamics.manifolds import scene_manifolds
 from pseudorigid.dynamics.orbits import scene_orbits

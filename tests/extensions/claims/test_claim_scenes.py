@@ -1,10 +1,10 @@
 """Scenes of claims away from the committed ones: bounds, variants, names and unusual sizes."""
 
 import pytest
-from examples import OTHER, PAPER, SHELL, assert_bounded, checked, made, no_clipping
-from project import shipped
-from slowly import slowly
 
+from helpers.examples import OTHER, PAPER, SHELL, assert_bounded, checked, made, no_clipping
+from helpers.project import shipped
+from helpers.slowly import slowly
 from pipeline import config
 
 CLUSTERS = ("clusters", {"orbits": 100, "impacts": 1_000_000, "resamples": 100_000})

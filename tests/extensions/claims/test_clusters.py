@@ -6,11 +6,11 @@ import math
 import numpy as np
 import pytest
 import scipy.integrate
-from sections import BALL
 
 from extensions.claims.analyses import clusters as clusters_module
 from extensions.claims.analyses.clusters import clusters
 from extensions.claims.analyses.sea import ratio, sea_states, section_points
+from helpers.sections import BALL
 from pseudorigid import classify_orbits, orbit
 
 ENERGY = 0.01

@@ -2,10 +2,9 @@
 
 import re
 
-from project import ROOT
-
 from extensions.claims import ledger
 from extensions.claims.ledger import bar
+from helpers.project import ROOT
 
 ROWS = ledger.read_json((ROOT / ledger.DATA).read_text(encoding="utf-8"))
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from sections import BALL
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.claims.analyses.exclusion import exclusion
+from helpers.sections import BALL
 from pseudorigid import orbit
 
 ENERGY = 0.01

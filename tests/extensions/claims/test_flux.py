@@ -1,17 +1,17 @@
 """Lobes and flux by actions, by polygons and by counting, and angles of the traced branches."""
 
-import independent_solver as judge
 import numpy as np
 import pytest
 from flint import arb, ctx
 from mpmath import mp, mpf
-from sections import BALL
 
 from extensions.claims import turnstile_flux
 from extensions.claims.analyses import actions
 from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import Surface
 from extensions.proofs.enclosure.jets import Jet
+from helpers import independent_solver as judge
+from helpers.sections import BALL
 from pseudorigid import symmetric_orbits, trace_manifold
 
 ENERGY = 0.01

@@ -2,15 +2,15 @@
 
 import math
 
-import independent_solver as judge
 import numpy as np
 import pytest
-from legible import frames_of
 from mpmath import mp, mpf
-from sections import BALL
 
 from extensions.claims.analyses.jumps import jumps
 from extensions.claims.figures.jumps import MAP, draw
+from helpers import independent_solver as judge
+from helpers.legible import frames_of
+from helpers.sections import BALL
 from pseudorigid import Ball
 from pseudorigid.dynamics.orbits import scene_orbits
 from pseudorigid.figures.canvas import style

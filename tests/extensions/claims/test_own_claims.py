@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 import yaml
-from examples import example
-from project import fresh_tree, of_scenes, shipped
 
 from extensions.claims import command
+from helpers.examples import example
+from helpers.project import fresh_tree, of_scenes, shipped
 from pipeline import config
 from pipeline.cli.errors import UsageError
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 import xarray as xr
-from sections import BALL
 
 from extensions.atlas.symmetry_line import regular
 from extensions.claims.analyses import rotation
 from extensions.claims.ledger.chaos import discontinuous
+from helpers.sections import BALL
 from pseudorigid import symmetric_orbits
 
 ENERGY = 0.01

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 import scipy.stats
-from sections import BALL
-from slowly import slowly
 
 from extensions.claims.analyses.sea import section_points
 from extensions.claims.analyses.spread import spread
 from extensions.claims.analyses.stretches import in_sea, spread_of_runs, stretches
 from extensions.claims.ledger import chaos
+from helpers.sections import BALL
+from helpers.slowly import slowly
 from pseudorigid import lyapunov_spectrum, orbit
 
 ENERGY = 0.01

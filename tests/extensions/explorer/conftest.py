@@ -1,14 +1,14 @@
 """Browsers and pages of the tests of the explorer. A browser is started once for all tests."""
 
-import browsers
 import pytest
-from doubles import SCRIPT
-from engine import Engine
-from person import Person
-from project import SHIPPED
-from slowly import slowly
 
 from extensions.explorer import page
+from helpers.parts import browsers
+from helpers.parts.doubles import SCRIPT
+from helpers.parts.engine import Engine
+from helpers.parts.person import Person
+from helpers.project import SHIPPED
+from helpers.slowly import slowly
 from pipeline import config
 
 

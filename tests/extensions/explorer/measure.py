@@ -1,6 +1,6 @@
 """How smooth the explorer is, and how often the short form of its verdicts is wrong.
 
-    export PYTHONPATH=src:tests:tests/extensions/explorer
+    export PYTHONPATH=src:tests
     .venv/bin/python tests/extensions/explorer/measure.py
 
 On an idle machine, in Chromium: seconds until the section in colour is complete, energies a second
@@ -13,12 +13,12 @@ import tempfile
 import time
 from pathlib import Path
 
-import browsers
 import numpy as np
-from project import SHIPPED, wait_for
 from test_pixels import WORKER
 
 from extensions.explorer import page
+from helpers.parts import browsers
+from helpers.project import SHIPPED, wait_for
 from pipeline import config
 
 DISK = "k=0.2&g=0.04&view=disk,115,40,0,0,1.12"

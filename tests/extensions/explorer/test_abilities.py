@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from person import DISK, WHOLE
-from project import wait_for
 from selenium.webdriver import Keys
 
+from helpers.parts.person import DISK, WHOLE
+from helpers.project import wait_for
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
 

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from doubles import bits, digest, packed, unpacked
-from flights import FAMILIES
-from sections import ball_of, sea
 
 from extensions.explorer import data
+from helpers.flights import FAMILIES
+from helpers.parts.doubles import bits, digest, packed, unpacked
+from helpers.sections import ball_of, sea
 from pseudorigid import lyapunov_spectrum, orbit
 from pseudorigid.dynamics.variables import chart
 from pseudorigid.kernel import arithmetic, closed_forms, formulas, impact

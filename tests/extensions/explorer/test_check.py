@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from project import ROOT, SHIPPED, wait_for
 
 from extensions.explorer import page
 from extensions.processors.build import CompiledFile
+from helpers.project import ROOT, SHIPPED, wait_for
 from pipeline import config
 from pseudorigid.kernel import arithmetic
 

@@ -5,12 +5,12 @@ import re
 
 import numpy as np
 import pytest
-from person import DISK
-from project import wait_for
 from selenium.webdriver import Keys
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
+from helpers.parts.person import DISK
+from helpers.project import wait_for
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
 

@@ -3,8 +3,9 @@
 from fractions import Fraction
 
 import pytest
-from project import wait_for
 from selenium.webdriver import Keys
+
+from helpers.project import wait_for
 
 pytestmark = pytest.mark.slow  # it sees no figure
 FIELDS = ("k", "g", "E")

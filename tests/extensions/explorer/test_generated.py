@@ -11,11 +11,11 @@ from contextlib import nullcontext
 
 import numpy as np
 import pytest
-from project import ROOT, SHIPPED, run
 
 from extensions.explorer import command as explore
 from extensions.explorer import data, page
 from extensions.explorer.command import EXPLORER
+from helpers.project import ROOT, SHIPPED, run
 from pipeline import config
 from pipeline.checks.manifest import describe_data
 from pipeline.cli.arguments import Arguments

@@ -3,10 +3,10 @@
 import json
 
 import pytest
-from person import DISK
-from project import wait_for
 
 from extensions.explorer import page
+from helpers.parts.person import DISK
+from helpers.project import wait_for
 
 pytestmark = pytest.mark.slow  # it sees no figure
 # What a browser's bars leave: width, height, and the least height of the section.

@@ -7,12 +7,12 @@ from math import atan2, cos, degrees, exp, hypot, radians, sin, sqrt
 
 import numpy as np
 import pytest
-from colours import lab
-from person import DISK
-from project import wait_for
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
+from helpers.colours import lab
+from helpers.parts.person import DISK
+from helpers.project import wait_for
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.variables import of_type
 

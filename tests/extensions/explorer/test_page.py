@@ -7,13 +7,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from axe_core_python.selenium import Axe
-from person import WHOLE, Visitor
-from project import shipped, wait_for
 from selenium.webdriver import Keys
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from extensions.atlas.symmetry_line import winding
 from extensions.claims.analyses.jumps import jumps
+from helpers.parts.person import WHOLE, Visitor
+from helpers.project import shipped, wait_for
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits, trace_manifold
 from pseudorigid.dynamics.regularity import orbit_types
 from pseudorigid.dynamics.variables import of_type

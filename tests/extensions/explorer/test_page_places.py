@@ -3,21 +3,13 @@
 import numpy as np
 import pytest
 
+from extensions.atlas.symmetry_line import symmetric_fixed_point
+from helpers.parts.engine import PROJECTED
 from pseudorigid import Ball, lyapunov_spectrum, symmetric_orbits
-from pseudorigid.dynamics.rotation import symmetric_fixed_point
 from pseudorigid.kernel.tangents import turns_and_growth
 
 BALL, ENERGY = Ball(k=0.2, g=0.04), 0.01
 BALLS = [(0.2, 0.04, 0.01), (1 / 3, 0.05, 0.003), (0.9, 0.3, -0.04), (0.1, 0.001, 0.048)]
-PROJECTED = """const [state, places] = args;
-const view = Object.create(SectionView.prototype);
-Object.assign(view, { width: 500, height: 420, read: () => ({ state }) });
-view.project();
-const { k, g, energy } = state;
-return [view.window(), places.map(([p, q]) => {
-  const at = view.screen(...geometry.stateAt(k, g, energy, { p, q }));
-  return at && [view.inside(at), at, view.placeOf(...at)];
-})];"""
 
 
 @pytest.mark.parametrize(("k", "g", "energy"), BALLS)

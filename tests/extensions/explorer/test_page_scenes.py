@@ -7,10 +7,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import yaml
-from project import SHIPPED, shipped
-from test_page_places import PROJECTED
 
 from extensions.explorer import data
+from helpers.parts.engine import PROJECTED
+from helpers.project import SHIPPED, shipped
 from pipeline import config
 from pipeline.config.validation.document import check
 from pseudorigid import Ball, symmetric_orbits

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 import yaml
-from project import Tree, shipped, wait_for
 
+from helpers.project import Tree, shipped, wait_for
 from pipeline.records.artifacts import load
 
 

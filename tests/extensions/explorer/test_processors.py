@@ -6,11 +6,11 @@ import subprocess
 
 import numpy as np
 import pytest
-from doubles import bits
-from sections import sea
 
 from extensions.explorer.compiled import entry_points
 from extensions.processors.build import compiled
+from helpers.parts.doubles import bits
+from helpers.sections import sea
 from pseudorigid import Ball, orbit
 from study import states
 

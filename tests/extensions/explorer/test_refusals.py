@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from project import wait_for
 
+from helpers.project import wait_for
 from pseudorigid import Ball, orbit
 from pseudorigid.kernel import formulas
 

@@ -5,12 +5,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from slowly import slowly
 
 from extensions.atlas.last_curve import OrbitSearch
 from extensions.atlas.symmetry_line import regular, symmetric_fixed_point, winding
 from extensions.claims.analyses.jumps import jumps
 from extensions.families.breakup import breakup, neighbour, noble_residue
+from helpers.slowly import slowly
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import states_of
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 import xarray as xr
-from exact_orbits import after, apex, at_rest, event_energy, on_section
 from mpmath import mp, mpf
-from slowly import slowly
 
 from extensions.families import chains
+from helpers.exact_orbits import after, apex, at_rest, event_energy, on_section
+from helpers.slowly import slowly
 from pseudorigid.dynamics import fixed_point
 from pseudorigid.dynamics.variables import rows
 

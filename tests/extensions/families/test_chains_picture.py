@@ -2,11 +2,11 @@
 
 import numpy as np
 import xarray as xr
-from legible import assert_legible, frames_of
-from readable import assert_readable
 
 from extensions.atlas.grid import edges
 from extensions.families.figures import chains
+from helpers.legible import assert_legible, frames_of
+from helpers.readable import assert_readable
 from pseudorigid.figures.canvas import style
 
 SWEEP = {

@@ -3,13 +3,13 @@
 import json
 
 import pytest
-from dataset_hash import content_hash
-from family_search import PAPER, crossings, energy_of, rho, up_to_period_six
 
 from extensions.families.continuation import search
 from extensions.families.continuation.half_orbit import ENERGY, INERTIA
 from extensions.families.continuation.symmetric import Parameter
 from extensions.families.dataset import families
+from helpers.dataset_hash import content_hash
+from helpers.parts.family_search import PAPER, crossings, energy_of, rho, up_to_period_six
 from pseudorigid import symmetric_orbits
 
 

@@ -2,14 +2,14 @@
 
 import math
 
-import independent_solver as judge
 import pytest
-from exact_orbits import state_at
-from family_search import PAPER, crossings, rho, searched, up_to_period_six
 from mpmath import mp, mpf
-from slowly import slowly
 
 from extensions.families.continuation.half_orbit import FIX_R
+from helpers import independent_solver as judge
+from helpers.exact_orbits import state_at
+from helpers.parts.family_search import PAPER, crossings, rho, searched, up_to_period_six
+from helpers.slowly import slowly
 from pseudorigid import Ball, symmetric_orbits
 
 

@@ -1,14 +1,21 @@
 """Energies of events along families are right to 12 digits, against computations in 60 digits."""
 
 import pytest
-from exact_orbits import after, apex, at_rest, derivative, on_section
-from family_search import PAPER, energy_of, rho, searched, six_born_at, up_to_period_six
 from mpmath import mp, mpf
 
 from extensions.families.continuation.curve import solve_at
 from extensions.families.continuation.half_orbit import ENERGY, FIX_R
 from extensions.families.continuation.search import Search
 from extensions.families.continuation.symmetric import Parameter, SymmetricOrbits
+from helpers.exact_orbits import after, apex, at_rest, derivative, on_section
+from helpers.parts.family_search import (
+    PAPER,
+    energy_of,
+    rho,
+    searched,
+    six_born_at,
+    up_to_period_six,
+)
 
 K, G = mpf("0.2"), mpf("0.04")
 

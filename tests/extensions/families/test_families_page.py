@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from project import ROOT
 
+from helpers.project import ROOT
 from pipeline.config import load
 from pipeline.records import artifacts
 from pipeline.records.provenance import Freshness

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from keys import SCENE, texts
-from sections import BALL
 
 from extensions.families.dataset import families
 from extensions.families.figures.families import draw
 from extensions.families.shares import shares
+from helpers.keys import SCENE, texts
+from helpers.sections import BALL
 from pseudorigid.figures.canvas import style
 
 

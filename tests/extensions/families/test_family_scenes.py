@@ -1,9 +1,9 @@
 """Scenes of families and chains: bounds, which datasets variants share, and a run."""
 
 import pytest
-from documents import complaint, good
-from examples import PAPER, assert_bounded
 
+from helpers.documents import complaint, good
+from helpers.examples import PAPER, assert_bounded
 from pipeline import config
 
 PLANE = {"k": [0.19, 0.21], "energy": [0.3, 2.0, 6.25], "starts": 12, "impacts": 200, "block": 2}

@@ -4,7 +4,6 @@ from fractions import Fraction
 from math import inf, nan
 
 import pytest
-from certificates import told
 from flint import arb, ctx
 
 from extensions.proofs import Surface
@@ -21,6 +20,7 @@ from extensions.proofs.checkers.certificate import (
     naming,
 )
 from extensions.proofs.enclosure.surface import ball_of
+from helpers.parts.certificates import told
 
 BALL = Fraction(1, 5), Fraction(1, 25)
 PAPER = Surface(*BALL, "1/100")

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
-from certificates import numbers, refused, told, with_rows
 from flint import arb, ctx
 
 from extensions.proofs import THEOREMS, Surface
@@ -16,6 +15,7 @@ from extensions.proofs.checkers.certificate import Certificate, NotProvedError
 from extensions.proofs.checkers.graph import Connection, Graph
 from extensions.proofs.checkers.hsets import HSet, LocalMap, hset
 from extensions.proofs.enclosure.jets import Jet
+from helpers.parts.certificates import numbers, refused, told, with_rows
 from pseudorigid.verified.flight import UndecidedError
 
 PAPER = Surface("1/5", "1/25", "1/100")

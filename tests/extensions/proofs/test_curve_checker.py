@@ -9,14 +9,14 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
-from certificates import refused, told, with_bounds, with_field
 from flint import acb, arb, ctx
-from sections import BALL
-from small_curve import SMALL
 
 from extensions.proofs import Surface
 from extensions.proofs.checkers import circle, complex_flight, curve, periodic
 from extensions.proofs.checkers.certificate import Certificate, NotProvedError
+from helpers.parts.certificates import refused, told, with_bounds, with_field
+from helpers.parts.small_curve import SMALL
+from helpers.sections import BALL
 from pseudorigid.verified.flight import UndecidedError
 
 PAPER, TEXT = Surface("1/5", "1/25", "1/100"), SMALL.text()

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from matplotlib.path import Path
-from sections import BALL
-from slowly import slowly
-from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, prove_curve
 from extensions.proofs.checkers import curve
 from extensions.proofs.search import curve as search
+from helpers.parts.small_curve import SMALL
+from helpers.sections import BALL
+from helpers.slowly import slowly
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics.variables import chart, states_of
 

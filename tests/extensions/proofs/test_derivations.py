@@ -6,10 +6,10 @@ Code that is plain arithmetic is called with symbols, compiled code with numbers
 import numpy as np
 import pytest
 import sympy as sp
-from sections import BALL
 
 from extensions.proofs.derivations import forms, impacts, model, symbols
 from extensions.proofs.derivations.symbols import b, c, energy, flight, g, k, rebound, tau, v, w, x
+from helpers.sections import BALL
 from pseudorigid import Ball, orbit
 from pseudorigid.dynamics import fixed_point
 

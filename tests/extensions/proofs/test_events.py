@@ -6,15 +6,15 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from certificates import refused, told, with_field
-from exact_orbits import after, apex
 from flint import arb, ctx
-from independent_solver import exact_map
 
 from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import events, fixed_point
 from extensions.proofs.checkers.certificate import Certificate, NotProvedError
 from extensions.proofs.enclosure.jets import Jet
+from helpers.exact_orbits import after, apex
+from helpers.independent_solver import exact_map
+from helpers.parts.certificates import refused, told, with_field
 from pseudorigid.verified.flight import Flight, UndecidedError
 
 CHECKERS = (fixed_point.check_resonance, events.check_doubling, events.check_grazing)

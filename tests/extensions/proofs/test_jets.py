@@ -7,14 +7,14 @@ from math import prod
 
 import numpy as np
 import pytest
-from certificates import told
 from flint import acb, arb, ctx
-from sections import sea
 
 from extensions.proofs import Surface, proved_impacts
 from extensions.proofs.enclosure import jets, surface
 from extensions.proofs.enclosure.jets import Jet, algebra, square_root
 from extensions.proofs.enclosure.surface import ball_of, exact
+from helpers.parts.certificates import told
+from helpers.sections import sea
 from pseudorigid.dynamics.variables import chart
 from pseudorigid.verified import reference_solver
 from pseudorigid.verified.flight import UndecidedError, launch

@@ -7,15 +7,15 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
-from certificates import told
 from flint import arb, ctx
-from independent_solver import exact_map
 
 from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import hsets, jump, periodic
 from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.checkers.hsets import hset
 from extensions.proofs.enclosure.surface import Impact
+from helpers.independent_solver import exact_map
+from helpers.parts.certificates import told
 from pseudorigid.verified import flight
 from pseudorigid.verified.flight import UndecidedError
 

@@ -4,12 +4,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from cycles import points_of
 from flint import arb, ctx
-from slowly import slowly
 
 from extensions.proofs.checkers.periodic import enclose, newton_image
 from extensions.proofs.enclosure.surface import Surface
+from helpers.cycles import points_of
+from helpers.slowly import slowly
 from pseudorigid import Ball, periodic_orbits, symmetric_orbits
 
 # Largest errors of orbits that are not polished: points in section radii, traces relative to 2.

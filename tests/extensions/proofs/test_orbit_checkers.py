@@ -5,12 +5,12 @@ from itertools import product
 from types import SimpleNamespace
 
 import pytest
-from certificates import numbers, refused, told, with_rows
 from flint import arb, ctx
 
 from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import newton, periodic
 from extensions.proofs.checkers.certificate import NotProvedError
+from helpers.parts.certificates import numbers, refused, told, with_rows
 
 PAPER = Surface("1/5", "1/25", "1/100")
 

@@ -3,11 +3,6 @@
 import numpy as np
 import pytest
 import xarray as xr
-from examples import OTHER, SHELL, assert_bounded, checked, made, no_clipping
-from keys import SCENE, texts
-from legible import assert_legible, frames_of, pixels_in_frames
-from project import shipped
-from sections import BALL
 
 from extensions.proofs import part
 from extensions.proofs.figures.escape import draw as draw_escape
@@ -15,6 +10,11 @@ from extensions.proofs.figures.graph import draw as draw_graph
 from extensions.proofs.figures.horseshoe import draw as draw_horseshoe
 from extensions.proofs.figures.twist import draw
 from extensions.proofs.theorems.scenes import scene_horseshoe
+from helpers.examples import OTHER, SHELL, assert_bounded, checked, made, no_clipping
+from helpers.keys import SCENE, texts
+from helpers.legible import assert_legible, frames_of, pixels_in_frames
+from helpers.project import shipped
+from helpers.sections import BALL
 from pipeline.checks.quantities import hidden
 from pipeline.config.results import files_of
 from pipeline.config.schema.parts import STAGES

@@ -3,11 +3,11 @@
 from types import SimpleNamespace
 
 import pytest
-from project import fresh_tree, of_scenes
 
 from extensions import proofs
 from extensions.proofs import command as prove
 from extensions.proofs.command import CERTIFICATES
+from helpers.project import fresh_tree, of_scenes
 from pipeline.cli.errors import CommandLineError, UsageError
 from pipeline.records import artifacts
 from pseudorigid.verified.flight import NotProvedError

@@ -4,13 +4,16 @@ import re
 from fractions import Fraction
 
 import pytest
-from certificates import ONE_OF_EACH, altered, numbers, refused, with_field, with_rows
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from extensions.proofs import THEOREMS, Surface
 from extensions.proofs.checkers import periodic
 from extensions.proofs.checkers.certificate import NotProvedError
 from extensions.proofs.search.periodic import approximate_points
 from extensions.proofs.theorems import statements
+from helpers.parts.certificates import ONE_OF_EACH, altered, numbers, refused, with_field, with_rows
+from helpers.random_documents import FUZZ, spoilt
 
 ORBITS = [name for name, theorem in THEOREMS.items() if theorem.checker is periodic.check]
 
@@ -58,6 +61,17 @@ def test_no_leading_digit_may_change(name):
     assert changes
     for _, number, text in changes:
         assert refused(name, text), number
+
+
+@pytest.mark.slow
+@settings(FUZZ, max_examples=200)
+@given(st.data())
+def test_a_certificate_with_any_damage_is_checked_or_refused_in_one_line(data):
+    """What is read is checked as it stands: changed points may prove the orbit too."""
+    theorem = THEOREMS[data.draw(st.sampled_from(ORBITS))]
+    text = data.draw(spoilt(theorem.text().encode())).decode(errors="replace")
+    result = theorem.check(text)
+    assert result.verdict in {"proved", "not proved"} and "\n" not in (result.reason or "")
 
 
 def test_random_bytes_and_a_missing_file_are_no_certificate(monkeypatch, tmp_path):

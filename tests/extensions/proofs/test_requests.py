@@ -4,17 +4,17 @@ from functools import partial
 
 import numpy as np
 import pytest
-from certificates import numbers
 from flint import ctx
-from project import SHIPPED
-from sections import BALL
-from slowly import slowly
-from small_curve import SMALL
 
 from extensions.claims.analyses.polygon import Polygon
 from extensions.proofs import THEOREMS, Surface, prove_curve, prove_horseshoe, prove_orbit
 from extensions.proofs.proved_impacts import Impacts, _impacts_behind, of_orbits, prove_impacts
 from extensions.proofs.theorems import scenes
+from helpers.parts.certificates import numbers
+from helpers.parts.small_curve import SMALL
+from helpers.project import SHIPPED
+from helpers.sections import BALL
+from helpers.slowly import slowly
 from pipeline import config
 from pseudorigid import Ball, symmetric_orbits
 from pseudorigid.dynamics.orbits import scene_orbits
@@ -171,6 +171,7 @@ def test_the_data_of_a_proved_curve(monkeypatch):
     assert 0.99 * data["area"].item() < area < data["area"].item()
 
 
+@pytest.mark.slow
 def test_the_data_of_a_proved_graph():
     data = scenes.scene_graph(BALL, 0.005)
     assert 0.05 < data["entropy"].item() < 0.051

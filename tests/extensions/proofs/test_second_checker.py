@@ -3,14 +3,14 @@
 from fractions import Fraction
 
 import pytest
-import second_checker
-from certificates import altered, with_field
 from mpmath import iv
-from second_checker import NotProvedError
-from slowly import slowly
 
 from extensions.proofs import THEOREMS
 from extensions.proofs.checkers import horseshoe, jump, periodic
+from helpers.parts import second_checker
+from helpers.parts.certificates import altered, with_field
+from helpers.parts.second_checker import NotProvedError
+from helpers.slowly import slowly
 
 KINDS = {periodic.check: "periodic orbit", jump.check_smooth: "no touch"}
 QUICK = [name for name, theorem in THEOREMS.items() if theorem.checker in KINDS]

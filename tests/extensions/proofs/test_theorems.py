@@ -4,15 +4,15 @@ import re
 import tomllib
 
 import pytest
-from certificates import ONE_OF_EACH
 from flint import arb, ctx
-from project import ROOT
-from slowly import slowly
 
 from extensions.proofs import THEOREMS, search_certificate
 from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
 from extensions.proofs.theorems.statements import theorem_verdict
+from helpers.parts.certificates import ONE_OF_EACH
+from helpers.project import ROOT
+from helpers.slowly import slowly
 from pipeline import config
 from pseudorigid.dynamics import fixed_point
 

@@ -5,10 +5,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from exact_orbits import state_at
 from flint import arb, arb_mat, ctx
-from independent_solver import flight
-from sections import BALL
 
 from extensions.proofs import Surface, true_orbit
 from extensions.proofs.enclosure.surface import ball_of
@@ -16,6 +13,9 @@ from extensions.proofs.true_orbits import enclosed_run
 from extensions.proofs.true_orbits import orbit as orbit_module
 from extensions.proofs.true_orbits.enclosed_run import Run, ShortOfBitsError, Start
 from extensions.proofs.true_orbits.orbit import true_scene_orbits
+from helpers.exact_orbits import state_at
+from helpers.independent_solver import flight
+from helpers.sections import BALL
 from pseudorigid.dynamics.orbits import scene_orbits
 
 PAPER = {"k": "1/5", "g": "1/25", "energy": "1/100"}

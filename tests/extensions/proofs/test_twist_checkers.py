@@ -9,7 +9,6 @@ from types import SimpleNamespace
 
 import mpmath
 import pytest
-from certificates import numbers, refused, told, with_bounds, with_field, with_rows
 from flint import acb, arb, arb_mat, ctx
 
 from extensions.proofs import THEOREMS, Surface
@@ -21,6 +20,7 @@ from extensions.proofs.enclosure.jets import Jet, algebra
 from extensions.proofs.enclosure.surface import ball_of
 from extensions.proofs.search.fixed_point import propose_unique
 from extensions.proofs.search.periodic import approximate_points
+from helpers.parts.certificates import numbers, refused, told, with_bounds, with_field, with_rows
 
 BALL = K, G = Fraction(1, 5), Fraction(1, 25)
 

@@ -5,11 +5,11 @@ from io import BytesIO
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
-from project import ROOT
-from readable import assert_readable
 
 from extensions.publication.figures.animation import draw, moving
 from extensions.publication.frames import scene_frames
+from helpers.project import ROOT
+from helpers.readable import assert_readable
 from pipeline.checks import manifest
 from pipeline.records.files import FileError
 from pipeline.records.pictures import drawing_hash, picture_difference
@@ -96,6 +96,7 @@ def test_the_manifest_names_what_encodes_a_gif_beside_what_decides_all_pictures(
     assert gif.keys() - png.keys() == {"pillow"} and png.keys() <= gif.keys()
 
 
+@pytest.mark.slow
 def test_two_gifs_are_compared_frame_by_frame(content, data, tmp_path):
     paths = [tmp_path / name for name in ("a.gif", "b.gif", "c.gif")]
     orbits, frames = data

@@ -7,13 +7,13 @@ import subprocess
 import tarfile
 
 import pytest
-from archives import against
-from project import SHIPPED
 
 from extensions.explorer import page
 from extensions.publication import archive
 from extensions.publication.archive import EXPLORER
 from extensions.publication.commands import against as command
+from helpers.parts.archives import against
+from helpers.project import SHIPPED
 from pipeline import config
 from pipeline.checks.published_sets import committed_sets
 from pipeline.cli.arguments import Arguments

@@ -9,11 +9,11 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from outline import Outline
-from project import run
-from slowly import slowly
 
 from extensions.publication.article import numbers, typesetting
+from helpers.parts.outline import Outline
+from helpers.project import run
+from helpers.slowly import slowly
 from pipeline import config
 from pipeline.records.sources import ROOT
 

@@ -1,9 +1,9 @@
 """CITATION.cff and codecheck.yml are valid and complete."""
 
 import yaml
-from project import check_jsonschema
 
 from extensions.publication.article import numbers
+from helpers.project import check_jsonschema
 from pipeline import config
 from pipeline.checks import manifest, published_sets
 from pipeline.records.sources import ROOT

@@ -5,12 +5,12 @@ import csv
 import numpy as np
 import pytest
 import xarray as xr
-from commands import mistake
-from legible import assert_legible, frames_of
 from matplotlib.lines import Line2D
-from project import fresh_tree, of_scenes
 
 from extensions.publication.compare import datasets, picture, quantities
+from helpers.commands import mistake
+from helpers.legible import assert_legible, frames_of
+from helpers.project import fresh_tree, of_scenes
 from pipeline.config.results import Range
 from pipeline.records.pictures import pixels
 from pseudorigid import Ball, symmetric_orbits

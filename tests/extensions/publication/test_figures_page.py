@@ -2,9 +2,8 @@
 
 import re
 
-from examples import assert_decided
-
 from extensions.publication.figures_page import _captions, page
+from helpers.examples import assert_decided
 
 
 def test_no_caption_has_a_condition_or_points_to_another_picture():

@@ -8,13 +8,13 @@ import tarfile
 from contextlib import suppress
 
 import pytest
-from archives import DATA, against, forge
 from hypothesis import given, settings
-from random_documents import FUZZ, JSON, edited
-from slowly import slowly
-from verdicts import accepting, verified
 
 from extensions.publication import archive
+from helpers.parts.archives import DATA, against, forge
+from helpers.random_documents import FUZZ, JSON, edited
+from helpers.slowly import slowly
+from helpers.verdicts import accepting, verified
 from pipeline import config
 from pipeline.checks import manifest
 from pipeline.checks.verify import verify

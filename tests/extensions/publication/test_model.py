@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from examples import PAPER, checked, computed
-from legible import assert_legible
 
 from extensions.publication.figures import model
+from helpers.examples import PAPER, checked, computed
+from helpers.legible import assert_legible
 from pseudorigid.figures.canvas import style
 
 

@@ -8,10 +8,10 @@ import subprocess
 import sys
 
 import pytest
-from project import ROOT, run
 
 from extensions.publication import archive
 from extensions.publication.commands import archive as command
+from helpers.project import ROOT, run
 from pipeline import config
 from pipeline.cli.errors import UsageError
 

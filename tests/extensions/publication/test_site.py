@@ -2,19 +2,17 @@
 
 import json
 import re
-import sys
 from collections import defaultdict
 from contextlib import nullcontext
-from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
-from archives import DATA, forge
-from outline import Outline
-from project import ROOT, SHIPPED
 
 from extensions.explorer import page as explorer
 from extensions.publication.commands import article, site
+from helpers.parts.archives import DATA, forge
+from helpers.parts.outline import Outline
+from helpers.project import ROOT, SHIPPED
 from pipeline import config
 from pipeline.cli import publishing
 from pipeline.cli.arguments import Arguments
@@ -115,8 +113,7 @@ def test_what_is_missing_stops_the_site(built, tmp_path, monkeypatch):
 
 @pytest.fixture
 def chromium(tmp_path):
-    sys.path.append(str(Path(__file__).parents[1] / "explorer"))
-    import browsers
+    from helpers.parts import browsers
 
     with browsers.started("chromium", tmp_path) as started:
         yield started

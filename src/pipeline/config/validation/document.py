@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -172,9 +172,9 @@ class _Loader(yaml.SafeLoader):
     than a reader, misleads: 012 is 10, 1:30 is 90, and yes is true.
     """
 
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        seen: set[str] = set()
-        for key, _ in node.value if isinstance(node, yaml.MappingNode) else ():
+    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
+        node, seen = super().compose_mapping_node(anchor), set[str]()
+        for key, _ in node.value:  # before a merge adds keys, which the mapping may override
             if isinstance(key, yaml.ScalarNode):  # PyYAML itself refuses lists and mappings
                 if key.value in seen:
                     raise _mistake(
@@ -184,7 +184,7 @@ class _Loader(yaml.SafeLoader):
                     words = f"the key {key.value} is no text in YAML 1.1: write '{key.value}'"
                     raise _mistake(key.start_mark, words)
                 seen.add(key.value)
-        return super().construct_mapping(node, deep)
+        return node
 
     def construct_scalar(self, node: yaml.ScalarNode | yaml.MappingNode) -> Any:
         text = super().construct_scalar(node)

@@ -16,7 +16,7 @@ COLUMN = 1050  # pixels: the width of a journal's column
 PLAIN = 9.0  # points: text in a picture of that width
 
 # Colours for meanings without an order. Readers with every kind of colour vision can tell apart
-# those that one picture uses, also in grey (tests/colours.py).
+# those that one picture uses, also in grey (tests/helpers/colours.py).
 BLUE, VERMILION, BLACK, GREEN = "#123fb0", "#d55e00", "#000000", "#00735a"
 ORANGE, SKY = "#b87f00", "#3a92c8"  # as light as VERMILION: with marks or widths of their own
 # The paper's green and blue for the two kinds of manifold.

@@ -1,0 +1,1 @@
+"""What several tests share; tests/README.md has a line for each module."""
