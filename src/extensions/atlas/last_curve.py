@@ -61,7 +61,7 @@ def last_curve(
 
     >>> from pseudorigid import Ball
     >>> between, nobles = (-0.2, -0.03), [[0, 5, 1, 15]]
-    >>> data = last_curve(Ball(k=0.2, g=0.04), 0.01, 0, between, 100, 10, nobles)
+    >>> data = last_curve(Ball(k=0.2, g=0.04), 0.01, 0, between, 10, nobles)
     >>> data["period"].values.tolist()
     [[95.0]]
     """
