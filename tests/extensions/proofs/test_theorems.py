@@ -2,6 +2,8 @@
 
 import re
 import tomllib
+from importlib import import_module
+from inspect import signature
 
 import pytest
 from flint import arb, ctx
@@ -52,6 +54,23 @@ def test_a_new_search_gives_a_certificate_that_holds(name):
     assert THEOREMS[name].check(text).verdict == "proved"
     if name == "horseshoe-outer":
         assert text == THEOREMS[name].text()
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_every_theorem_has_a_search_for_its_certificate(name, monkeypatch):
+    checker = THEOREMS[name].checker
+    module = import_module(checker.__module__.replace(".checkers.", ".search."))
+    asked = []
+
+    def propose(theorem, **hints):
+        asked.append((theorem, hints))
+        return "text"
+
+    propose_name = checker.__name__.replace("check", "propose")
+    signature(getattr(module, propose_name)).bind(THEOREMS[name], **THEOREMS[name].hints)
+    monkeypatch.setattr(module, propose_name, propose)
+    assert search_certificate(name) == "text"
+    assert asked == [(THEOREMS[name], THEOREMS[name].hints)]
 
 
 def imports(folder):

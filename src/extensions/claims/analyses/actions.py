@@ -17,8 +17,8 @@ from flint import arb
 
 from extensions.proofs.enclosure.jets import Jet, algebra
 from extensions.proofs.enclosure.surface import Surface
+from extensions.proofs.search.horseshoe import directions
 from extensions.proofs.search.periodic import polished
-from extensions.proofs.search.saddle_connection import directions
 from pseudorigid.dynamics.ball import Ball
 from pseudorigid.dynamics.variables import chart, states_of
 from pseudorigid.verified.flight import NotProvedError

@@ -13,8 +13,8 @@ from ..checkers import jump
 from ..enclosure.surface import Surface, ball_of
 from .certificate_text import Theorem, ball_header, header, row, rows
 from .chains import DoubleMap, Parallelogram, chain
+from .horseshoe import directions, mirrors
 from .periodic import points_of, polished
-from .saddle_connection import directions, mirrors
 
 _DIGITS = 30  # points are to be good to 1e-28
 _SIZE, _LAST = 6.5e-5, 1e-3  # scales of the sets at the saddles and on the jump set

@@ -17,8 +17,8 @@ from ..checkers import curve, horseshoe, periodic
 from ..checkers.certificate import Finding
 from ..enclosure.surface import Exact, Surface, exact
 from ..search import curve as curve_search
+from ..search import horseshoe as horseshoe_search
 from ..search import periodic as orbit_search
-from ..search import saddle_connection
 from .statements import Theorem
 
 
@@ -103,7 +103,7 @@ def prove_horseshoe(
     name = f"the horseshoe at {surface}"
     theorem = Theorem(name, name, horseshoe.check, bounds)
     with _errors_naming(name):
-        text = saddle_connection.propose(theorem, side, points=points)
+        text = horseshoe_search.propose(theorem, side, points=points)
         return text, theorem.prove(text)
 
 
