@@ -9,9 +9,12 @@ from pipeline.cli.main import main
 
 
 def answer(capsys, *words):
-    """Return the exit status, stdout and stderr of a command that makes nothing."""
+    """Return the exit status, stdout and stderr of a command that makes nothing.
+
+    The environment of the tests has all packages that such a command could install first.
+    """
     starts = patch("pipeline.cli.running._run", side_effect=AssertionError("a run would start"))
-    with chdir(ROOT), patch.dict(os.environ), starts:
+    with chdir(ROOT), patch.dict(os.environ), starts, patch("pipeline.cli.packages.add_packages"):
         try:
             status = main(list(words))
         except SystemExit as end:
