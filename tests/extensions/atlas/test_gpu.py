@@ -69,6 +69,7 @@ def test_orbits_at_their_own_k_g_and_energies(place):
         assert same(reached, np.array([x, v, w])[:, 0])
 
 
+@pytest.mark.slow
 def test_verdicts_on_the_orbits_of_64_cells(place):
     """One of them has a fixed point that is not elliptic."""
     there, size = place

@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from extensions.claims.analyses.exclusion import exclusion
 from extensions.families.dataset import families
 from extensions.families.shares import shares
 from extensions.proofs.escape import escape
@@ -33,7 +32,7 @@ SCENES = {
     "curves": SCENE,
     "horseshoe": SCENE | {"axes": AXES}, "graph": SCENE | {"energy": 0.005},
     "escape": SCENE | {"energy": 0.0374, "beside": [0, 1e-4], "distance": 0.01},
-    "exclusion": SCENE | {"followed": 30},
+    "exclusion": SCENE | {"followed": 80},
 }  # fmt: skip
 # A kind, the number of one of its datasets, a variable, and a change of it that must show.
 CHANGES = [
@@ -78,7 +77,6 @@ def horseshoe():
 
 
 OTHERS = {
-    "exclusion": lambda: [exclusion(BALL, 0.01, 40, 30), *curves()],
     "twist": lambda: [scenes.scene_twist(BALL, 0.01, [0.001, 0.01, 0.029, 0.03])],
     "curves": curves,
     "horseshoe": horseshoe,
@@ -102,7 +100,8 @@ def data(request):
             return OTHERS[kind]()
         datasets = request.getfixturevalue("datasets")
         stage = kind.removesuffix("_shares")
-        return [datasets[name] for name in (f"{stage}/{stage}", *others.get(kind, []))]
+        found = [datasets[name] for name in (f"{stage}/{stage}", *others.get(kind, []))]
+        return found + [*curves()] * (kind == "exclusion")
 
     return data
 

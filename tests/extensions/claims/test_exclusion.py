@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
-from extensions.claims.analyses.exclusion import exclusion
 from helpers.sections import BALL
 from pseudorigid import orbit
 
@@ -12,8 +11,8 @@ ENERGY = 0.01
 
 
 @pytest.fixture(scope="module")
-def excluded():
-    return exclusion(BALL, ENERGY, 40, 30)
+def excluded(datasets):
+    return datasets["exclusion/exclusion"]
 
 
 def radial(state, centre):

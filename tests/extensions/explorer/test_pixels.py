@@ -5,6 +5,7 @@ import pytest
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
 from extensions.explorer import page
+from helpers.slowly import slowly
 from pseudorigid import Ball, lyapunov_spectrum
 from pseudorigid.dynamics.regularity import orbit_types
 from pseudorigid.kernel.tangents import turns_and_growth
@@ -50,7 +51,8 @@ def test_orbits_get_the_words_of_python(browser, k, g, energy):
 
 
 @pytest.mark.parametrize(
-    ("k", "g", "energy"), [(0.2, 0.04, 0.01), (0.2, 0.04, 0.001), (1 / 3, 0.1, 0.03)]
+    ("k", "g", "energy"),
+    [(0.2, 0.04, 0.01), (1 / 3, 0.1, 0.03), *slowly((0.2, 0.04, 0.001))],
 )
 def test_pixels_have_the_pipeline_s_exponents_rotation_numbers_and_verdicts(browser, k, g, energy):
     places = np.random.default_rng(5).uniform(-0.7, 0.7, (100, 2))

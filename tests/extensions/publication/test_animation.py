@@ -59,6 +59,7 @@ def test_steps_in_time_grow_from_half_a_unit_to_the_last_impact():
     assert np.diff(_growing(1.0, 5)) == pytest.approx(np.full(4, 0.25))
 
 
+@pytest.mark.slow
 def test_the_gif_repeats_on_white_and_has_the_same_bytes_twice(data, content):
     assert gif(moving(SCENE, *data)) == content
     image = Image.open(BytesIO(content))
