@@ -1,4 +1,4 @@
-"""A check of a picture's colours: apart for readers with each colour vision, and in grey."""
+"""Colours of a picture: apart for each kind of colour vision, and in grey."""
 
 from itertools import combinations
 

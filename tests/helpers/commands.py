@@ -1,4 +1,4 @@
-"""Commands that are answered in this process, without a run."""
+"""Commands that are answered in this process."""
 
 import os
 from contextlib import chdir

@@ -1,4 +1,4 @@
-"""Compile the kernels that the tests use, so that workers do not each compile them.
+"""Compile the kernels before the workers start.
 
     python tests/helpers/compile_kernels.py
 

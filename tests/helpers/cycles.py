@@ -1,4 +1,4 @@
-"""Balls and energies whose periodic orbits the tests search for."""
+"""Balls and energies whose periodic orbits are searched for."""
 
 from functools import reduce
 

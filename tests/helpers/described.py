@@ -1,4 +1,4 @@
-"""What a dataset has to say of itself."""
+"""What a dataset says of itself."""
 
 import xarray as xr
 

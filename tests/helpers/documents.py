@@ -1,4 +1,4 @@
-"""A correct config with the paper's kinds of picture, and ways to spoil it."""
+"""A correct config, and ways to spoil it."""
 
 import json
 

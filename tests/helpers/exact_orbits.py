@@ -1,4 +1,4 @@
-"""Orbits and their events in 60 digits, by the independent solver."""
+"""Orbits and their events in 60 digits."""
 
 from mpmath import mp, mpf
 

@@ -1,4 +1,4 @@
-"""Scenes like the examples of the kinds of picture: checked, computed and drawn."""
+"""The examples of the kinds of picture, computed and drawn."""
 
 import re
 import warnings

@@ -1,4 +1,4 @@
-"""Families of hard flights, and the error of the time to the next impact.
+"""Hard flights, and the error of their times.
 
 The correct time is the first root that pseudorigid.verified.reference_solver proves in ball
 arithmetic. Where that solver cannot decide about a double root, or the time in doubles is another

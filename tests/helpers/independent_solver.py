@@ -1,4 +1,4 @@
-"""Solve for the next impact to 60 digits, by a method that is not the package's.
+"""The next impact to 60 digits, by a second method.
 
 The gap f(t) = x + b t + g t^2/2 - x cos t + c sin t has f'' = g + x cos t - c sin t, whose zeros
 are known in closed form. Between two of them f' is monotone and has at most one zero; between two

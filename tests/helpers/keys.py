@@ -1,4 +1,4 @@
-"""A scene, and what the keys of its pictures say."""
+"""What the keys of pictures say."""
 
 from matplotlib.colors import to_hex
 

@@ -1,4 +1,4 @@
-"""A check of the text of a picture."""
+"""A check of a picture's text."""
 
 from itertools import combinations
 

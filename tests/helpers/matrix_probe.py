@@ -1,4 +1,4 @@
-"""Compute a little of everything in one process and print one JSON line of hashes.
+"""Hashes of a little of everything, as one JSON line.
 
     export PYTHONPATH=src:tests
     python tests/helpers/matrix_probe.py         everything

@@ -1,4 +1,4 @@
-"""The documents, and the commands and programs in them."""
+"""The documents, with their commands and programs."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Make the published figures in one process and print a JSON line of their hashes.
+"""Hashes of the published figures, as one JSON line.
 
     PYTHONPATH=src:tests python tests/helpers/paper_probe.py [scene ...]
 

@@ -1,4 +1,4 @@
-"""Programs that tests run in processes of their own."""
+"""Programs that run in processes of their own."""
 
 import subprocess
 

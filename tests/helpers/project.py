@@ -1,4 +1,4 @@
-"""Copies of the project in folders of their own, run as a user runs them."""
+"""Copies of the project, run as a user runs them."""
 
 import fcntl
 import os

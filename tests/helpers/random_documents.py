@@ -1,4 +1,4 @@
-"""Random documents and bytes, for the tests of files from elsewhere."""
+"""Random documents and bytes."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""A check of a finished picture, as an SVG: sizes, contrasts, keys, and what lies over texts.
+"""A check of an SVG: sizes, contrasts, keys, overlaps.
 
 Usage: .venv/bin/python tests/helpers/readable.py FILE.svg ...
 """

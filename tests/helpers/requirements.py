@@ -1,4 +1,4 @@
-"""What the lists of requirements/ ask for."""
+"""What requirements/ asks for."""
 
 import re
 

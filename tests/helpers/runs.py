@@ -1,4 +1,4 @@
-"""Read the output and the files of a run."""
+"""The output and the files of a run."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""A scene and synthetic data of each of the paper's kinds of picture."""
+"""Synthetic data for each of the paper's kinds of picture."""
 
 from functools import cache
 from importlib import import_module

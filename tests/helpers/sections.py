@@ -1,4 +1,4 @@
-"""States spread over the section of the energy surface."""
+"""States spread over the section."""
 
 import numpy as np
 from hypothesis import strategies as st

@@ -1,4 +1,4 @@
-"""Parameters of slow tests, which .ci/run runs and the default suite does not."""
+"""Parameters of slow tests."""
 
 import pytest
 

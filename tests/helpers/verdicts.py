@@ -1,4 +1,4 @@
-"""What verify finds and what accept prints, for the tests of both."""
+"""What verify finds and accept prints."""
 
 import subprocess
 from contextlib import redirect_stdout

@@ -14,10 +14,8 @@ from pseudorigid import (
     Picture,
     classify_orbits,
     lyapunov_spectrum,
-    motion,
     orbit,
     periodic_orbits,
-    residue,
     rotation_number,
     symmetric_orbits,
     trace_manifold,
@@ -60,7 +58,7 @@ orbit(ball, state, np.array(5), keep="all").to_netcdf("orbit.nc")
 classify_orbits(ball, (0.1, 0.2, 0.3))["type"].values.tolist()
 rotation_number(ball, many, impacts=np.int64(1000))
 lyapunov_spectrum(ball, many, 10, records=np.int64(3))
-motion(ball, (0.1, 0.2, 0.3), duration=Fraction(3, 2))
+pseudorigid.motion(ball, (0.1, 0.2, 0.3), duration=Fraction(3, 2))
 orbit(ball, state, impact=3)  # refused
 orbit(ball, state)  # refused
 orbit((0.2, 0.04), state, 3)  # refused
@@ -72,19 +70,19 @@ orbit(ball, state, 3, keep="first")  # refused
 rotation_number(ball, None)  # refused
 lyapunov_spectrum(ball, state, impacts=[3])  # refused
 lyapunov_spectrum(ball, state, 10, records=None)  # refused
-motion(ball, state, "16")  # refused
+pseudorigid.motion(ball, state, "16")  # refused
 
 # Periodic orbits and manifolds.
 six = symmetric_orbits(ball, Fraction(1, 100), period=np.int32(6)).isel(orbit=1)
 periodic_orbits(ball, Decimal("0.01"), np.uint8(3))
-number: xr.DataArray = residue(six)
+number: xr.DataArray = pseudorigid.residue(six)
 line = trace_manifold(
     ball, 0.01, six, np.int64(0), side="inner", stable=True, length=Fraction(1, 2)
 )
 both = xr.concat([with_parameters(many), with_parameters(many)], "energy")
 symmetric_orbits(ball, "0.01", 6)  # refused
 symmetric_orbits(ball, 0.01, 6.0)  # refused
-residue(3)  # refused
+pseudorigid.residue(3)  # refused
 trace_manifold(ball, 0.01, six, 0, False)  # refused
 trace_manifold(ball, 0.01, six, side="left")  # refused
 trace_manifold(ball, 0.01, six, saddle="0")  # refused

@@ -69,10 +69,10 @@ def periodic_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) ->
     ValueError
         The energy is not within the bounds, or the period is below 1.
 
-    References
-    ----------
-    A. Chao, Nonparametric estimation of the number of classes in a population, Scandinavian Journal
-    of Statistics 11 (1984): what was seen once tells how much was not seen.
+    Notes
+    -----
+    What was seen once tells how much was not seen: A. Chao, Nonparametric estimation of the number
+    of classes in a population, Scandinavian Journal of Statistics 11 (1984).
 
     Examples
     --------

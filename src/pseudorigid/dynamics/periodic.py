@@ -81,7 +81,7 @@ def symmetric_orbits(ball: Ball, energy: SupportsFloat, period: SupportsIndex) -
     Raises
     ------
     ValueError
-        The energy is below the lowest one, or the period is below 1.
+        The energy is not within `ball.energy_bounds()`, or the period is below 1.
 
     References
     ----------

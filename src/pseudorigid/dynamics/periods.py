@@ -21,9 +21,9 @@ def count_orbits(ball: Ball, energy: SupportsFloat, longest: int) -> xr.Dataset:
     ----------
     ball : Ball
     energy : float
-        Within `ball.energy_bounds()`.
+        It is within `ball.energy_bounds()`.
     longest : int
-        Largest period, at least 1.
+        The largest period that is counted. It is at least 1.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What verify --against finds, and results that were changed together with their records."""
+"""What verify --against finds in an archive."""
 
 import hashlib
 import json

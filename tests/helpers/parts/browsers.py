@@ -1,4 +1,4 @@
-"""Real browsers for tests: Debian's Chromium, Firefox and WebKit (Safari's engine), by Selenium.
+"""Chromium, Firefox and WebKit, driven by Selenium.
 
 Debian 12 has no geckodriver, so Firefox is driven by WebDriver BiDi, which it speaks itself. WebKit
 has no headless mode: it has a screen of Xvfb. All browsers have the same interface: `open` a page,

@@ -1,4 +1,4 @@
-"""Certificates with other numbers, and their refusal."""
+"""Certificates with other numbers."""
 
 import dataclasses
 import re

@@ -1,4 +1,4 @@
-"""Small versions of all datasets that the checks of claims need."""
+"""Small versions of the datasets of claims."""
 
 import json
 from unittest.mock import patch

@@ -1,4 +1,4 @@
-"""Arrays of doubles on their way to a page and back, with all their bits."""
+"""Doubles on their way to a page and back."""
 
 import base64
 import hashlib

@@ -1,4 +1,4 @@
-"""Scripts of the page without a browser, in V8 by the package mini-racer."""
+"""Scripts of the page in V8, without a browser."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Searches for families of the paper's ball, and what several tests ask of them."""
+"""Searches for families of the paper's ball."""
 
 import math
 from functools import cache

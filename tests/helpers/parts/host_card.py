@@ -1,4 +1,4 @@
-"""This machine in a card's place: it runs the kernel's entry point, thread after thread.
+"""This machine in a graphics card's place.
 
 Run as a program, this file is a ./reproduce with this machine in the place of a card.
 """

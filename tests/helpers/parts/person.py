@@ -1,4 +1,4 @@
-"""Someone who uses the explorer's page by pointer, touch, keys and fields."""
+"""Someone who uses the explorer's page."""
 
 import base64
 import csv

@@ -1,4 +1,4 @@
-"""A second checker of the certificates for periodic orbits, horseshoes and the diffeomorphism.
+"""A second checker of certificates.
 
 It shares no code with the package, and its intervals are mpmath's, not balls of Arb. The theorems
 that it uses are those of src/extensions/proofs/theory/. It takes other ways than the package's

@@ -1,4 +1,4 @@
-"""Run Slurm with two nodes on this machine, in a folder of its own.
+"""A Slurm of two nodes on this machine.
 
 It needs Debian's packages slurm-wlm and munge. The daemons (munged, slurmctld and two slurmd) need
 root.

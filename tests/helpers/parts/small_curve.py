@@ -1,4 +1,4 @@
-"""A small invariant curve around the paper's fixed point, which is proved in half a second.
+"""A small invariant curve, proved in half a second.
 
 The theorems about curves take up to eleven seconds each. This curve is close to the fixed point, so
 that it needs few cells and Fourier modes. It replaces them where any curve will do.
