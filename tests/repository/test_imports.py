@@ -233,7 +233,8 @@ def test_every_imported_package_is_named_in_the_list_of_the_commands_that_reach_
     for each, names in imported.items():
         assert {name.lower() for name in names} <= named[each] | common, each
     used = {name.lower() for name in imported["main"]}
-    assert named["main"] - used == {"contourpy"}  # held back
+    if (ROOT / "src" / "extensions").is_dir():  # some packages are for parts alone
+        assert named["main"] - used == {"contourpy"}  # held back
 
 
 def test_no_figure_of_the_paper_needs_a_package_that_is_installed_on_demand():
