@@ -67,6 +67,15 @@ def kernel_page(tmp_path_factory):
     return file.as_uri()
 
 
+@pytest.fixture(autouse=True)
+def page_is_left():
+    """Leave the explorer after each test: it would go on drawing beside all other tests."""
+    yield
+    for browser in browsers.RUNNING:
+        if browser.run("return document.getElementById('section') !== null"):
+            browser.open("about:blank")
+
+
 @pytest.fixture
 def browser(kernel_runner, kernel_page):
     """An engine or a browser on the page of the kernel."""

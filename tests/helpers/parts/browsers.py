@@ -25,6 +25,7 @@ PROGRAMS = {
     "webkit": ("WebKitWebDriver", "Xvfb"),
 }
 _TIMEOUT = 180  # seconds that a script may take
+RUNNING = []
 
 
 @contextmanager
@@ -35,7 +36,9 @@ def started(name, folder, width=1400, height=1000):
         pytest.skip(f"{' and '.join(missing)} not installed (Debian packages, see .ci/run)")
     kinds = {"chromium": Chromium, "firefox": Firefox, "webkit": WebKit}
     with closing(kinds[name](folder, width, height)) as opened:
+        RUNNING.append(opened)
         yield opened
+        RUNNING.remove(opened)
 
 
 class Driven:

@@ -753,8 +753,7 @@ function begin() {
   }
   const data = JSON.parse(element("data").textContent);
   const explorer = new Explorer(data);
-  const load = () => {
-    const address = window.location.hash;
+  const load = (address) => {
     try {
       const name = decodeURIComponent(address.slice(1)) || "fig2"; // a scene's name is an address too
       const known = Object.hasOwn(data.scenes, name);
@@ -776,10 +775,11 @@ function begin() {
     explorer.marked = false;
     explorer.pause();
     explorer.at = state?.at ?? explorer.at + 1; // an address that was typed is a new entry
-    load();
+    load(window.location.hash);
   });
-  explorer.controls.restore(window.history.state);
-  load();
+  const address = window.location.hash;
+  explorer.controls.restore(window.history.state); // which saves the state before the address's
+  load(address);
 }
 
 begin();
