@@ -26,9 +26,9 @@ class Executor(LocalExecutor):
         if specification is None:  # all
             return super().run_single_job(job)
         self.workflow.async_run(job.prepare())
-        return self.pool.submit(self._make, str(specification))
+        return self.pool.submit(self._make, str(specification), job.threads)
 
-    def _make(self, specification: str) -> None:
+    def _make(self, specification: str, threads: int) -> None:
         """Make a result; raise SpawnedJobError if that fails."""
-        if not run(self.context, read_spec(specification)):
+        if not run(self.context, read_spec(specification), threads=threads):
             raise SpawnedJobError

@@ -29,11 +29,13 @@ _lock = threading.Lock()
 PROGRESS: dict[str, str] = {}  # result -> what its job said last of its progress
 
 
-def run(context: ForkServerContext | SpawnContext, spec: BuildSpec, *given: Any) -> bool:
+def run(
+    context: ForkServerContext | SpawnContext, spec: BuildSpec, *given: Any, threads: int = 1
+) -> bool:
     """Make a result in a process of its own by `job.make`, and return whether it is made."""
     try:
         receiver, stderr = context.Pipe(duplex=False)
-        process = context.Process(target=_make, args=(stderr, spec, *given))
+        process = context.Process(target=_make, args=(stderr, threads, spec, *given))
         with stderr, _lock:
             process.start()
     except (OSError, EOFError) as error:  # EOFError: the process that forks jobs has ended
@@ -67,9 +69,10 @@ def _failed(spec: BuildSpec, words: str) -> bool:
     return False
 
 
-def _make(stderr: "Connection[Any, Any]", *given: Any) -> None:
+def _make(stderr: "Connection[Any, Any]", threads: int, *given: Any) -> None:
     """Make a result in this process, which ends afterwards; `stderr` gets what it writes there."""
     os.dup2(stderr.fileno(), 2)
+    os.environ["OMP_NUM_THREADS"] = str(threads)  # for what starts its own
     try:
         job.make(*given)
     except SystemExit:  # the log has its words

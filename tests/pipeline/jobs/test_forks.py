@@ -13,6 +13,7 @@ import pytest
 from helpers.project import ROOT, fresh_tree, run
 from pipeline.jobs import forks
 from pipeline.records.provenance import BuildSpec, failure
+from pseudorigid.dynamics import ensemble
 
 PROGRAMS = {
     "good": "open('count', 'a').write('x'); open(spec.result, 'w').write(spec.scene)",
@@ -89,6 +90,20 @@ def test_lines_about_its_progress_leave_the_stderr_of_a_job(monkeypatch, capsys)
     assert forks.run(multiprocessing.get_context("fork"), spec, "halving")
     assert forks.PROGRESS.pop(spec.result) == "60%, halving"
     assert capsys.readouterr().err == "a warning\n"
+
+
+def test_a_job_starts_as_many_threads_as_its_rule_says(monkeypatch):
+    made = []
+
+    def make(spec):
+        os.write(2, f"fig: {ensemble.threads()}\n".encode())
+
+    monkeypatch.setattr(forks.job, "make", make)
+    spec = BuildSpec("results/paper/1.nc", "fig", "step", {}, "", "", {}, [])
+    for how in ({}, {"threads": 3}):
+        assert forks.run(multiprocessing.get_context("fork"), spec, **how)
+        made.append(forks.PROGRESS.pop(spec.result))
+    assert made == ["1", "3"]
 
 
 @pytest.mark.parametrize("log", ["kept", "not written"])
