@@ -101,7 +101,7 @@ def _relation(panel: Window, horseshoe: xr.Dataset) -> None:
     """
     p, q = horseshoe["image_p"].values, horseshoe["image_q"].values
     square = [-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]
-    panel.line(*square, color=style.VERMILION, lw=1.0)
+    panel.line(*square, color=style.VERMILION, lw=1.6)
     for edge, wide in ((2, 0.8), (3, 0.8), (0, 2.0), (1, 2.0)):
         panel.line(p[edge], q[edge], color=style.BLUE, lw=wide)
     texts = (
