@@ -239,7 +239,7 @@ def require_installed(set_up, installer):
 
 @pytest.mark.slow
 def test_a_venv_that_is_incomplete_or_does_not_start_is_made_anew(with_uv):
-    with_uv.venv.mkdir()
+    (with_uv.venv / "cache").mkdir(parents=True)  # of a plain snakemake
     assert with_uv.run() == MADE
     (with_uv.venv / "stamp").unlink()
     assert with_uv.run() == MADE

@@ -122,18 +122,17 @@ def exponents(block: dict[str, Any], lyapunov: xr.Dataset) -> dict[str, str]:
     from pseudorigid.dynamics.variables import final_exponents
 
     last, types = final_exponents(lyapunov), lyapunov["type"].values
-    largest = np.sort(last[:, 0])
-    alike = types == ("chaotic" if "chaotic" in types else types[0])
+    kind = "chaotic" if "chaotic" in types else types[0]
+    alike = types == kind
     some = np.sort(last[alike, 0])
     spread = f", standard deviation {np.std(some, ddof=1):.4f}" if some.size > 1 else ""
-    name = "their mean" if alike.all() else "mean of the chaotic ones"
-    known = alike.all() or "chaotic" in types
-    mean = {name: f"{np.mean(some):.4f}{spread}"} if known else {}
-    rounded = [np.round(row, 4) + 0.0 for row in (largest, *last)]  # 0.0 turns -0.0 into 0.0
+    known = alike.all() or kind == "chaotic"
+    mean = {f"mean largest exponent ({kind})": f"{np.mean(some):.4f}{spread}"} if known else {}
+    rounded = [np.round(row, 4) + 0.0 for row in (last[:, 0], *last)]  # 0.0 turns -0.0 into 0.0
     rows = [", ".join(f"{value:.4f}" for value in row) for row in rounded]
     return {
         "largest exponent": rows[0],
-        "standard error of each largest, from eighths of its run, in the order of the starts": (
+        "standard error of each largest, from eighths of its run": (
             ", ".join(f"{error:.4f}" for error in _errors_of_largest(lyapunov))
         ),
         **mean,

@@ -122,7 +122,8 @@ def _make() -> None:
         if refused := re.sub(r"[\w /.,+@=~()-]", "", folder):
             words = f"installers cannot take {refused[0]!r} in a folder's name"
             raise UsageError(f"{folder!r}: {words}")
-    empty = VENV.is_dir() and not any(VENV.iterdir())
+    # A plain snakemake, in an environment of its own, keeps matplotlib's cache there.
+    empty = VENV.is_dir() and {each.name for each in VENV.iterdir()} <= {"cache"}
     if VENV.is_symlink() or (VENV.exists() and not (empty or LOG.is_file())):
         raise UsageError(f"{VENV} was not made by ./reproduce: please move it away")
     removing = VENV.with_name(".venv.removing")

@@ -10,7 +10,7 @@ import xarray as xr
 from .ball import Ball, require_ball
 from .branch import Branch, Window
 from .inputs import coordinates, not_allowed, number, one_of
-from .periods import orbit_of_type
+from .periods import orbit_of_type, require_own
 from .variables import NAMES, of_rows, variables
 
 MOST_VERTICES_OF_SCENE = 10_000_000
@@ -73,8 +73,8 @@ def trace_manifold(
     Raises
     ------
     ValueError
-        The orbit is not hyperbolic or not of this energy, an argument is out of range, or the
-        branch has more points or images than `branch.MOST_VERTICES` or `branch.MOST_IMAGES`.
+        The orbit is not hyperbolic, or not of this ball and energy, an argument is out of range, or
+        the branch has more points or images than `branch.MOST_VERTICES` or `branch.MOST_IMAGES`.
 
     Examples
     --------
@@ -87,6 +87,7 @@ def trace_manifold(
     """
     require_ball(ball)
     points = _points(orbit)
+    require_own(ball, orbit)
     energy = number("energy", energy)
     errors = np.abs(ball.energy(*points) - energy)
     if not np.all(errors <= 1e-9 * ball.k * ball.section(energy)[1] ** 2):

@@ -11,7 +11,7 @@ from ..kernel.arithmetic import sincos_each
 from ..kernel.formulas import impact_coefficients, rebound
 from .ball import Ball, require_ball
 from .inputs import StateLike, not_allowed, number
-from .periods import orbit_of_type
+from .periods import orbit_of_type, require_own
 from .variables import LENGTH, NAMES, TIME, states_of, variables
 
 # Samples of each flight. The error of a chord is then 1e-5 of Figure 3's size.
@@ -50,8 +50,8 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
     Raises
     ------
     ValueError
-        More than one state, points of another function's orbit, a state with xdot + udot < 0, or
-        more than MOST_FLIGHTS flights.
+        More than one state, points of another function's orbit or of another ball's, a state with
+        xdot + udot < 0, or more than MOST_FLIGHTS flights.
 
     Examples
     --------
@@ -68,6 +68,7 @@ def motion(ball: Ball, start: StateLike, duration: SupportsFloat) -> xr.Dataset:
         complete = all(name in start and start[name].dims == ("point",) for name in NAMES)
         if not (complete and start["x"].size and "multiplier" in start):
             raise not_allowed("start", start, _ALLOWED)
+        require_own(ball, start)
         points = [*zip(*(start[name].values.tolist() for name in NAMES), strict=True)]
         start = points[0][:3]
     state = ball.moving(start)

@@ -88,3 +88,11 @@ def orbit_of_type(
         words = ", ".join(map(str, periods)) or "none"
         longest = f"up to {_LONGEST_NAMED}"
         raise NoOrbitError(f"{error}; periods {longest} with one: {words}") from None
+
+
+def require_own(ball: Ball, orbit: xr.Dataset) -> None:
+    """Raise ValueError if an orbit's attributes are those of another ball."""
+    for name, own in (("k", ball.k), ("g", ball.g)):
+        if orbit.attrs.get(name, own) != own:
+            words = f"the orbit is of another ball, with {name} = {orbit.attrs[name]}, not {own}"
+            raise ValueError(words)

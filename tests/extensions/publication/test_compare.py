@@ -1,6 +1,7 @@
 """./reproduce compare: config, norms, orbits, exponents and the picture, and ranges."""
 
 import csv
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -125,6 +126,24 @@ def test_both_figures_are_side_by_side_on_the_same_axes(variants):
     assert np.array_equal(figure("compare/paper..low", "fig4")[head:, : drawn.shape[1]], drawn)
 
 
+@pytest.mark.parametrize(("shift", "words"), [
+    (0.01, ", on the same axes"),
+    (0.3, ", each on its own axes: they have nothing in common along x"),
+])  # fmt: skip
+def test_windows_that_have_nothing_in_common_keep_their_axes(monkeypatch, shift, words):
+    def draw(scene, data):
+        scene.get("completed", {}).update(scene.get("axes") or {"x": data})
+        return data if "axes" not in scene else "again"
+
+    monkeypatch.setattr(picture, "imported", lambda _: draw)
+    monkeypatch.setattr(picture, "drawing", lambda block: {})
+    monkeypatch.setattr(picture.render, "pixels", lambda figure: figure)
+    windows = [{"limits": [low, low + 0.1], "ticks": [low]} for low in (0.0, shift)]
+    blocks = [SimpleNamespace(drawn_by="")] * 2
+    drawn, said = picture.on_same_axes(blocks, [[window] for window in windows])
+    assert said == words and (drawn == windows) == (shift > 0.1)
+
+
 @pytest.mark.parametrize(("text", "number"), [
     ("0.2311, standard deviation 0.0013", (0.2311, 0.0013)),
     ("45,000", (45000.0, None)),
@@ -143,6 +162,15 @@ REPORTED = {
     "a": {"orbits": "8", "mean": "0.25, standard deviation 0.01", "x": "0 to 1"},
     "c": {"orbits": "8", "mean": "0.15, standard deviation 0.02", "x": "0 to 2"},
 }
+
+
+def test_a_table_of_one_variant_says_for_each_of_none_and_the_value_once():
+    energies = Range("energy", {"a": 0.01})
+    found = [*quantities.table(energies, {"a": {"energy": "0.01", "orbits": "8"}})]
+    assert found == ["energy", "0.01", "orbits: 8"]
+    both = {"a": {"energy": "0.01", "x": "1"}, "b": {"energy": "0.02", "x": "2"}}
+    found = [*quantities.table(Range("energy", {"a": 0.01, "b": 0.02}), both)]
+    assert found == ["energy  x", "0.01    1", "0.02    2"]
 
 
 def test_the_table_has_a_row_for_each_value_and_says_once_what_is_alike():
@@ -218,5 +246,7 @@ def test_a_range_with_a_faulty_value_is_made_and_compared_by_one_command(finishe
         assert rotation[g] == pytest.approx(float(found["rotation_number"][0]), abs=1e-6)
     figures = {path.parent.parent.name for path in tree.path.glob("results/*/figures/fig3.png")}
     assert {"gravity-0p03", "gravity-0p05"} <= figures and "gravity-0p3" not in figures
+    assert tree.run("compare", "gravity", "fig7").returncode == 2
+    assert {path.name for path in folder.glob("*.png")} == {"fig7.png"}
     assert tree.run("variant", "gravity-0p03", "fig3").returncode == 0
     assert tree.run("variant", "gravity-0p03", "gravity-0p3", "fig3").returncode == 2

@@ -235,6 +235,18 @@ def test_other_words_and_objects_are_rejected(name, function, allowed, values):
             function(value)
 
 
+def test_a_periodic_orbit_of_another_ball_is_refused():
+    balls = {"k = 0.2, not 0.25": Ball(0.25, 0.04), "g = 0.04, not 0.05": Ball(0.2, 0.05)}
+    calls = (
+        partial(motion, start=SADDLE, duration=1.0),
+        partial(trace_manifold, energy=0.01, orbit=SADDLE),
+    )
+    for words, ball in balls.items():
+        for call in calls:
+            with pytest.raises(ValueError, match=f"^the orbit is of another ball, with {words}$"):
+                call(ball)
+
+
 @pytest.mark.parametrize("start", [0.5, [0.5, -0.25, 0.75], [[0.5, -0.25]]])
 def test_an_orbit_continues_from_a_dataset(start):
     """It has the bits of the whole orbit, for any order of dims."""

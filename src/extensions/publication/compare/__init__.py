@@ -45,6 +45,8 @@ def over_range(root: Path, config: Config, name: str, scenes: Sequence[str]) -> 
     faulty, lines = [m for m in of.members if m in config.faulty], [f"{name}: {of.path}"]
     lines += [f"{member}: not made, see the mistake above" for member in faulty]
     labels = {m: f"{of.path.rpartition('.')[2]} = {value}" for m, value in of.members.items()}
+    for image in folder.glob("*.png"):
+        image.unlink()  # of an earlier comparison
     for scene in scenes:
         states = comparison.states(scene)
         current = [member for member, state in states.items() if state == CURRENT]

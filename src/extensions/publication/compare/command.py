@@ -16,7 +16,7 @@ def run(args: Arguments) -> int:
     of = next((name for name in args.variant if name in config.ranges), "")
     sound = [name for name in names if name not in config.faulty]
     faulty, scenes = len(sound) < len(names), scenes or list(config.scenes)
-    if faulty and not of:
+    if faulty and not (of and sound):
         return 2
     if {*names} != {*config.ranges[of].members} if of else len(names) != 2:
         raise CommandLineError("compare takes two variants (paper is one), or one range")

@@ -33,8 +33,8 @@ def on_same_axes(
 ) -> tuple[list[Pixels], str]:
     """Draw a scene of variants on axes that hold all; return the pixels and words on the axes.
 
-    Each keeps its own axes if the kind of picture has none in the config, or if one of the pictures
-    would shrink to a spot.
+    Each keeps its own axes if the kind of picture has none in the config, if one of the pictures
+    would shrink to a spot, or if windows have nothing in common.
     """
     draw = imported(blocks[0].drawn_by)
     found: list[dict[str, Any]] = [{} for _ in blocks]
@@ -45,8 +45,11 @@ def on_same_axes(
     shared = {name: reduce(_around, (axes[name] for axes in found)) for name in found[0]}
     widths = {name: [np.ptp(axes[name]["limits"]) for axes in found] for name in shared}
     spots = [n for n in shared if np.ptp(shared[n]["limits"]) > _MOST * min(widths[n])]
-    if spots or not shared:
+    ends = {n: np.transpose([axes[n]["limits"] for axes in found]) for n in shared}
+    apart = [n for n, (low, high) in ends.items() if max(low) >= min(high)]
+    if spots or apart or not shared:
         why = f": one of them is too wide along {spots[0]}" if spots else ""
+        why = f": they have nothing in common along {apart[0]}" if apart else why
         return [render.pixels(figure) for figure in figures], f", each on its own axes{why}"
     for i, axes in enumerate(found):
         if axes != shared:

@@ -34,13 +34,14 @@ def table(of: Range, reported: Reported) -> Iterator[str]:
         {name: text.replace(", standard deviation ", " ± ") for name, text in quantities.items()}
         for quantities in reported.values()
     ]
-    names = dict.fromkeys(name for quantities in each for name in quantities)
+    names = dict.fromkeys(name for quantities in each for name in quantities if name != of.path)
     alike = [n for n in names if len({quantities.get(n) for quantities in each}) == 1]
     shown = [name for name in names if name not in alike]
     texts = [[quantities.get(name, "") for name in shown] for quantities in each]
     values = [str(of.members[member]) for member in reported]
     yield from columns([(of.path, *shown), *((v, *t) for v, t in zip(values, texts, strict=True))])
-    yield from (f"{name}: {each[0][name]}, for each" for name in alike)
+    together = ", for each" if len(each) > 1 else ""
+    yield from (f"{name}: {each[0][name]}{together}" for name in alike)
 
 
 def rows(of: Range, scene: str, reported: Reported) -> Iterator[tuple[object, ...]]:
