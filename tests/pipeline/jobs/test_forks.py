@@ -147,6 +147,7 @@ def test_a_job_without_a_log_says_if_the_disk_is_full(tmp_path, monkeypatch):
     monkeypatch.setattr("shutil.disk_usage", lambda path: SimpleNamespace(total=10**9, free=30_000))
     assert not forks.run(context, spec)
     assert failure(spec.result) == "the disk is full, 0.0 MB are left"
+    assert not forks.run(context, spec)  # also with a log of its own
 
 
 def test_the_libraries_of_jobs_start_no_threads_and_the_run_keeps_its_settings(monkeypatch):
