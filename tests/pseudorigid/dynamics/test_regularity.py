@@ -78,7 +78,8 @@ def test_orbits_followed_alone_and_in_lanes_get_the_same_words(k, g, energy):
     states = random_states(ball, energy, 500, 6)
     in_lanes, alone = judged(ball, states), judged(ball, states, in_lanes=False)
     assert in_lanes[0].tolist() == alone[0].tolist()
-    assert np.allclose(in_lanes[1], alone[1], rtol=0.0, atol=1e-9, equal_nan=True)
+    # Rounding errors grow along a regular orbit, here by up to 64,000 impacts.
+    assert np.allclose(in_lanes[1], alone[1], rtol=0.0, atol=1e-8, equal_nan=True)
     assert np.mean(in_lanes[2] == alone[2]) > 0.98
 
 
