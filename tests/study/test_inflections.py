@@ -39,7 +39,7 @@ def tau(state, care):
     return inflections.first_impact(x, b, c, s, g, care)[0]
 
 
-@pytest.mark.parametrize(("count", "judged"), [(500, 10), *slowly((30_000, 300))])
+@pytest.mark.parametrize(("count", "judged"), [(500, 10), *slowly((100_000, 300))])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_inflections_march_and_an_independent_solver_agree(family, count, judged):
     """The solver decides wherever inflections and march differ, and at `judged` states."""

@@ -328,7 +328,7 @@ def test_the_venv_works_in_a_folder_with_a_space_and_is_made_anew_where_it_is_mo
 
 
 def test_a_folder_that_installers_cannot_take_is_refused_in_one_line(set_up):
-    for name in ('"a"', "it's", "a$b", "a\\b", "a:b", "a\nb"):
+    for name in ('"a"', "it's", "a$b", "a`b", "a\\b", "a:b", "a;b", "a\nb"):
         place = set_up.venv.parent.rename(set_up.folder / name)
         set_up.venv = place / ".venv"
         status, output = set_up.run()

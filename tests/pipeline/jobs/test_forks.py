@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
+import snakemake_executor_plugin_reproduce as plugin
 from helpers.project import ROOT, fresh_tree, run
 from pipeline.jobs import forks
 from pipeline.records.provenance import BuildSpec, failure
@@ -104,6 +105,19 @@ def test_a_job_starts_as_many_threads_as_its_rule_says(monkeypatch):
         assert forks.run(multiprocessing.get_context("fork"), spec, **how)
         made.append(forks.PROGRESS.pop(spec.result))
     assert made == ["1", "3"]
+
+
+def test_the_executor_gives_a_job_the_threads_of_its_rule(monkeypatch):
+    given = []
+    monkeypatch.setattr(plugin, "read_spec", lambda path: path)
+    monkeypatch.setattr(plugin, "run", lambda *_, threads: given.append(threads) or True)
+    executor = object.__new__(plugin.Executor)
+    executor.context = None
+    executor.workflow = SimpleNamespace(async_run=lambda _: None)
+    executor.pool = SimpleNamespace(submit=lambda work, *arguments: work(*arguments))
+    inputs = SimpleNamespace(items=lambda: [("specification", "1.json")])
+    executor.run_single_job(SimpleNamespace(input=inputs, prepare=lambda: None, threads=5))
+    assert given == [5]
 
 
 @pytest.mark.parametrize("log", ["kept", "not written"])
