@@ -112,8 +112,8 @@ def calls() -> dict[str, Call]:
             Call(lambda: libraries.taylor_orbit(BALL, sea, n), n, ORBIT, "at least 10"),
         "heyoka, a call a flight (interpreted)":
             flights(libraries.taylor_method(1e-15), "at least 25"),
-        "CyRK DOP853 with care, rtol 1e-9": flights(cyrk, "at least 100"),
-        "solve_ivp DOP853 with care (interpreted)": flights(dop853, "at least 2000", 20),
+        "tuned CyRK DOP853, rtol 1e-9": flights(cyrk, "at least 100"),
+        "tuned solve_ivp DOP853 (interpreted)": flights(dop853, "at least 2000", 20),
         SPECTRUM: Call(lambda: spectrum(sea, n), n),
         "spectrum by pynamicalsys, an impact":
             Call(lambda: libraries.lyapunov_exponents(BALL, sea, n), n, SPECTRUM, "at least 3"),

@@ -28,13 +28,13 @@ STYLES: dict[str, tuple[Any, ...]] = {
     "scan by rotation": (style.GREEN, "X"),
     "march by table": (style.ORANGE, "P"),
     "careful scan (best)": (_DARK, "p"),
-    "heyoka with care": ("#882255", "s"),
-    "DOP853 with care": (style.BLACK, "^"),
+    "tuned heyoka": ("#882255", "s"),
+    "tuned DOP853": (style.BLACK, "^"),
     "inflections (simple)": (_DARK, "D"),
     **{f"careful scan{form}": (_DARK, "8") for form in ("", " (landing)", " (simple)")},
-    "LSODA with care": (_GREY, "X"),
-    "RK45 with care": (_GREY, "v"),
-    "CyRK DOP853 with care": (_GREY, "<"),
+    "tuned LSODA": (_GREY, "X"),
+    "tuned RK45": (_GREY, "v"),
+    "tuned CyRK DOP853": (_GREY, "<"),
     **dict.fromkeys(_SCANS, (_GREY, "h", _USUAL)),
     "time stepping": (_GREY, ">", _USUAL),
     "heyoka": ("#882255", "s", _USUAL),
@@ -51,9 +51,9 @@ _FAST = {
 }
 _SLOW = {
     "scan 0.1 + bisection": "scan",
-    "heyoka with care": "heyoka",
+    "tuned heyoka": "heyoka",
     "heyoka": "heyoka",
-    "DOP853 with care": "DOP853",
+    "tuned DOP853": "DOP853",
     "DOP853": "DOP853",
 }
 LEFT, RIGHT = 150, 1000  # pixels: ends of the frames
@@ -346,7 +346,7 @@ def misses(scene: Scene, data: xr.Dataset) -> Figure:
     frame = (LEFT + 215, high - 56 * rows, RIGHT, high)
     share = axis_with_zero(-7, 0, "Share of hard states at which it fails", 2)
     middles = [rows - 0.5 - i for i in range(rows)]
-    labels = [_printed(name, re.sub(" with care, 1e.*", "", name)) for name in searched]
+    labels = [_printed(name, re.sub("tuned |, 1e.*", "", name)) for name in searched]
     lower = PanelWithZeros(sheet, frame, share, Axis((0, rows), middles, labels=labels))
     shares = data["failed"].values / data["tried"].values
     families = []
@@ -388,6 +388,5 @@ def _dashes(entry: Entry) -> str:
 def _printed(name: str, family: str) -> str:
     """Return a family's name, and the tolerance or step that ends the name of a method, typeset."""
     text = name if name.startswith("careful") else family.removesuffix(" + bisection")
-    text = text.replace("CyRK DOP853 with", "CyRK with")
     setting = re.search(r"1e-0?(\d+)$", name)
     return rf"{text}, $10^{{-{setting[1]}}}$" if setting else text

@@ -39,16 +39,14 @@ from study.methods.counted_methods import (
 from study.states import BALL
 
 USUAL = "RK45, 1e-06", "DOP853, 1e-09", "LSODA, 1e-09", "heyoka, 1e-15"
-CAREFUL = tuple(name.replace(",", " with care,") for name in (*USUAL, "CyRK DOP853, 1e-09"))
-COMPILED = "CyRK", "heyoka"
+TUNED = tuple(f"tuned {name}" for name in (*USUAL, "CyRK DOP853, 1e-09"))
+COMPILED = "tuned CyRK", "heyoka", "tuned heyoka"
 SEA = 10_000, 100_000  # flights of the sea for interpreted methods, and for compiled ones
 LONG = 10**9  # flights
 HERE = INFLECTIONS, ROTATED_SCAN, ROTATED_MARCH, BEST_SCAN
 LONG_METHODS = *HERE, *CAREFUL_SCANS[:5]
 FINEST = [
-    m
-    for m in libraries.CAREFUL
-    if m.name[-5:] in ("1e-12", "1e-15") or m.name == "RK45 with care, 1e-09"
+    m for m in libraries.TUNED if m.name[-5:] in ("1e-12", "1e-15") or m.name == "tuned RK45, 1e-09"
 ]
 SEARCHED = OURS, *HERE, *CAREFUL_SCANS[:3], CAREFUL_SCANS[4], *FINEST
 TRIED = 1_000_000, 100_000, 1_000  # states of each family: methods here, compiled, interpreted
@@ -61,12 +59,12 @@ KEPT = 5  # failing states of each method and family
 def libraries_recorded() -> dict[str, xr.Dataset]:
     """Compare the methods of libraries as `stages.work` and `stages.edges` do the others."""
     methods = libraries.METHODS
-    compared = [m for m in methods if m.name in USUAL + CAREFUL]
+    compared = [m for m in methods if m.name in USUAL + TUNED]
     flights = [SEA[m.name.startswith(COMPILED)] * (m in compared) for m in methods]
     work = stages.accuracy(methods, 500).assign(stages.missed(methods, flights))
     return {
         "work": work,
-        "edges": stages.failures([m for m in compared if m.name[:4] != "CyRK"], 50),
+        "edges": stages.failures([m for m in compared if "CyRK" not in m.name], 50),
     }
 
 

@@ -75,11 +75,11 @@ def test_an_orbit_in_one_call_of_heyoka_is_that_of_the_map():
     assert np.abs(track - BALL.history(start, 40)[0].T).max() < 1e-9  # errors grow
 
 
-CAREFUL = [careful_method(0.5), *(libraries.ivp_method(s, 1e-9) for s in libraries.RTOLS)]
+TUNED = [careful_method(0.5), *(libraries.ivp_method(s, 1e-9) for s in libraries.RTOLS)]
 
 
-@pytest.mark.parametrize("method", CAREFUL, ids=lambda method: method.name)
-def test_with_care_no_grazing_state_and_no_touch_is_wrong(method):
+@pytest.mark.parametrize("method", TUNED, ids=lambda method: method.name)
+def test_tuned_no_grazing_state_and_no_touch_is_wrong(method):
     for side in (1, -1):
         for exponent in (2, 8, 12):
             columns = states.grazing_at(exponent, side, 8)
@@ -95,8 +95,8 @@ def test_the_simple_bound_passes_first_roots_near_grazing_that_the_other_does_no
 
 def test_recorded_numbers_are_those_of_the_methods():
     """A part of what was recorded is computed again, for DOP853."""
-    name, count = "DOP853 with care, 1e-06", 500
-    (method,) = (m for m in libraries.CAREFUL if m.name == name)
+    name, count = "tuned DOP853, 1e-06", 500
+    (method,) = (m for m in libraries.TUNED if m.name == name)
     row = stages.recorded("work")
     row = row.isel(method=row["name"].values.tolist().index(name), set=0)
     assert int(row["states"]) == count

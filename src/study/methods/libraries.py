@@ -1,6 +1,6 @@
 """Methods of scipy, CyRK, heyoka and pynamicalsys, which has Lyapunov exponents.
 
-Each is there as commonly written, and tuned, called "with care" (src/study/README.md).
+Each is there as commonly written, and tuned (src/study/README.md).
 CyRK, heyoka and pynamicalsys are imported when they are first used, since their packages are
 installed for the study alone.
 """
@@ -44,10 +44,10 @@ class Flight(NamedTuple):
     g: float
     latest: float  # no root of the gap is later
 
-    def start(self, careful: bool) -> tuple[float, np.ndarray]:
+    def start(self, tuned: bool) -> tuple[float, np.ndarray]:
         """Return a time shortly after the impact, and (z, z', u, u') or (x, x', u, u') then."""
         x, b, c, s, g, _ = self
-        if careful:
+        if tuned:
             z, speed, _, p, q = gap(_START * s, x, b, c, s, g, quadrant(_START * s))
             return _START * s, np.array([z, speed, -p, q])
         sine, cosine = math.sin(AFTER), math.cos(AFTER)  # eq. (26)
@@ -55,12 +55,12 @@ class Flight(NamedTuple):
         return AFTER, np.array([height, b + g * AFTER, strain, c * cosine + x * sine])
 
     def integration(
-        self, solver: str, rtol: float, end: float, careful: bool
+        self, solver: str, rtol: float, end: float, tuned: bool
     ) -> tuple[Any, np.ndarray, dict[str, Any]]:
         """Return span, start and options of an integration up to `end`."""
-        begin, start = self.start(careful)
+        begin, start = self.start(tuned)
         options = {"method": solver, "rtol": rtol, "atol": _ATOL * rtol, "events": [_RISING]}
-        if careful:
+        if tuned:
             options |= {"atol": _ATOL * rtol * min(self.s, 1.0), "events": _WITH_TOUCHES}
             if solver not in _CHOOSES_FIRST_STEP:
                 options["first_step"] = min(0.5 * self.bound(), 0.5 * (end - begin))
@@ -100,19 +100,19 @@ class ExternalSolver(Method):
         return np.array(tau, dtype=float), np.array(count, dtype=np.int64)
 
 
-def ivp_method(solver: str, rtol: float, careful: bool = True) -> ExternalSolver:
+def ivp_method(solver: str, rtol: float, tuned: bool = True) -> ExternalSolver:
     """Return solve_ivp, tuned or with one terminal event where the gap rises through 0."""
 
     def integrate(a: Flight, end: float, dense: bool, calls: list[int]) -> Any:
         def fall(_: float, y: np.ndarray) -> tuple[float, ...]:
             calls[0] += 1
-            return y[1], a.g - y[2] if careful else a.g, y[3], -y[2]
+            return y[1], a.g - y[2] if tuned else a.g, y[3], -y[2]
 
-        span, start, options = a.integration(solver, rtol, end, careful)
+        span, start, options = a.integration(solver, rtol, end, tuned)
         solved = solve_ivp(fall, span, start, dense_output=dense, **options)
         return solved.sol if dense else (*solved.t_events, *solved.y_events[1:])
 
-    return _method(solver, rtol, careful, _first_root(integrate))
+    return _method(solver, rtol, tuned, _first_root(integrate))
 
 
 def cyrk_method(solver: str, rtol: float) -> ExternalSolver:
@@ -134,7 +134,7 @@ def cyrk_method(solver: str, rtol: float) -> ExternalSolver:
     return _method(f"CyRK {solver}", rtol, True, _first_root(integrate))
 
 
-def taylor_method(tolerance: float, careful: bool = True) -> ExternalSolver:
+def taylor_method(tolerance: float, tuned: bool = True) -> ExternalSolver:
     """Return heyoka's Taylor integrator, tuned or with a terminal event at a zero of the gap.
 
     It finds all zeros in a step, so that it needs no second event. Tuned, a first call ends
@@ -143,18 +143,18 @@ def taylor_method(tolerance: float, careful: bool = True) -> ExternalSolver:
     """
 
     def flight(a: Flight) -> tuple[float, int]:
-        integrator = _kept_integrator(a.g, tolerance, careful)
+        integrator = _kept_integrator(a.g, tolerance, tuned)
         integrator.reset_cooldowns()
-        integrator.time, integrator.state[:] = a.start(careful)
+        integrator.time, integrator.state[:] = a.start(tuned)
         near, steps = _NEAR * a.bound(), 0
-        for end in (near, a.latest) if careful and near < 0.1 else (a.latest,):
+        for end in (near, a.latest) if tuned and near < 0.1 else (a.latest,):
             outcome, _, _, more, _, _ = integrator.propagate_until(end)
             steps += more
             if int(outcome) == -1:  # the terminal event number 0
                 return integrator.time, steps * integrator.order
         return math.nan, steps * integrator.order
 
-    return _method("heyoka", tolerance, careful, flight)
+    return _method("heyoka", tolerance, tuned, flight)
 
 
 def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
@@ -187,10 +187,10 @@ def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
 
 
 def _method(
-    library: str, setting: float, careful: bool, flight: Callable[[Flight], tuple[float, int]]
+    library: str, setting: float, tuned: bool, flight: Callable[[Flight], tuple[float, int]]
 ) -> ExternalSolver:
-    """Return a method, named by its library, care and setting."""
-    family = f"{library} with care" if careful else library
+    """Return a method, named by its library and setting."""
+    family = f"tuned {library}" if tuned else library
     return ExternalSolver(f"{family}, {setting:.0e}", family, flight)
 
 
@@ -239,14 +239,14 @@ def _fall(dy: np.ndarray, _: float, y: np.ndarray, g: float, count: np.ndarray) 
 
 
 def _integrator(
-    g: float, tolerance: float, careful: bool, callback: Callable[..., bool] | None = None
+    g: float, tolerance: float, tuned: bool, callback: Callable[..., bool] | None = None
 ) -> Any:
     """Return heyoka's integrator with a terminal event where the gap rises or, usually, is 0."""
     import heyoka
 
     height, speed, u, w = heyoka.make_vars("height", "speed", "u", "w")
     weight, event = heyoka.par[0], heyoka.t_event(height + u)
-    if careful:
+    if tuned:
         options = {"direction": heyoka.event_direction.positive}
         options |= {"callback": callback} if callback else {}
         weight, event = weight - u, heyoka.t_event(height, **options)
@@ -261,15 +261,15 @@ RTOLS = {
     "DOP853": (1e-3, 1e-6, 1e-9, 1e-12),
     "LSODA": (1e-3, 1e-6, 1e-9, 1e-12),
 }
-USUAL, CAREFUL = (
+USUAL, TUNED = (
     [
-        *(ivp_method(solver, rtol, careful) for solver in RTOLS for rtol in RTOLS[solver]),
-        *(cyrk_method("DOP853", rtol) for rtol in (1e-6, 1e-9, 1e-12) if careful),
-        *(taylor_method(tolerance, careful) for tolerance in (1e-6, 1e-9, 1e-15)),
+        *(ivp_method(solver, rtol, tuned) for solver in RTOLS for rtol in RTOLS[solver]),
+        *(cyrk_method("DOP853", rtol) for rtol in (1e-6, 1e-9, 1e-12) if tuned),
+        *(taylor_method(tolerance, tuned) for tolerance in (1e-6, 1e-9, 1e-15)),
     ]
-    for careful in (False, True)
+    for tuned in (False, True)
 )
-METHODS: list[Method] = [*USUAL, *CAREFUL]
+METHODS: list[Method] = [*USUAL, *TUNED]
 
 
 def lyapunov_exponents(ball: Ball, state: State, impacts: int) -> np.ndarray:
