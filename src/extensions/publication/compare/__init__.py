@@ -6,7 +6,6 @@ Nothing is computed here: the variants must have their results.
 import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -26,11 +25,10 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
     """Print what differs between two variants in some scenes, and save figures side by side."""
     comparison, labels = _Comparison(root, config, names), {name: name for name in names}
     print(" | ".join(names))
-    print(
-        f"(a periodic orbit further than {datasets.REACH:g} section radii away counts as another)"
-    )
+    print(f"(periodic orbits that are over {datasets.REACH:g} section radii apart are two)")
     for scene in scenes:
         image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
+        image.unlink(missing_ok=True)  # of an earlier comparison
         lines = [*comparison.lines(scene), *comparison.save(scene, image, labels)]
         print(f"\n{scene}", *(f"  {line}" for line in lines), sep="\n")
 
@@ -38,9 +36,7 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
 def over_range(root: Path, config: Config, name: str, scenes: Sequence[str]) -> None:
     """Print what the variants of a range report, and save it as text, as CSV and in pictures."""
     of, folder = config.ranges[name], root / "results/compare" / name
-    rows: list[Sequence[object]] = [
-        ["figure", "quantity", "variant", "value", "number", "standard deviation", "text"]
-    ]
+    rows: list[Sequence[object]] = [quantities.COLUMNS]
     comparison = _Comparison(root, config, [m for m in of.members if m in config.variants])
     faulty, lines = [m for m in of.members if m in config.faulty], [f"{name}: {of.path}"]
     lines += [f"{member}: not made, see the mistake above" for member in faulty]
@@ -98,8 +94,6 @@ class _Comparison:
         self, scene: str, image: Path, labels: Mapping[str, str], curves: Figure | None = None
     ) -> Iterator[str]:
         """Save the figures of a scene side by side below their labels, and yield where."""
-        with suppress(OSError):
-            image.unlink()  # left by an earlier comparison
         if current := [name for name, state in self.states(scene).items() if state == CURRENT]:
             blocks, data = [self.config.variants[name][scene] for name in current], []
             for name in current:

@@ -81,9 +81,7 @@ def exponents(first: xr.Dataset, second: xr.Dataset, names: Sequence[str]) -> li
     for index in range(first.sizes["index"]):
         texts = [spread(final_exponents(data)[:, index]) for data in (first, second)]
         rows.append((f"lambda {index + 1}", *texts))
-    counts = [
-        f"{data.sizes['orbit']} of {int(data['impact'].values[-1]):,}" for data in (first, second)
-    ]
+    counts = [f"{d.sizes['orbit']} of {int(d['impact'][-1]):,}" for d in (first, second)]
     return columns([*rows, ("impacts", *counts)])
 
 

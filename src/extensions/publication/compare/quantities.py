@@ -15,6 +15,7 @@ from pseudorigid.figures.canvas import style
 from pseudorigid.figures.canvas.sheet import Sheet
 
 Reported = Mapping[str, Mapping[str, str]]  # variant -> quantity -> its value as text
+COLUMNS = "figure", "quantity", "variant", "value", "number", "standard deviation", "text"
 _NUMBER = re.compile(r"(-?\d[\d,]*(?:\.\d+)?(?:e[-+]\d+)?)(?:, standard deviation (\S+))?")
 # pixels: height of a panel, the space above each and below them all, and ends from left to right
 _HIGH, _ROOM, _BELOW, _LEFT, _RIGHT = 210, 75, 110, 180, 1005
