@@ -55,6 +55,7 @@ MISTAKES = {
     "verfy -h": ": no command or figure verfy: did you mean verify?",
     "fig3 fgi5": ": no command or figure fgi5: did you mean fig5?",
     "fig2 fig3 list": ": list is a command, no figure: run ./reproduce list",
+    "fig2 below": ": below is a variant, no figure: run ./reproduce variant below",
     "help verfy": ": no command or figure verfy: did you mean verify?",
     "help verify fig3": " help: no argument fig3: usage: ./reproduce help [-h] [COMMAND]",
     "list fgi3": ": no figure, set or variant fgi3: did you mean fig3?",

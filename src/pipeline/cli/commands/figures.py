@@ -72,6 +72,8 @@ def _results_among(files: set[str], name: str, args: Arguments) -> list[str]:
         raise CommandLineError(f"no such file is made: {name}{hint(name, known)}")
     if name in all_commands():
         raise CommandLineError(f"{name} is a command, no figure: run ./reproduce {name}")
+    if name in (*args.config.own_variants, *args.config.ranges):
+        raise CommandLineError(f"{name} is a variant, no figure: run ./reproduce variant {name}")
     scenes = [scene for group in PUBLISHED for scene in args.config.variants[group]]
     meant = hint(name, [*scenes, *all_commands()]) or ": ./reproduce list shows the figures"
     raise CommandLineError(f"no command or figure {name}{meant}")
