@@ -97,6 +97,7 @@ def test_memory_of_an_autoregressive_process(memory):
     for i in range(1, 600):
         states[..., i] *= math.sqrt(1 - memory**2)
         states[..., i] += memory * states[..., i - 1]
+    states[:, 1] = 3.0 * states[:, 1] + 1.0  # no measure depends on unit and origin
     resampled = random.integers(0, 40, (100, 40))
     correlation, dependence = clusters_module._memory(list(states), 2, resampled)
     for lag in (1, 2):

@@ -9,7 +9,7 @@ from extensions.families.continuation.half_orbit import ENERGY, INERTIA
 from extensions.families.continuation.symmetric import Parameter
 from extensions.families.dataset import families
 from helpers.dataset_hash import content_hash
-from helpers.parts.family_search import PAPER, crossings, energy_of, rho, up_to_period_six
+from helpers.parts.family_search import PAPER, crossings, energy_of, rho, searched, up_to_period_six
 from pseudorigid import symmetric_orbits
 
 
@@ -53,6 +53,16 @@ def test_families_go_on_where_an_impact_grazes():
     (end,) = (end for end in five.ends if end.kind == "touch")
     assert energy_of(found, end.p) == pytest.approx(0.012520264234, abs=1e-12)
     assert found.families[end.family].period == 6
+
+
+def test_families_without_symmetry_go_on_where_an_impact_grazes():
+    """Period 9 ends where a flight touches the floor, and there begins one of period 10."""
+    found = searched(PAPER, 0.0414, 0.0437, 10, 4)
+    (nine,) = (f for f in found.families if (f.period, f.line) == (9, -1))
+    assert [end.kind for end in nine.ends] == ["pitchfork", "touch"]
+    (ten,) = (f for f in found.families if f.number == nine.ends[1].family)
+    (end,) = (end for end in ten.ends if end.kind == "rim")
+    assert (ten.period, ten.line, end.p) == (10, -1, pytest.approx(nine.ends[1].p, rel=1e-9))
 
 
 # --- the stage ------------------------------------------------------------------------------------
