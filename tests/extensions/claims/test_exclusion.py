@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from extensions.atlas.symmetry_line import symmetric_fixed_point
+from extensions.claims.analyses import exclusion
 from helpers.sections import BALL
 from pseudorigid import orbit
 
@@ -35,6 +36,13 @@ def first_exclusion(state, centre, followed):
         if gaps.max() < np.pi:
             return n
     return 0
+
+
+@pytest.mark.parametrize(("right", "up"), [(1.0, 2.0), (2.0, 1.0), (0.0, -1.0)])
+def test_a_cone_holds_a_vector_along_it_and_no_opposite_one(right, up):
+    cone = np.array([right, up, right, up])
+    assert exclusion._widen_to_hold(cone, 2.0 * right, 2.0 * up)
+    assert not exclusion._widen_to_hold(cone, -right, -up)
 
 
 def test_points_are_excluded_by_their_radial_vectors(excluded):

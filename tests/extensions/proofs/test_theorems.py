@@ -5,12 +5,14 @@ import tomllib
 from importlib import import_module
 from inspect import signature
 
+import numpy as np
 import pytest
 from flint import arb, ctx
 
 from extensions.proofs import THEOREMS, search_certificate
 from extensions.proofs.checkers.fixed_point import energy_at, slope_at, trace_at
 from extensions.proofs.command import CERTIFICATES
+from extensions.proofs.search import graph
 from extensions.proofs.theorems.statements import theorem_verdict
 from helpers.parts.certificates import ONE_OF_EACH
 from helpers.project import ROOT
@@ -71,6 +73,15 @@ def test_every_theorem_has_a_search_for_its_certificate(name, monkeypatch):
     monkeypatch.setattr(module, propose_name, propose)
     assert search_certificate(name) == "text"
     assert asked == [(THEOREMS[name], THEOREMS[name].hints)]
+
+
+def test_the_sets_of_a_graph_are_those_that_its_search_places_at_saddles():
+    theorem = THEOREMS["entropy-lower"]
+    double_map = graph.DoubleMap(theorem.bounds["surface"])
+    placed = graph._sets(double_map, theorem.hints["periods"], theorem.hints["size"])
+    rows = [np.concatenate(each) for each in placed]
+    for row in tomllib.loads(theorem.text())["sets"]:
+        assert any(np.allclose(row, other, rtol=1e-7, atol=0.0) for other in rows)
 
 
 def imports(folder):

@@ -64,6 +64,9 @@ def test_an_intact_tree_passes_with_its_results_and_without(moved, command):
     status, lines = command("verify", "--committed")
     assert status == 0
     assert lines[-3].startswith("no results here: only the committed files were checked")
+    shutil.rmtree(moved.path / "paper_figures")
+    status, lines = command("verify", "--committed")
+    assert (status, lines[-1]) == (1, "exit status 1: paper_figures/MANIFEST.json: missing")
 
 
 def test_manifest_and_records_have_no_folder_and_no_date(accepted):
