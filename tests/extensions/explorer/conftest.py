@@ -73,7 +73,7 @@ def page_is_left():
     yield
     for browser in browsers.RUNNING:
         if browser.run("return document.getElementById('section') !== null"):
-            browser.open("about:blank")
+            browser.open(browsers.ELSEWHERE)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 from selenium.webdriver import ActionChains, Keys
 
+from helpers.parts import browsers
 from helpers.project import wait_for
 
 MARGINS = {"left": 52, "top": 10, "right": 10, "bottom": 40}  # of the disk, in pixels
@@ -49,7 +50,7 @@ class Visitor:
         self.browser, self.file, self.run = browser, file, browser.run
 
     def open(self, address=""):
-        self.browser.open("about:blank")
+        self.browser.open(browsers.ELSEWHERE)
         self.browser.open(f"{self.file}#{address}" if address else self.file)
         self.run(HELP)
         if not address and self.text("play") == "Pause":  # the first picture runs
