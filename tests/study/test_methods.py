@@ -79,7 +79,7 @@ TUNED = [careful_method(0.5), *(libraries.ivp_method(s, 1e-9) for s in libraries
 
 
 @pytest.mark.parametrize("method", TUNED, ids=lambda method: method.name)
-def test_tuned_no_grazing_state_and_no_touch_is_wrong(method):
+def test_a_tuned_method_is_wrong_at_no_grazing_state_and_no_touch(method):
     for side in (1, -1):
         for exponent in (2, 8, 12):
             columns = states.grazing_at(exponent, side, 8)

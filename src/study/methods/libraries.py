@@ -189,7 +189,7 @@ def taylor_orbit(ball: Ball, state: State, impacts: int) -> np.ndarray:
 def _method(
     library: str, setting: float, tuned: bool, flight: Callable[[Flight], tuple[float, int]]
 ) -> ExternalSolver:
-    """Return a method, named by its library and setting."""
+    """Return a method, named by its library, its setting and whether it is tuned."""
     family = f"tuned {library}" if tuned else library
     return ExternalSolver(f"{family}, {setting:.0e}", family, flight)
 

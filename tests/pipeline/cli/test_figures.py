@@ -7,7 +7,9 @@ import pytest
 from helpers.project import ROOT, SHIPPED
 from pipeline.cli import arguments, running
 from pipeline.cli.commands import figures
+from pipeline.cli.errors import CommandLineError
 from pipeline.config import load
+from pipeline.config.results import Range
 from pipeline.declaration import ONLY_SET, parts
 
 
@@ -48,6 +50,13 @@ def test_names_and_paths_select_figures_of_their_sets(selected):
     assert selected(data)[1] == {"paper": [data]}
     for whole in (selected(), selected("all")):
         assert len(whole[1]["paper"]) == 14 and [*whole[1]] == ["paper"]
+
+
+def test_the_name_of_a_range_is_no_figure():
+    config = load(SHIPPED)
+    config.ranges["gravity"] = Range("ball.g", {})
+    with pytest.raises(CommandLineError, match=r"run \./reproduce variant gravity$"):
+        figures._results_among({"gravity"}, "gravity", arguments.Arguments(config=config))
 
 
 @pytest.mark.skipif("study" not in parts(), reason="by the part study")

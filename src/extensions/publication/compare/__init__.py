@@ -25,7 +25,7 @@ def compare(root: Path, config: Config, names: Sequence[str], scenes: Sequence[s
     """Print what differs between two variants in some scenes, and save figures side by side."""
     comparison, labels = _Comparison(root, config, names), {name: name for name in names}
     print(" | ".join(names))
-    print(f"(periodic orbits that are over {datasets.REACH:g} section radii apart are two)")
+    print(f"(a periodic orbit over {datasets.REACH:g} section radii away counts as another)")
     for scene in scenes:
         image = root / f"results/compare/{'..'.join(names)}/{scene}.png"
         image.unlink(missing_ok=True)  # of an earlier comparison
